@@ -1,4 +1,4 @@
-"""A run under a course of commands, from one command to the next."""
+"""A run with commands at given times."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from .scene import Scene, SceneError
 
 
 class DrivenRun:
-    """Advances a run, and lets commands act at their times.
+    """Advances a run, and applies commands at their times.
 
     Args:
-        run: from `run.start`.
-        scene: its scene.
-        commands: the course of commands; None: what is given stays as at the start.
+        run: run from `run.start`.
+        scene: scene of the run.
+        commands: commands over time; None: the values at the ports stay as at the start.
 
     Raises:
-        ValueError: a command is out of range, or is not given at its port.
+        ValueError: a command is out of range, or its port does not accept it.
     """
 
     def __init__(self, run: Run, scene: Scene, commands: Commands | None) -> None:

@@ -1,4 +1,4 @@
-"""A run in progress whose ports may be driven from outside."""
+"""A run in progress whose ports accept torques and motions from outside."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .scene import OperatingPoint, Scene
 
 
 class DrivenEngine(Engine):
-    """An engine that takes torques and motions at its ports, step by step.
+    """An engine with torques and motions given at its ports, step by step.
 
     Args:
-        scene: what to simulate.
+        scene: scene to simulate.
         tolerance: see `Engine`.
         method: see `Engine`.
 
@@ -34,16 +34,16 @@ class DrivenEngine(Engine):
     def set_ports(self, scene: Scene, point: OperatingPoint, time: Fraction) -> None:
         """Continue with the ports of `scene` from `time` [s], the end of the last window.
 
-        Torques and motions that are given from then on begin as they are; a machine that takes
-        over the speed begins at the present one.
+        Newly given torques and motions start at their present values. A machine that starts to
+        control the speed begins with the present speed as set-point.
 
         Args:
-            scene: that of the run, with other ports.
+            scene: scene of the run, with other ports.
             point: operating point of the run.
-            time: the end of the last window [s].
+            time: end of the last window [s].
 
         Raises:
-            ValueError: the speed loop would not be stable; nothing has changed.
+            ValueError: the speed loop would be unstable; the ports are unchanged.
             RunawayError: the run has been stopped.
         """
         if self._failure is not None:
@@ -64,18 +64,25 @@ class DrivenEngine(Engine):
         self._end.set_speed[0] = shown.input_speed
 
     def port_states(self, ticks: int) -> PortStates:
-        """What the ports show at the end of the last window, in ticks of the clock."""
+        """State of the ports at the end of the last window.
+
+        Args:
+            ticks: end of the last window, in ticks of the clock.
+
+        Returns:
+            Angles, speeds and torques of both shafts.
+        """
         shown: PortStates = self._core.PortStates()
         self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
         return shown
 
     def give(self, command: Command, ticks: int, reaching: float) -> None:
-        """Let a command act from the end of the last window on.
+        """Apply a command from the end of the last window on.
 
         Args:
-            command: what is given at the ports.
-            ticks: the end of the last window, in ticks of the clock.
-            reaching: time in which values are reached along straight lines [s]; 0: at once.
+            command: torques and speeds at the ports.
+            ticks: end of the last window, in ticks of the clock.
+            reaching: duration of the linear ramp to the new values [s]; 0: no ramp.
 
         Raises:
             RunawayError: the run has been stopped, or no step is possible.
@@ -91,17 +98,17 @@ class DrivenEngine(Engine):
     def step(
         self, begin: int, end: int, command: Command, out: PortStates, reached: WindowEnd
     ) -> bool:
-        """Let a command act and integrate, without samples.
+        """Apply a command and integrate, without samples.
 
         Args:
-            begin: the present time, in ticks of the clock.
-            end: the end of the step, in ticks of the clock.
-            command: what is given at the ports.
-            out: what the ports show at the end.
-            reached: room for what the limits of the run are checked against.
+            begin: present time, in ticks of the clock.
+            end: end of the step, in ticks of the clock.
+            command: torques and speeds at the ports.
+            out: receives the state of the ports at the end.
+            reached: receives the quantities that are compared with the limits of the run.
 
         Returns:
-            Whether the ports took the command; otherwise nothing has changed.
+            Whether the ports accept the command; if not, the run is unchanged.
 
         Raises:
             RunawayError: the run exceeds physical limits, or has been stopped before.

@@ -1,4 +1,4 @@
-"""Which dynamics a scene needs: runs with each of them, against the one that leaves out least."""
+"""Selects the dynamics of a scene: compares runs with each of them to the most complete one."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from .window import mesh_statistics
 
 AUTO = "auto"
 BY_COST = ("quasi_static", "torsional", "planar", "spatial")
-"""From the dynamics that leaves out most to the one that leaves out least."""
+"""From the simplest dynamics to the most complete one."""
 FIGURES = ("dte_mean", "dte_rms", "dte_peak", "mesh_force_mean", "mesh_force_peak", "power_loss")
-"""Those that are compared, of every mesh but for the power loss."""
+"""Compared quantities: the power loss, and the others for every mesh."""
 TOLERANCE = 1e-4
-SHORTEST, LONGEST = 0.1, 2.0  # [s] of what is measured, and of the time before it
-CYCLES = 20.0  # mesh cycles that it has at least, if it is not longer than LONGEST
-NEGLIGIBLE = 0.01  # of the largest deflection or force: less does not count as a reference
+SHORTEST, LONGEST = 0.1, 2.0  # [s] limits of the measured time, and of the settling before it
+CYCLES = 20.0  # smallest number of measured mesh cycles, unless they take longer than LONGEST
+NEGLIGIBLE = 0.01  # share of the largest deflection or force below which errors are not relative
 
 
 class Candidate(NamedTuple):
-    """A dynamics, and what it gives for a scene."""
+    """A dynamics, and its errors in a scene."""
 
     dynamics: str
     refused: str = ""
-    """Why the scene does not run with it; empty if it does."""
+    """Reason why the scene does not run with it; empty if it does."""
     errors: Mapping[str, float] = MappingProxyType({})
-    """Largest deviation of any mesh from the reference over the reference, by `FIGURES`."""
+    """Largest deviation of any mesh from the reference, relative to it, by `FIGURES`."""
     cost: float = float("nan")
     """Computing time per simulated second."""
 
@@ -48,25 +48,25 @@ class Candidate(NamedTuple):
 
 @dataclass(frozen=True)
 class DynamicsChoice:
-    """Dynamics measured against one another at the operating point of a scene."""
+    """Comparison of all dynamics at the operating point of a scene, and the selected one."""
 
     scene: Scene
-    """The scene with the dynamics that is picked."""
+    """The scene with the selected dynamics."""
     allowed: float
     """`dynamics_error` of the scene."""
     reference: str
-    """The dynamics that leaves out least, of those with which the scene runs."""
+    """The most complete dynamics with which the scene runs."""
     candidates: tuple[Candidate, ...]
-    """In the order of `BY_COST`; spatial for helical teeth only, as spur teeth never tilt."""
+    """In the order of `BY_COST`; spatial for helical teeth only, as spur gears do not tilt."""
 
     @property
     def dynamics(self) -> str:
-        """The dynamics that is picked."""
+        """The selected dynamics."""
         return self.scene.dynamics
 
     @property
     def reason(self) -> str:
-        """Why it is picked, in a sentence."""
+        """Reason for the selection, one sentence."""
         parts = [self._kept()]
         for candidate in self.candidates:
             name = candidate.dynamics
@@ -74,33 +74,35 @@ class DynamicsChoice:
                 parts.append(f"{name} is not possible: {candidate.refused}")
             elif candidate.error > self.allowed:
                 worst = max(candidate.errors, key=lambda figure: candidate.errors[figure])
-                parts.append(f"{name} is off by {candidate.error:.2g} ({worst})")
+                parts.append(f"{name} has an error of {candidate.error:.2g} ({worst})")
         return "; ".join(parts)
 
     def _kept(self) -> str:
         if self.dynamics == self.reference:
-            return f"{self.dynamics} leaves out least, and less would exceed {self.allowed:g}"
+            return f"no simpler dynamics is within {self.allowed:g} of {self.reference}"
         (own,) = (each for each in self.candidates if each.dynamics == self.dynamics)
         worst = max(own.errors, key=lambda figure: own.errors[figure])
         return (
-            f"{self.dynamics} is the least within {self.allowed:g} of {self.reference} "
+            f"it is the simplest dynamics within {self.allowed:g} of {self.reference} "
             f"(largest error {own.error:.2g}, {worst})"
         )
 
     @property
     def text(self) -> str:
-        """What is picked, at which operating point, and why."""
-        return f"dynamics = {self.dynamics}, picked by auto at {_point(self.scene)}: {self.reason}"
+        """The selected dynamics, the operating point, and the reason, one sentence."""
+        return (
+            f"dynamics = {self.dynamics}, selected by auto at {_point(self.scene)}: {self.reason}"
+        )
 
     def figures(self) -> dict[str, Any]:
-        """All of this for JSON.
+        """The comparison for JSON.
 
         Returns:
-            What is picked and why, and of each dynamics its errors and computing time per
-            simulated second, or why the scene does not run with it.
+            The selected dynamics with the reason, and for each dynamics its errors and computing
+            time per simulated second, or the reason why the scene does not run with it.
         """
         return {
-            "picked": self.dynamics,
+            "selected": self.dynamics,
             "allowed_error": self.allowed,
             "reference": self.reference,
             "reason": self.reason,
@@ -113,17 +115,17 @@ class DynamicsChoice:
 
 
 def choose_dynamics(scene: Scene) -> DynamicsChoice:
-    """Pick the least dynamics that stays within `dynamics_error` of the most complete one.
+    """Select the simplest dynamics that stays within `dynamics_error` of the most complete one.
 
-    The scene runs from a steady state with each dynamics that it can have, for at least 0.1 s and,
-    up to 2 s, 20 mesh cycles, after a time as long before. What is picked holds at this operating
-    point only.
+    The scene runs from a steady state with each possible dynamics: first to settle, then equally
+    long to measure, for at least 0.1 s and 20 mesh cycles, but at most 2 s. The selection is valid
+    at this operating point only.
 
     Args:
-        scene: with any dynamics.
+        scene: scene with any dynamics.
 
     Returns:
-        What is picked, and the errors of all.
+        The selection, and the errors of all dynamics.
 
     Raises:
         ValueError: the scene cannot run with any dynamics.
@@ -154,7 +156,7 @@ def choose_dynamics(scene: Scene) -> DynamicsChoice:
 
 
 def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
-    """Figures of a run in steady running, and its computing time per simulated second."""
+    """Quantities of a run in steady running, and its computing time per simulated second."""
     if scene.drive.speed_control.start_speed is not None:
         scene = scene.replace(**{"drive.speed_control.start_speed": None})
     duration = _duration(scene)
@@ -174,7 +176,7 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
 
 
 def _duration(scene: Scene) -> float:
-    """Time that is measured [s]."""
+    """Measured time [s]."""
     point, ratios = scene.operating_point, rigid_ratios(scene)
     teeth = scene.gearset.tooth_numbers
     speeds = (point.input_speed, point.second_input_speed)
@@ -202,6 +204,6 @@ def _errors(found: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> dict[
 
 
 def _point(scene: Scene) -> str:
-    """The part of an operating point that matters most, in words."""
+    """Speed and torque of the operating point, as text."""
     point = scene.operating_point
     return f"{point.input_speed * 30.0 / np.pi:.6g} rpm and {point.input_torque:.6g} N m"

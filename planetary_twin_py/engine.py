@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
-from types import ModuleType
 from typing import Any, NoReturn
 
 import numpy as np
@@ -18,29 +17,22 @@ from ._core import (
     EXCEEDED,
     IMPULSE,
     LEDGER,
-    METHODS,
     NO_FINITE_STATE,
     NOT_FINITE,
     Control,
-    Load,
-    March,
     Model,
     PointLaws,
     Report,
-    Train,
     WindowEnd,
-    deflection_at,
     keep_given,
 )
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.library import library
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
-from .dynamics.point_laws import record_of
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
 from .dynamics.start import LoadBuilder, start_state
-from .dynamics.static_load import mesh_force, static_torques
-from .dynamics.train import build_train, held_axes, lightest_body
+from .dynamics.train import build_train, held_axes
 from .integrators.clock import (
     NEVER,
     TICKS,
@@ -54,59 +46,20 @@ from .integrators.clock import (
 from .integrators.interpolant import Samples, Waves, new_samples
 from .runaway import Limits, RunawayError
 from .scene import OperatingPoint, Scene
+from .step_scale import POINTS, StepScale, new_march
 from .tolerance import check_tolerance
 from .window_jobs import WindowJob, WindowJobs
 
-# Lowest tolerance for each number of collocation points, with which it is fastest.
-POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
-LONGEST_STEP = 1e-3  # [s]
-FIRST_STEP = 1e-6  # [s]
 SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
 WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
 LONGEST_UNWATCHED = float(WATCHED)
-
-
-class _Scale:
-    """Deflections to which tolerances are relative."""
-
-    def __init__(self, scene: Scene, train: Train, laws: PointLaws) -> None:
-        self._laws = laws
-        self._per_torque = abs(mesh_force(scene, 1.0))
-        self._stiffness = float(train.stiffness.min())
-        self._shares = np.abs(static_torques(scene)[::2])
-        motors = train.coupling[: 2 * len(self._shares) : 2, 0]
-        self._own = train.mass[motors] * train.radius[motors] ** 2
-        self.quickness = math.sqrt(2.0 * self._stiffness / lightest_body(train))
-
-    def deflection(self, point: OperatingPoint) -> float:
-        """Deflection of the meshes under the torques of steady running [m]."""
-        return deflection_at(self._laws, record_of(point))
-
-    def yielding(self, load: Load) -> np.ndarray:
-        """Deflection of the meshes under each input's acceleration [m s^2/rad].
-
-        A motor turns its own inertia without the meshes.
-        """
-        inertia = load.inertia.diagonal()[: len(self._own)]
-        torque: np.ndarray = np.maximum(inertia - self._own, 0.0) / self._shares
-        return self._per_torque * torque / self._stiffness
-
-
-def new_march(core: ModuleType, method: str) -> March:
-    """A march before its first step; `core` is that of the scene, `method` as in `Engine`."""
-    march: March = core.March()
-    control = march.control
-    control.step = control.next_step = control.next_stiff = FIRST_STEP
-    control.longest = LONGEST_STEP
-    control.method = METHODS[method]
-    return march
 
 
 class Engine:
     """Integrates a scene from its start.
 
     Args:
-        scene: what to simulate.
+        scene: scene to simulate.
         tolerance: local error of a step, relative to the static deflection of the meshes.
         method: one of METHODS; "march" makes steps by collocation wherever that is fit, else by
             Rosenbrock's method; "auto" makes none where steady running repeats itself. Where gears
@@ -137,7 +90,7 @@ class Engine:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
                 self._speed_loop.check(where)
         self._loads = LoadBuilder(scene, self.train)
-        self._scale = _Scale(scene, self.train, self._loads.laws)
+        self._scale = StepScale(scene, self.train, self._loads.laws)
         self._given = False
         self._oil_at: tuple[float, float] | None = None
         self._cycles: dict[bool, int] = {}

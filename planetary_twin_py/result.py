@@ -144,7 +144,7 @@ class Result:
     stats: Stats
     """Statistics of the integration."""
     choice: DynamicsChoice | None = None
-    """What dynamics: auto has picked, and why; None if the scene gives its dynamics."""
+    """Selection by dynamics: auto, with reasons; None if the scene gives its dynamics."""
     axes: AxesMotion | None = None
     """Motion of the axes and forces on their bearings; None where the axes are held."""
 

@@ -91,7 +91,7 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
     """
     if scene.dynamics == "auto":
         raise SceneError(
-            "dynamics = 'auto': is to be picked before: use `choose_dynamics(scene).scene`, or "
+            "dynamics = 'auto': must be selected first: use `choose_dynamics(scene).scene`, or "
             f"give torsional, planar or quasi_static; `planetary-twin explain {scene.name}` "
             "compares them"
         )

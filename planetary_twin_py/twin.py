@@ -2,36 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
-from types import MappingProxyType
 from typing import NamedTuple
 
-from ._core import Figures, PortStates
+from ._core import PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
 from .commands import Command, Commands, course_of
 from .driven_engine import DrivenEngine
-from .dynamics.bodies import body_names, build_report, machines, mesh_names
+from .dynamics.bodies import body_names, build_report, mesh_names
 from .dynamics.library import library
-from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
-from .integrators.interpolant import Waves, bearings_of, new_waves, tilts
-from .planar.motion import axes_of_waves
+from .integrators.interpolant import bearings_of, new_waves, tilts
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .scene.drive import Causality, Ports
 from .tolerance import LIVE_TOLERANCE, check_tolerance
-from .window import Waveform, Window, by_name
+from .window import Window
 from .window_jobs import WindowJobs, run_alone
+from .window_plan import Plan, check_sample_rate, samples_until, window_end
+from .window_results import WindowResults
 
-LEEWAY = 10**6  # of these parts of a sample period a sample may exceed the window by one
-LONGEST_WINDOW = 60.0  # [s], because samples are kept in memory; or
-MOST_SAMPLES = 4096  # samples, if that is longer
-LOWEST_SAMPLE_RATE = 1.0  # [Hz]
 LONGEST_STEP = 1.0  # [s] of `Twin.step`, which cannot be interrupted
 
 
-NOTHING = Command()  # is given
+NOTHING = Command()  # gives no value
 
 
 class Change(NamedTuple):
@@ -44,7 +38,7 @@ class Change(NamedTuple):
     tolerance: float
     """Relative local error tolerance."""
     sample_rate: float
-    """Of the waveform [Hz]; it does not affect the motion."""
+    """Sample rate of the waveform [Hz]; it does not affect the motion."""
     ports: Ports = Ports()
     """What acts on the shafts of input and output."""
 
@@ -56,9 +50,9 @@ class Twin:
 
     Args:
         scene: the scene; the run starts in a steady state at its operating point.
-        sample_rate: of the waveform [Hz].
+        sample_rate: sample rate of the waveform [Hz].
         tolerance: relative local error tolerance; the default is suitable for real time.
-        keep_commands: whether to keep what is given at the ports, see `commands`.
+        keep_commands: whether to keep the commands at the ports, see `commands`.
 
     Raises:
         ValueError: the scene, the sample rate or the tolerance is invalid.
@@ -71,21 +65,13 @@ class Twin:
         tolerance: float = LIVE_TOLERANCE,
         keep_commands: bool = False,
     ) -> None:
-        _check_sample_rate(sample_rate)
+        check_sample_rate(sample_rate)
         self.scene = scene
         self._names, self._mesh_names = body_names(scene), mesh_names(scene)
-        self._teeth, self._sun = scene.gearset.tooth_numbers, self._names.names.index("sun")
-        members = [machine.member for machine in machines(scene).values()]
-        self._members = tuple(self._names.names.index(member) for member in members)
         self._core = library(scene)
         self._report = build_report(self._core, self._names, self._mesh_names)
         self._engine = start(scene, tolerance)
-        self._figures = _FiguresOf(
-            self._core.Figures(),
-            len(self.bodies),
-            len(self.meshes),
-            int(self._engine.train.machines),
-        )
+        self._results = WindowResults(scene, self._core, self._engine.train, self._report)
         self._ticks = 0
         first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
         self.log = [first]
@@ -141,7 +127,7 @@ class Twin:
 
     @property
     def commands(self) -> Commands:
-        """All that was given at the ports so far; with them, `simulate` repeats the run.
+        """All commands at the ports so far; with them, `simulate` repeats the run.
 
         Raises:
             ValueError: the twin was not made with `keep_commands`.
@@ -196,7 +182,7 @@ class Twin:
         """Change the sample rate of the waveform at the current time; the motion is not affected.
 
         Args:
-            sample_rate: [Hz]; sample times are integer multiples of the new period.
+            sample_rate: sample rate [Hz]; sample times are integer multiples of its period.
 
         Returns:
             The simulated time from which it applies [s].
@@ -204,7 +190,7 @@ class Twin:
         Raises:
             ValueError: the value is out of range; it is not changed.
         """
-        _check_sample_rate(sample_rate)
+        check_sample_rate(sample_rate)
         if sample_rate != self.sample_rate:
             last = self.log[-1]
             self.log.append(last._replace(time=self.time, sample_rate=float(sample_rate)))
@@ -213,18 +199,18 @@ class Twin:
     def set_ports(self, input: Causality | None = None, output: Causality | None = None) -> float:
         """Change what acts on the shafts of input and output at the current time.
 
-        Torques and motions that are given from then on begin as they are at this time, and stay so
-        until a command changes them. A machine that takes over the speed begins at the present one.
+        Newly given torques and motions keep their present values until a command changes them. A
+        machine that starts to control the speed begins with the present speed as set-point.
 
         Args:
-            input: "machine", "torque" or "motion", see `drive.input.port`; None: as before.
-            output: the same of the output shaft.
+            input: "machine", "torque" or "motion", see `drive.input.port`; None: no change.
+            output: the same for the output shaft.
 
         Returns:
             The simulated time from which they apply [s].
 
         Raises:
-            ValueError: a port cannot be given in this scene; nothing is changed.
+            ValueError: the scene does not allow this port; nothing is changed.
         """
         ports = Ports(input or self.ports.input, output or self.ports.output)
         if ports == self.ports:
@@ -248,26 +234,26 @@ class Twin:
         input_speed: float | None = None,
         output_speed: float | None = None,
     ) -> PortStates:
-        """Let torques or motions act at the ports, and simulate without waveform or statistics.
+        """Apply torques or motions at the ports, and simulate without waveform or statistics.
 
-        What is not given stays as it is. With `drive.interpolation = hold`, values act from the
-        present time on; with `linear`, they are reached at the end of the step. Positive torques
-        act on the shafts in the positive direction, so a brake on a shaft that turns forwards has a
-        negative torque.
+        Omitted arguments keep their last values. With `drive.interpolation = hold`, values act from
+        the present time on; with `linear`, they are reached at the end of the step. Positive
+        torques act on the shafts in the positive direction, so a brake on a shaft that turns
+        forwards has a negative torque.
 
         Args:
             dt: simulated time [s], above 0 and at most 1 s.
-            input_torque: on the input shaft [N m]; requires `drive.input.port = torque`.
-            output_torque: on the output shaft [N m]; requires `drive.output.port = torque`.
-            input_speed: of the input shaft [rad/s]; requires `drive.input.port = motion`.
-            output_speed: of the output shaft [rad/s]; requires `drive.output.port = motion`.
+            input_torque: torque on the input shaft [N m]; requires `drive.input.port = torque`.
+            output_torque: torque on the output shaft [N m]; requires `drive.output.port = torque`.
+            input_speed: speed of the input shaft [rad/s]; requires `drive.input.port = motion`.
+            output_speed: speed of the output shaft [rad/s]; requires `drive.output.port = motion`.
 
         Returns:
             Angles, speeds and torques of the shafts at the end. It is the same object in every
             step; `copy()` keeps its values.
 
         Raises:
-            ValueError: dt or a value is out of range, or a value is not given at its port; nothing
+            ValueError: dt or a value is out of range, or a port does not accept a value; nothing
                 has changed.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
@@ -287,7 +273,7 @@ class Twin:
         return self._shown
 
     def _refuse(self, command: Command) -> None:
-        """Raise the error of a command that the ports do not take."""
+        """Raise the error of a command that the ports do not accept."""
         engine = self._driven()
         command.check(engine.scene, engine.port_ranges)
 
@@ -304,7 +290,7 @@ class Twin:
             self._kept[1].append(command)
 
     def _end_steps(self) -> None:
-        """Begin a window after steps, of which the meshes have no sums."""
+        """Begin a window after steps, which have no sums of the meshes."""
         if self._stepped:
             self._engine.take_mesh_sums(Fraction(self._ticks, TICKS))
             self._stand()
@@ -324,17 +310,17 @@ class Twin:
         Args:
             duration: simulated time [s], above 0 and at most 60 s or 4096 samples, whichever is
                 longer.
-            input_torque: on the input shaft [N m], as in `step`.
-            output_torque: on the output shaft [N m].
-            input_speed: of the input shaft [rad/s].
-            output_speed: of the output shaft [rad/s].
+            input_torque: torque on the input shaft [N m], as in `step`.
+            output_torque: torque on the output shaft [N m].
+            input_speed: speed of the input shaft [rad/s].
+            output_speed: speed of the output shaft [rad/s].
 
         Returns:
             Statistics and waveform of the window.
 
         Raises:
-            ValueError: the duration or a value is out of range, or a value is not given at its
-                port; nothing has changed.
+            ValueError: the duration or a value is out of range, or a port does not accept a value;
+                nothing has changed.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
         command = Command(input_torque, output_torque, input_speed, output_speed)
@@ -345,14 +331,14 @@ class Twin:
         run_alone(self._jobs(plan))
         return self._close(plan)
 
-    def _begin(self, plan: _Plan, command: Command = NOTHING) -> None:
-        """Let a command act in a window that begins now."""
+    def _begin(self, plan: Plan, command: Command = NOTHING) -> None:
+        """Apply a command in a window that begins now."""
         self._end_steps()
         if self._given or command != NOTHING:
             self._give(command, plan.end)
 
     def _give(self, command: Command, end: int) -> None:
-        """Let a command act from the present time to `end` [ticks]."""
+        """Apply a command from the present time to `end` [ticks]."""
         engine = self._driven()
         command.check(engine.scene, engine.port_ranges)
         reaching = (end - self._ticks) / TICKS if self._linear else 0.0
@@ -360,8 +346,8 @@ class Twin:
         if self._kept is not None:
             self._keep(end if self._linear else self._ticks, command)
 
-    def _jobs(self, plan: _Plan) -> WindowJobs:
-        """What the core is to compute for a window."""
+    def _jobs(self, plan: Plan) -> WindowJobs:
+        """Jobs of the core for a window."""
         return self._engine.window(
             plan.end, plan.first, self.sample_rate, self._report, plan.waves, self._ends[1]
         )
@@ -380,65 +366,22 @@ class Twin:
         """Begin a window at the present time."""
         self._engine.stand(self._ticks, self._ends[0])
 
-    def _plan(self, duration: float) -> _Plan:
+    def _plan(self, duration: float) -> Plan:
         """Plan a window of `duration` seconds from the present time on."""
-        longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
-        if not 0.0 < duration <= longest:
-            raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
-        # Exact, so that rounding errors do not accumulate and windows of 10 ms end on samples.
-        ticks = round(duration * TICKS)
-        if not ticks:
-            raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
-        end = self._ticks + ticks
-        first = self._samples(self._ticks) + 1
-        rows = self._samples(end) - first + 1
-        train = self._engine.train
+        begin, rate, train = self._ticks, self.sample_rate, self._engine.train
+        end = window_end(begin, duration, rate)
+        first = samples_until(begin, rate) + 1
+        rows = samples_until(end, rate) - first + 1
         waves = new_waves(rows, len(self.meshes), bearings_of(train), tilts(train))
-        return _Plan(end, first, waves, self._engine.repeats)
+        return Plan(begin, end, first, waves, self._engine.repeats)
 
-    def _samples(self, ticks: int) -> int:
-        """Number of samples up to a time."""
-        over, under = self.sample_rate.as_integer_ratio()
-        whole = TICKS * under  # in integers: fractions would be reduced at every step
-        return (ticks * over * LEEWAY + whole) // (whole * LEEWAY)
-
-    def _close(self, plan: _Plan) -> Window:
+    def _close(self, plan: Plan) -> Window:
         """Results of the window that the engine has run through."""
         begin, end = self._ends
-        figures, names, rate = self._figures, self._names, self.sample_rate
-        start_time, duration = self.time, (plan.end - self._ticks) / TICKS
-        self._core.window_figures(
-            self._engine.train, self._report, begin, end, duration, figures.record
-        )
+        self._results.evaluate(begin, end, plan)
         self._ticks, self._ends = plan.end, (end, begin)
-        mean_speed, record = figures.mean_speed.copy(), figures.record
-        sun, carrier = mean_speed[self._sun], mean_speed[-1]
-        mesh = by_name(figures.statistics.copy())
-        return Window(
-            start=start_time,
-            end=self.time,
-            tolerance=self.tolerance,
-            sample_rate=rate,
-            repeated=plan.repeated,
-            bodies=names.names,
-            meshes=self.meshes,
-            waveform=Waveform(1.0 / rate, *plan.waves[:4]),
-            mesh=mesh,
-            angle=figures.angle.copy(),
-            mean_speed=mean_speed,
-            mesh_frequency=mesh_frequency(self._teeth, sun, carrier),
-            machine_speed=figures.machine_speed.copy(),
-            machine_torque=figures.machine_torque.copy(),
-            machine_power=figures.machine_power.copy(),
-            power_loss=record.power_loss,
-            stored_power=record.stored_power,
-            stored_energy=record.stored_energy,
-            residual_power=record.residual_power,
-            course=self._follow(duration),
-            given=dict(plan.given),
-            axes=axes_of_waves(plan.waves, self.scene.gearset.planets, mesh["mesh_force_mean"]),
-            members=self._members,
-        )
+        course = self._follow((plan.end - plan.begin) / TICKS)
+        return self._results.window(plan, self.tolerance, self.sample_rate, course)
 
     def _follow(self, duration: float) -> Course:
         """Counters of the last `duration` [s]."""
@@ -446,30 +389,3 @@ class Twin:
         missing, before = unsettled(self._settled, self._settling), self._course
         self._course = course_so_far(self._engine.control, missing)
         return self._course.since(before)
-
-
-class _Plan(NamedTuple):
-    """A window to come."""
-
-    end: int  # [ticks]
-    first: int  # number of its first sample
-    waves: Waves  # room for its samples
-    repeated: bool
-    given: Mapping[str, float] = MappingProxyType({})  # at the ports
-
-
-class _FiguresOf:
-    """Figures of a window in the core, and views of them."""
-
-    def __init__(self, record: Figures, bodies: int, meshes: int, machines: int) -> None:
-        self.record = record
-        self.angle, self.mean_speed = record.angle[:bodies], record.mean_speed[:bodies]
-        self.machine_speed = record.machine_speed[:machines]
-        self.machine_torque = record.machine_torque[:machines]
-        self.machine_power = record.machine_power[:machines]
-        self.statistics = record.statistics[:, :meshes]
-
-
-def _check_sample_rate(sample_rate: float) -> None:
-    if not LOWEST_SAMPLE_RATE <= sample_rate <= 1e7:
-        raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")

@@ -12,15 +12,16 @@ from .row import Row
 
 HEAD = """# Measured against the world
 
-Made by `make measured`. Each table puts a measured or published figure beside the twin's.
+`make measured` makes this page. Each table compares measured or published figures with those of the
+twin.
 
 - **agrees**: within the stated bound, or the trend has the same sign.
 - **misses**: outside the bound, or not modelled. The reason is below the table.
-- **input**: the twin takes this figure as a parameter, so the row proves nothing.
+- **input**: this figure is a parameter of the twin, so the row is no evidence.
 - **prediction**: there is no reading to compare with.
-- **undecided**: the twin has a line there, but from another cause.
+- **undecided**: the line of the twin has another cause, or that of the rig is not above the noise.
 
-All figures come from the sources named; this project has measured none of them.
+All measured figures come from the named sources; this project has no measurements of its own.
 """
 
 SECTIONS = {
@@ -32,7 +33,7 @@ SECTIONS = {
     ),
     "Two 6:1 actuators": (
         "Loss of both, back to back: 0.094 T + 0.125 N m + 0.0040 N m s w (737 windows, rms 0.13 "
-        "N m). Their lost motion with couplings is 18.8 mrad, which the twin takes as a parameter. "
+        "N m). Their lost motion with couplings is 18.8 mrad, which is a parameter of the twin. "
         "[actuator-dynamometer](https://github.com/karthikurs/actuator-dynamometer); "
         "figures only, because its data have no licence.",
         (two_actuators,),

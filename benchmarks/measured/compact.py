@@ -56,13 +56,13 @@ def rig_lost_motion() -> Iterator[Row]:
     )
     low, high = resting_places()
     yield Row(
-        "lost motion between the two places at which the output rests most often",
+        "lost motion between the two most frequent positions of the output",
         f"{math.degrees(high - low):.2f} deg",
         f"{math.degrees(_play(scene)):.3f} deg",
         MISSES,
-        "the range, which is published, is the distance of the two outermost of 6492 readings. The "
-        "output mostly rests nearer: the play is uneven over the turn, or teeth do not reach the "
-        "flank; the twin has one backlash for all teeth.",
+        "the published range is the distance of the two outermost of 6492 readings. Most readings "
+        "are closer together: the play varies over the turn, or teeth do not reach the flank. The "
+        "twin has one backlash for all teeth.",
     )
 
 
@@ -87,8 +87,8 @@ def rig_stiffness() -> Iterator[Row]:
         "a straight line through it",
         f"{whole:.0f} N m/rad",
         MISSES,
-        "the file of readings does not say where its encoder is. As it stands, it gives an eighth "
-        "to a tenth of the published figure.",
+        "the file of readings does not state the shaft of its encoder. With this assumption, the "
+        "stiffness is an eighth to a tenth of the published one.",
     )
     low, high = ratio * loop.chord, ratio * loop.unloading
     yield Row(
@@ -97,8 +97,9 @@ def rig_stiffness() -> Iterator[Row]:
         f"{STIFFNESS_SPAN:g} N m {ratio * loop.loading:.0f}, unloading {high:.0f}",
         f"{whole:.0f} N m/rad",
         verdict(abs(whole / low - 1.0) < 0.3),
-        "bound: 30 % of the first figure. The twin is linear, the rig is not. The published "
-        "figure is near them only if the angle is that of the motor shaft, 7.2 times the output's.",
+        "bound: 30 % of the first figure. The twin is linear, the rig is not. The readings are "
+        "close to the published figure only if the angle is that of the motor shaft, 7.2 times "
+        "that of the output.",
     )
     held = 2.0 * ratio * scene.losses.sun_drag.coulomb / whole
     yield Row(
@@ -107,8 +108,8 @@ def rig_stiffness() -> Iterator[Row]:
         "that of the motor shaft",
         f"{math.degrees(held + _play(scene)):.2f} deg: lost motion, and twist that the drag holds",
         verdict(abs((held + _play(scene)) * ratio / loop.width - 1.0) < 0.5),
-        "bound: 50 %. The plastic creeps and its friction holds more than in the steady runs; the "
-        "twin has neither.",
+        "bound: 50 %. The plastic creeps, and its static friction is higher than the friction in "
+        "the steady runs; the twin models neither.",
     )
 
 
@@ -166,11 +167,11 @@ def rig_orders() -> Iterator[Row]:
             f"{found:.2f}",
             verdict(abs(found - measured) < RESOLUTION) if same and clear else UNDECIDED,
             f"bound: {RESOLUTION} orders, the resolution of one run. The twin's line is the "
-            "nearest in the force of one sun mesh that has a tenth of the height of the mesh "
-            "line. A runout of 20 um is assumed. The rig's lines are in its motor speed, mean of "
-            "18 runs up to 10 rpm. "
+            "nearest in the force of one sun mesh with at least a tenth of the height of the mesh "
+            "line. A runout of 20 um is assumed. The lines of the rig are in its motor speed, mean "
+            "of 18 runs up to 10 rpm. "
             + ("" if same else "The twin's line is mesh + 3 planet, too near to be separated. ")
-            + ("" if clear else "The rig's line does not stand out."),
+            + ("" if clear else "The line of the rig is not above the noise."),
         )
 
 

@@ -161,11 +161,11 @@ def rig_losses() -> Iterator[Row]:
     points, base, slopes = steady()
     speed, torque = np.round(points.speed, -1), np.round(points.torque)
     parts = {
-        "speed between: from 10 and 30 rpm, at 20 rpm": speed == 20.0,
-        "speed beyond: from 10 and 20 rpm, at 30 rpm": speed == 30.0,
-        "speed below: from 20 and 30 rpm, at 10 rpm": speed == 10.0,
-        "torque between: from odd torques, at even ones": torque % 2.0 == 0.0,
-        "torque beyond: from 1 to 12 N m, at 13 to 18 N m": torque > 12.5,
+        "20 rpm, predicted from 10 and 30 rpm": speed == 20.0,
+        "30 rpm, predicted from 10 and 20 rpm": speed == 30.0,
+        "10 rpm, predicted from 20 and 30 rpm": speed == 10.0,
+        "even torques, predicted from odd ones": torque % 2.0 == 0.0,
+        "13 to 18 N m, predicted from 1 to 12 N m": torque > 12.5,
     }
     for what, out in parts.items():
         found = estimate(points.loss[~out], base[~out], slopes[~out])
@@ -178,7 +178,8 @@ def rig_losses() -> Iterator[Row]:
         f"falling ramps below {SLOWEST:g} rpm": ramps.speed < SLOWEST,
     }.items():
         some = ramps.chosen(rows)
-        yield _row(f"{what}, from all steady runs", some, prediction(found, *slopes_at(some)))
+        what = f"{what}, predicted from all steady runs"
+        yield _row(what, some, prediction(found, *slopes_at(some)))
     yield from _efficiencies(points, base)
 
 
@@ -192,10 +193,10 @@ def _row(what: str, points: Points, predicted: tuple[Array, Array]) -> Row:
         f"rms error {100 * rms:.1f} %, largest {np.abs(error).max():.3f} N m; intervals of +- "
         f"{reach.min():.3f} to {reach.max():.3f} N m cover {100 * inside:.0f} %",
         verdict(rms < 0.10 and inside >= 0.9),
-        "bound: 10 % rms, and the 95 % intervals cover at least 90 %. Estimated are friction and "
-        "drag. The loss over the torque is not quite straight on the rig: errors of successive "
-        "torques have the same sign, at all speeds. Below 4 rpm the rig loses more, as friction "
-        "rises in creep or the drives do not follow; the twin's drag does not.",
+        "bound: 10 % rms, and the 95 % intervals cover at least 90 %. Friction and drag are "
+        "estimated. On the rig, the loss is not quite a linear function of the torque: at all "
+        "speeds, errors of successive torques have the same sign. Below 4 rpm the losses of the "
+        "rig rise, because of friction in creep or of its drives; those of the twin do not.",
     )
 
 
@@ -228,18 +229,18 @@ def rig_estimates() -> Iterator[Row]:
             f"{found.values[place]:.4f} +- {reach:.4f}{unit}",
             f"{_value(scene, name):g}{unit} in the scene",
             verdict(abs(_value(scene, name) - found.values[place]) < reach),
-            "bound: the 95 % interval of the estimate from 54 steady runs. Friction is not that of "
-            "the plastic: friction of planet pins and an error of the motor's torque constant, "
-            "which grow with the load, too, are in it. The rig commands its motor torque and does "
-            "not measure it, so 5 % of error is half of the loss that grows with the load.",
+            "bound: the 95 % interval of the estimate from 54 steady runs. The friction "
+            "coefficient also contains friction of the planet pins and an error of the motor's "
+            "torque constant, which are proportional to the load, too. The rig does not measure "
+            "its motor torque: an error of 5 % would be half of the loss that grows with the load.",
         )
     trend, reach = speed_trend(points, base, slopes, found)
     yield Row(
-        "loss torque at the output, change over the speed that the twin lacks",
+        "loss torque at the output, dependence on speed that the twin does not model",
         f"{1e3 * trend:+.2f} +- {1e3 * reach:.2f} mN m/rpm",
         "0",
         verdict(abs(trend) < reach),
-        "bound: the 95 % interval holds zero, so drag that rises with the speed is not estimated.",
+        "bound: the 95 % interval contains zero, so no drag that rises with speed is estimated.",
     )
 
 
@@ -278,8 +279,8 @@ def rig_predictions() -> Iterator[Row]:
             "-",
             f"{shown} N m, each +- {reach.max():.2f} N m",
             PREDICTION,
-            "95 % intervals from all steady runs: of the estimates, of an operating point about "
-            "the model, and of the change over the speed that the twin lacks.",
+            "95 % intervals from all steady runs. They contain the uncertainty of the estimates, "
+            "the scatter of operating points, and the dependence on speed that is not modelled.",
         )
 
 

@@ -131,8 +131,8 @@ def others() -> Iterator[Row]:
         "1.08; 1.16 with a bending moment",
         f"{share:.3f}",
         verdict(abs(share - 1.08) < 0.02),
-        "bound: 0.02. Axes do not move and pins have no errors of position, so planets share the "
-        "load evenly; a bending moment cannot be given.",
+        "bound: 0.02. The scene holds its axes and has no errors of pins, so planets share the "
+        "load equally. A bending moment is not modelled.",
     )
     light, heavy = (
         pt.natural_modes(stage.replace(input_torque=torque), stiffness="mean").frequencies

@@ -1,7 +1,7 @@
 """A joint of a MuJoCo model whose gear is the twin in place of an ideal one.
 
-MuJoCo integrates the link, the twin the motor, the gears and their friction. At every step of
-MuJoCo, the speed of the joint is given to the output shaft, whose torque acts on the joint.
+MuJoCo integrates the link; the twin integrates the motor, the gears and their friction. In every
+step, the output shaft gets the speed of the joint, and its torque acts on the joint.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ def arm(step: float = STEP, gravity: float = 0.0) -> mujoco.MjModel:
     """Build an arm of 1 kg with its centre 0.2 m from a horizontal axis.
 
     Args:
-        step: of MuJoCo [s].
-        gravity: along z [m/s^2].
+        step: time step of MuJoCo [s].
+        gravity: gravity along z [m/s^2].
 
     Returns:
         The model, with an inertia of 0.05 kg m^2 about its joint `elbow`.
@@ -42,22 +42,22 @@ def arm(step: float = STEP, gravity: float = 0.0) -> mujoco.MjModel:
 
 
 class GearedJoint:
-    """A hinge that is driven by a motor through a gearbox.
+    """A hinge that a motor drives through a gearbox.
 
     Args:
-        model: of MuJoCo; the gearbox replaces actuator, armature and friction of the joint.
-        joint: name of the hinge, at rest at the start.
-        scene: of the gearbox; its input port becomes `torque`, its output port `motion`.
+        model: model of MuJoCo; the gearbox replaces actuator, armature and friction of the joint.
+        joint: name of the hinge, which is at rest at the start.
+        scene: scene of the gearbox; its input port becomes `torque`, its output port `motion`.
 
     Raises:
-        ValueError: the joint turns against the spring of the output coupling faster than the step
-            of MuJoCo can follow.
+        ValueError: the time step of MuJoCo is too long for the joint on the spring of the output
+            coupling.
     """
 
     def __init__(self, model: mujoco.MjModel, joint: str, scene: pt.Scene) -> None:
         self.model, self.data = model, mujoco.MjData(model)
         self._at = int(model.joint(joint).dofadr[0])
-        inertia = float(model.dof_M0[self._at])  # of what the joint moves, in its first pose
+        inertia = float(model.dof_M0[self._at])  # that the joint moves, at the start
         stiffness, step = scene.drive.output.coupling_stiffness, float(model.opt.timestep)
         if step**2 * stiffness > inertia:
             raise ValueError(
@@ -73,10 +73,10 @@ class GearedJoint:
         """Simulate one step of MuJoCo.
 
         Args:
-            motor_torque: on the input shaft, during the step [N m].
+            motor_torque: torque on the input shaft during the step [N m].
 
         Returns:
-            What the ports show at the end.
+            Angles, speeds and torques of both shafts at the end.
         """
         self.data.qfrc_applied[self._at] = -self.ports.output_torque
         mujoco.mj_step(self.model, self.data)
@@ -89,7 +89,11 @@ class GearedJoint:
 
 
 def main(path: str) -> None:
-    """Hold an arm at 0.5 rad against gravity by a controller of the joint's angle."""
+    """Hold an arm at 0.5 rad against gravity with a controller of the joint angle.
+
+    Args:
+        path: name or path of the scene.
+    """
     joint = GearedJoint(arm(gravity=-9.81), "elbow", pt.load_scene(path))
     ratio = 6.0
     for n in range(2000):

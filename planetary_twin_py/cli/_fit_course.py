@@ -1,4 +1,4 @@
-"""`planetary-twin fit` of a table or a MAT file: the courses of a manoeuvre."""
+"""`planetary-twin fit` of a manoeuvre in a table or a MAT file."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def fit_manoeuvre(
     """Fit a scene to a manoeuvre, and print the estimates.
 
     Args:
-        console: to print on.
-        file: see `read_course`.
+        console: console to print on.
+        file: path of the file, see `read_course`.
         scene: name or file of the scene.
-        free: initial values by name of the free fields; empty: that of the scene.
-        span: begin and end of the part that is fitted [s].
-        hold_out: another part, which is predicted [s].
+        free: initial values by name of the free fields; empty: the value in the scene.
+        span: start and end of the part that is fitted [s].
+        hold_out: start and end of another part, which is predicted [s].
 
     Returns:
         The estimates, and the warnings.

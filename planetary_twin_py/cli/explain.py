@@ -144,16 +144,15 @@ def _mesh_figures(meshes: Meshes) -> dict[str, Any]:
 
 
 def _dynamics_table(found: DynamicsChoice) -> Table:
-    """What each dynamics leaves out, and costs."""
+    """Errors and computing time of each dynamics."""
     from rich.table import Table
 
     from ..dynamics_choice import FIGURES
 
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
-        caption=f"Within {100.0 * found.allowed:g} % (dynamics_error) is enough: "
-        f"{found.dynamics}.\n{found.reason}.\n"
-        "Only planar and spatial have bearing forces and orbits.",
+        caption=f"Within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}, because "
+        f"{found.reason}.\nOnly planar and spatial have bearing forces and orbits.",
     )
     table.add_column("dynamics")
     for name in (*FIGURES, "computing time per second"):

@@ -49,13 +49,13 @@ def fit(  # noqa: PLR0913 - an argument for each option
         str | None,
         typer.Option(
             metavar="FROM:TO",
-            help="Another part in simulated seconds, which is predicted with intervals and not "
+            help="Another part in simulated seconds that is predicted with intervals and not "
             "fitted.",
         ),
     ] = None,
     scene: Annotated[
         str | None,
-        typer.Option(metavar="SCENE", help="Of the gearbox, if FILE is a manoeuvre."),
+        typer.Option(metavar="SCENE", help="Scene of the gearbox, if FILE is a manoeuvre."),
     ] = None,
     report: Annotated[
         Path | None,
@@ -70,8 +70,8 @@ def fit(  # noqa: PLR0913 - an argument for each option
 ) -> None:
     """Estimate scene parameters from FILE with confidence intervals, if they are identifiable.
 
-    FILE is a recording, or the manoeuvre of a rig: a .csv, .parquet or .mat file with the courses
-    of input_torque, output_torque and input_speed over time.
+    FILE is a recording, or a measured manoeuvre: a .csv, .parquet or .mat file with time,
+    input_torque, output_torque and input_speed.
 
     Of a recording, without --from and --to, up to one second with a constant operating point is
     used. Parameters that the readings do not determine are reported in a warning; the exit code is
@@ -127,7 +127,7 @@ def _manoeuvre(
     parts: tuple[float | None, float | None, str | None],
     out: tuple[Path | None, str | None],
 ) -> None:
-    """Fit a manoeuvre: `parts` are --from, --to and --hold-out, `out` --report and --json."""
+    """Fit a manoeuvre; `parts` are --from, --to and --hold-out, `out` is --report and --json."""
     from ._fit_course import course_figures, fit_manoeuvre
 
     begin, end, hold_out = parts

@@ -1,4 +1,4 @@
-"""`planetary-twin fleet`: follows many gearboxes of one type by readings of a SCADA system."""
+"""`planetary-twin fleet`: estimates friction of many gearboxes from readings of a SCADA system."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def fleet(
     ],
     sensors: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.yaml", help="What is known of the torque sensors."),
+        typer.Option(metavar="FILE.yaml", help="Noise and uncertainty of the torque sensors."),
     ] = None,
     set_: SetOption = None,
     out: Annotated[
@@ -60,10 +60,10 @@ def fleet(
     ] = None,
     json_: JsonOption = None,
 ) -> None:
-    """Follow many gearboxes with the SCENE of their type, at one reading in 0.1 s to 60 s.
+    """Estimate friction of many gearboxes of the type SCENE, with one reading in 0.1 s to 60 s.
 
-    Estimates the friction level of each with a 95 % interval, and finds steps of its loss. All
-    gearboxes together have one false alarm in a year.
+    Prints changes: steps of the loss torque of a gearbox. --out and --json have the friction level
+    of each gearbox with a 95 % interval. The fleet has one false alarm per year.
 
     Example: planetary-twin fleet wind_turbine_stage --from scada.parquet --out state.csv
     """
@@ -124,8 +124,8 @@ def _show(console: Console, found: Sequence[GearboxResult]) -> None:
     for one in changed[:SHOWN]:
         for event in one.events:
             console.print(
-                f"{one.gearbox}: loss torque {100.0 * event.share:+.3g} % of the scene's or more, "
-                f"since {event.since:g} s, found at {event.found:g} s",
+                f"{one.gearbox}: loss torque changed by {100.0 * event.share:+.3g} % of the "
+                f"scene's or more, since {event.since:g} s, found at {event.found:g} s",
                 highlight=False, markup=False,
             )  # fmt: skip
     if len(changed) > SHOWN:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,6 +16,7 @@ from ..terminal.output_files import output_file
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.table import Table
 
     from ..modal.campbell import Resonance
@@ -55,7 +57,6 @@ def modal(
         need("plots", "matplotlib")
     from ..modal.campbell import resonances
     from ..modal.natural import natural_modes, spring_model
-    from ..units import rpm
 
     try:
         speed = _speed(input_speed, model)
@@ -67,15 +68,9 @@ def modal(
     limit = loaded.drive.speed_limit
     found = resonances(loaded, mean, limit)
     console = console_beside(json_)
-    title = f"{loaded.name}, {model} model"
-    if speed:
-        title += f", input at {speed / rpm(1.0):g} rpm, frame of the carrier"
+    title = f"{loaded.name}, {model} model{_turning(speed)}"
     console.print(_mode_table(title, single, mean, None if speed else springs))
-    console.print(_heading(limit), highlight=False)
-    for resonance in found:
-        console.print(_line(resonance))
-    if not found:
-        console.print("none")
+    _print_resonances(console, found, limit)
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
@@ -85,18 +80,9 @@ def modal(
         except (OSError, ValueError) as error:
             fail(f"--campbell = {str(campbell)!r}: {error}")
     if json_ is not None:
-        figures = {
-            "frequencies_hz": single.frequencies.tolist(),
-            "kinds": list(single.kinds),
-            "mean_stiffness": {
-                "frequencies_hz": mean.frequencies.tolist(),
-                "kinds": list(mean.kinds),
-            },
-            "input_speed": speed,
-            "speed_limit": limit,
-            "resonances": [resonance._asdict() for resonance in found],
-        }
-        put_figures(figures, json_)
+        speeds = {"input_speed": speed, "speed_limit": limit}
+        resonant = {"resonances": [resonance._asdict() for resonance in found]}
+        put_figures(_frequencies(single, mean) | speeds | resonant, json_)
 
 
 def _speed(text: str, model: str) -> float:
@@ -115,6 +101,22 @@ def _speed(text: str, model: str) -> float:
             f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
         )
     return speed
+
+
+def _turning(speed: float) -> str:
+    """Part of a title that states the speed of the first motor [rad/s] unless it is 0."""
+    from ..units import rpm
+
+    return f", input at {speed / rpm(1.0):g} rpm, frame of the carrier" if speed else ""
+
+
+def _frequencies(single: NaturalModes, mean: NaturalModes) -> dict[str, Any]:
+    """Natural modes for `--json`, with one pair in every mesh and with the mean stiffness."""
+    first, second = (
+        {"frequencies_hz": modes.frequencies.tolist(), "kinds": list(modes.kinds)}
+        for modes in (single, mean)
+    )
+    return first | {"mean_stiffness": second}
 
 
 def _mode_table(
@@ -159,6 +161,15 @@ def _shown(changes: dict[str, float]) -> str:
         if abs(change) >= LEAST_CHANGE
     )
     return ", ".join(felt) or "-"
+
+
+def _print_resonances(console: Console, found: Sequence[Resonance], limit: float) -> None:
+    """Print the resonant speeds up to `limit` [rad/s]."""
+    console.print(_heading(limit), highlight=False)
+    for resonance in found:
+        console.print(_line(resonance))
+    if not found:
+        console.print("none")
 
 
 def _heading(limit: float) -> str:

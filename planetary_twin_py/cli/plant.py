@@ -1,4 +1,4 @@
-"""`planetary-twin plant`: plays a gearbox with hidden changes and writes what sensors measure."""
+"""`planetary-twin plant`: simulates measurements of a gearbox with hidden changes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def plant(
         Path,
         typer.Option(
             metavar="FILE",
-            help="Readings of torque and speed, a .csv, .parquet or .npz table.",
+            help="Write readings of torque and speed to a .csv, .parquet or .npz table.",
             callback=file_ending_in(*TABLES),
         ),
     ],
@@ -32,24 +32,24 @@ def plant(
         Path | None,
         typer.Option(
             metavar="FILE.yaml",
-            help="Duty, changes, sensors, and fields in which the plant differs from SCENE.",
+            help="Duty, changes, sensor errors, and fields that differ from SCENE.",
         ),
     ] = None,
     encoders: Annotated[
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Samples of both encoders, a table.",
+            help="Write samples of both encoders to a table.",
             callback=file_ending_in(*TABLES),
         ),
     ] = None,
-    duration: Annotated[float, typer.Option(help="Played time [s].")] = 60.0,
+    duration: Annotated[float, typer.Option(help="Simulated time [s].")] = 60.0,
     set_: SetOption = None,
 ) -> None:
-    """Play the gearbox of SCENE with what is hidden, and write what its sensors measure.
+    """Simulate sensor readings of the gearbox of SCENE, with hidden changes, for `follow`.
 
-    The tables are for `follow`: they have noise, errors, losses and changes as --hidden says.
-    Sensors are perfect, and nothing changes, unless it says so.
+    --hidden states changes of the gearbox, its duty, and noise, errors and lost readings of the
+    sensors. By default, nothing changes and sensors are exact.
 
     Example: planetary-twin plant paper --hidden crack.yaml --out readings.csv
     """
@@ -63,7 +63,7 @@ def plant(
             raise ValueError(f"--duration = {duration!r}: must be above 0 and at most 1e6 s")
         if encoders is not None and truth.sensors.encoders.rate == 0.0:
             raise ValueError("--encoders: requires sensors.encoders.rate in --hidden")
-        with make_console().status("playing"):
+        with make_console().status("simulating"):
             lines = list(_write(loaded, truth, duration, (out, encoders)))
     except (ValueError, ArithmeticError) as error:
         fail(error)

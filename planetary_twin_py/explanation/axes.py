@@ -1,4 +1,4 @@
-"""What a run leaves out by holding the axes."""
+"""Consequences of held axes: what a torsional run does not model."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ HELD = "gears and carrier rotate about rigid axes: no bearing loads, no orbits"
 
 
 def meaning_of_held_axes(scene: Scene) -> str:
-    """What holding the axes changes, as far as statics and symmetry say.
+    """Describe the consequences of held axes, from statics and symmetry.
 
     Args:
         scene: the scene.
 
     Returns:
         A sentence. With `scene.supports` and a torque it compares load sharing factors; without
-        them it says whether the forces of the planets would move an axis at all.
+        them it states whether the forces of the planets would move an axis.
     """
     if scene.supports is not None and scene.operating_point.input_torque != 0.0:
         moving, held = load_sharing(scene), load_sharing(scene.replace(supports=None))

@@ -40,7 +40,7 @@ def explain(
     """Simulate a scene as it is and without each of its terms.
 
     Args:
-        scene: the scene; with dynamics: auto, that which is picked is explained.
+        scene: the scene; with dynamics: auto, the selected dynamics is explained.
         duration: simulated time of each run [s].
         progress: called with the name of each term before its runs.
 

@@ -1,1 +1,1 @@
-"""Follows many gearboxes of one type at the rates of a SCADA system, with arrays over gearboxes."""
+"""Estimates friction of many gearboxes of one type from readings of a SCADA system."""

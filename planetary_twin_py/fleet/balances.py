@@ -1,14 +1,14 @@
-"""Kalman filters of the torque balances of many gearboxes, one after the other in arrays.
+"""Kalman filters of the torque balances of many gearboxes, in arrays over the gearboxes.
 
 For each gearbox, with torques at both ends and the speed ratio i:
 
     T_in + i T_out - J a = s (phi L(T, w, oil) + R(w, oil) + d) + b + g T + n
     phi = f + f_T ln(|T|/T0) + f_w ln(|w|/w0),   s = sign(w)
 
-as in `following.balance_filter`, whose parameters, priors and memories these are. The torque T
-itself has no memory at these rates. It is the mean of both ends, weighted by the inverse variances
-of their readings: then its error does not correlate with the noise n of the balance, which would
-otherwise bias the parameters (errors in variables, Fuller 1987, Measurement Error Models).
+with the parameters, priors and memories of `following.balance_filter`. At these rates, successive
+torques T are independent. T is the mean of both ends, weighted by the inverse variances of their
+readings. Its error then does not correlate with the noise n of the balance; a correlation would
+bias the parameters (errors in variables, Fuller 1987, Measurement Error Models).
 """
 
 from __future__ import annotations
@@ -39,38 +39,38 @@ Array = NDArray[np.float64]
 
 PARAMETERS = "friction_level", "torque_zero", "drag", "torque_gain", "law_torque", "law_speed"
 F, B, D, G, F_T, F_W = range(len(PARAMETERS))
-OWN = [0, 1, 2, 3, 5, 6]  # places of these in a `Memory`, which has the inertia, too
+OWN = [0, 1, 2, 3, 5, 6]  # indices of these parameters in a `Memory`, which also has the inertia
 
 
 class Row(NamedTuple):
-    """One reading of every gearbox, in SI, (n,) each; NaN where there is none."""
+    """One reading of every gearbox, in SI, (n,) each; NaN where a reading is missing."""
 
     input_torque: Array
     output_torque: Array
     input_speed: Array
     oil_temperature: Array
     acceleration: Array
-    """Of the input [rad/s^2]."""
+    """Acceleration of the input [rad/s^2]."""
 
 
 class Innovations(NamedTuple):
-    """Measured less expected balances, (n,) each."""
+    """Measured minus expected balances, (n,) each."""
 
     value: Array
-    """[N m], at the input; NaN without a reading."""
+    """Innovation at the input [N m]; NaN without a reading."""
     sd: Array
     """Expected standard deviation [N m]."""
 
 
 @dataclass
 class Balances:
-    """The filters of n gearboxes of one type.
+    """Kalman filters of n gearboxes of one type.
 
     Args:
-        train: of the type.
-        table: of its losses.
-        sensors: what is known of them.
-        memory: how parameters may change.
+        train: gear train of the type.
+        table: table of its losses.
+        sensors: accuracy of the sensors.
+        memory: how fast parameters may change.
         count: number of gearboxes.
     """
 
@@ -103,24 +103,24 @@ class Balances:
         """Variances of the innovations over those of the sensors' noise, at least 1, (n,)."""
 
     def restart(self, which: NDArray[np.bool_]) -> None:
-        """Forget everything of some gearboxes.
+        """Reset parameters and covariances of some gearboxes to the priors.
 
         Args:
-            which: (n,).
+            which: mask of the gearboxes, (n,).
         """
         self.x[which], self.p[which], self.excess[which] = self.mean, np.diag(self.sd**2), 1.0
 
     def reopen(self, which: NDArray[np.bool_]) -> None:
-        """Doubt friction, zero and drag as before any reading, after a step of the loss.
+        """Add the prior variances of friction, zero and drag, after a step of the loss.
 
         Args:
-            which: (n,).
+            which: mask of the gearboxes, (n,).
         """
         for state in (F, B, D):
             self.p[which, state, state] += self.sd[state] ** 2
 
     def update(self, row: Row, step: float) -> Innovations:
-        """Take one reading of every gearbox.
+        """Update the parameters with one reading of every gearbox.
 
         Args:
             row: the readings.
@@ -142,7 +142,7 @@ class Balances:
         losses = self.table(first, speed, oil)
         phi, over = self._friction(first, speed)
         lost = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * first
-        # Both ends, by the inverse variances of their readings.
+        # Mean of both ends, weighted by the inverse variances of their readings.
         share = self._noise[1] / sum(self._noise)
         torque = share * first + (1.0 - share) * (lost - np.where(good, driven, lost - first))
         losses = self.table(torque, speed, oil)
@@ -173,10 +173,10 @@ class Balances:
         self.p[:, range(len(keep)), range(len(keep))] += fresh
 
     def _take(self, innovation: Array, slope: Array, noise: Array, step: float) -> Innovations:
-        """Scalar updates in Joseph's form, of the gearboxes with a reading that fits.
+        """Scalar updates in Joseph's form, of the gearboxes whose reading passes the gate.
 
         (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h. Sums
-        are taken element by element, so that a gearbox has the same bits beside any others
+        are element by element, so that the bits of a gearbox do not depend on the others.
         """
         along = _sum(self.p[:, :, k] * slope[:, k, None] for k in range(len(PARAMETERS)))
         variance = _sum(slope[:, k] * along[:, k] for k in range(len(PARAMETERS))) + noise

@@ -15,18 +15,18 @@ Array = NDArray[np.float64]
 
 TERM = 60.0  # [s] over which innovations are averaged: single readings are too noisy for 5 %
 YEAR = 365.25 * 86_400.0  # [s] in which the whole fleet has one false alarm
-OVERSHOOT = 1.166  # of a sum beyond its limit (Siegmund 1985, Sequential Analysis, ch. 10)
+OVERSHOOT = 1.166  # mean excess of a sum over its limit (Siegmund 1985, ch. 10)
 
 
 def limit(count: int, step: float) -> float:
-    """Limit of a sum, with one false alarm of the fleet in a year of white normal innovations.
+    """Limit of a sum for one false alarm of the fleet in a year of white normal innovations.
 
     The average run length of one sum is 2 exp(h + 1.166) terms for kappa = 1/2 (Siegmund 1985);
     each gearbox has two.
 
     Args:
         count: number of gearboxes.
-        step: from one reading to the next [s].
+        step: time between two readings [s].
 
     Returns:
         The limit h.
@@ -35,12 +35,12 @@ def limit(count: int, step: float) -> float:
 
 
 class Steps(NamedTuple):
-    """Steps that were found at one time, (m,) each."""
+    """Steps that are detected at one time, (m,) each."""
 
     gearbox: NDArray[np.int64]
-    """Places in the arrays."""
+    """Indices of the gearboxes."""
     since: Array
-    """Times at which the sums have left zero [s]."""
+    """Times at which the sums left zero [s]."""
     size: Array
     """Means of the innovations since then [N m]."""
 
@@ -54,7 +54,7 @@ class Cusums:
 
     Args:
         count: number of gearboxes.
-        limit: of a sum.
+        limit: limit of a sum above which a step is detected.
     """
 
     count: int
@@ -66,22 +66,22 @@ class Cusums:
         self._total, self._weight = np.zeros(shape), np.zeros(shape)
         self._held = np.zeros(shape, dtype=bool)
         self.correlation = np.zeros(self.count)
-        """Of successive innovations, (n,)."""
+        """Correlation of successive innovations, (n,)."""
         self._sums = np.zeros((4, self.count))  # scores, readings, weighted values, weights
         self._begin = math.nan
         self._last, self._known = np.full(self.count, math.nan), np.zeros(self.count)
 
     def add(self, time: float, value: Array, sd: Array, step: float) -> Steps:
-        """Take an innovation of each gearbox.
+        """Add an innovation of each gearbox.
 
         Args:
-            time: of it [s].
-            value: [N m], (n,); NaN without a reading.
+            time: time of the innovations [s].
+            value: innovations [N m], (n,); NaN without a reading.
             sd: expected standard deviations [N m], (n,).
-            step: from one reading to the next [s].
+            step: time between two readings [s].
 
         Returns:
-            Steps that are found now; their sums then start from zero.
+            Steps that are detected now; their sums then start from zero.
         """
         score = np.clip(value / sd, -CLIP, CLIP)
         there = np.isfinite(score)
@@ -125,7 +125,7 @@ class Cusums:
         return steps
 
     def _correlate(self, score: Array, there: NDArray[np.bool_], step: float) -> None:
-        """Correlation of successive innovations, over a minute or ten of them."""
+        """Update the correlation of successive innovations, over a minute or 50 of them."""
         both = there & np.isfinite(self._last)
         share = min(step / MEMORY, 0.02)
         change = np.where(both, score * self._last - self.correlation, 0.0)

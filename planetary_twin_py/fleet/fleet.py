@@ -1,4 +1,4 @@
-"""Follows the losses of many gearboxes of one type by readings of a SCADA system."""
+"""Estimates the losses of many gearboxes of one type from readings of a SCADA system."""
 
 from __future__ import annotations
 
@@ -23,50 +23,50 @@ from .loss_table import loss_table
 Array = NDArray[np.float64]
 
 CHANNELS = ("input_torque", "output_torque", "input_speed", "oil_temperature")
-SLOWEST, FASTEST = 60.0, 0.1  # [s] from one reading to the next
+SLOWEST, FASTEST = 60.0, 0.1  # [s] limits of the time between two readings
 
 
 class FleetEstimate(NamedTuple):
-    """One parameter of all gearboxes, (n,) each."""
+    """Estimate of one parameter of all gearboxes, (n,) each."""
 
     value: Array
-    """In SI; NaN where the readings do not determine it."""
+    """Value in SI; NaN where the readings do not determine it."""
     low: Array
-    """Low end of the 95 % interval, likewise."""
+    """Lower end of the 95 % interval, likewise."""
     high: Array
-    """High end."""
+    """Upper end of the 95 % interval, likewise."""
 
 
 class FleetEvent(NamedTuple):
     """A step of the loss torque of one gearbox."""
 
     gearbox: int
-    """Its place."""
+    """Index of the gearbox."""
     since: float
-    """Earliest time at which it may have started [s]."""
+    """Earliest time at which the step may have started [s]."""
     found: float
-    """[s]."""
+    """Time of its detection [s]."""
     size: float
     """Mean of the innovations since then [N m], at the input; positive: a larger loss. The step
-    itself is larger: the filter has followed a part of it."""
+    itself is larger, because the filter adapts to a part of it."""
     share: float
-    """Size over the loss torque that the scene has there."""
+    """Size over the loss torque of the scene at the same operating point."""
 
 
 @dataclass
 class Fleet:
     """Estimates friction, drag and torque sensors of many gearboxes of one type.
 
-    The table of losses is computed once. Each reading then costs some array operations for all
+    The table of losses is computed once. Each reading then costs a few array operations for all
     gearboxes together. The same readings give the same estimates to the last bit.
 
     Args:
-        scene: of the type, with one input.
+        scene: scene of the type, with one input.
         count: number of gearboxes.
-        period: from one reading to the next [s].
-        sensors: what is known of the torque sensors; noise is that of one row.
-        fleet_size: gearboxes of the whole fleet, if these are a part of it; they share one false
-            alarm in a year.
+        period: time between two readings [s].
+        sensors: accuracy of the torque sensors; noise is that of one row.
+        fleet_size: number of gearboxes of the whole fleet, if these are a part of it; the whole
+            fleet has one false alarm in a year.
 
     Raises:
         SceneError: the scene has two inputs, or cannot be simulated.
@@ -79,7 +79,7 @@ class Fleet:
     sensors: Sensors = field(default_factory=Sensors)
     fleet_size: int | None = None
     events: list[FleetEvent] = field(init=False, default_factory=list)
-    """Steps found so far, in the order in which they were found."""
+    """Detected steps, in the order of their detection."""
 
     def __post_init__(self) -> None:
         if self.count < 1:
@@ -96,15 +96,15 @@ class Fleet:
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
-        """Balances that were used, (n,)."""
+        """Number of balances that were used, (n,)."""
 
     def add(self, time: float, readings: Mapping[str, Array]) -> None:
-        """Take one reading of every gearbox.
+        """Add one reading of every gearbox.
 
         Args:
-            time: of it [s], after that of the last one.
-            readings: of `CHANNELS` in SI with the signs of gearbox_state, (n,) each; NaN where
-                there is none.
+            time: time of the readings [s], later than that of the last ones.
+            readings: readings by channel of `CHANNELS`, in SI with the signs of gearbox_state, (n,)
+                each; NaN where a reading is missing.
 
         Raises:
             ValueError: a channel is missing or has another length, or time does not increase.
@@ -154,8 +154,8 @@ class Fleet:
             name: friction_level, torque_zero, drag or torque_gain.
 
         Returns:
-            Values and 95 % intervals; NaN where the standard deviation is above half of what was
-            known before any reading. That of the friction level includes the error of the table.
+            Values and 95 % intervals; NaN where the standard deviation is above half of the prior
+            one. The interval of the friction level includes the error of the table.
 
         Raises:
             ValueError: there is no such parameter.

@@ -1,4 +1,4 @@
-"""Follows the gearboxes of a table in groups, on this machine or on a cluster."""
+"""Processes the gearboxes of a table in groups, on this machine or on a cluster."""
 
 from __future__ import annotations
 
@@ -24,26 +24,26 @@ Group = tuple[str, ...]
 
 @dataclass(frozen=True)
 class GearboxResult:
-    """What is known of one gearbox at the end of a table."""
+    """Estimates of one gearbox at the end of a table."""
 
     gearbox: str
     readings: int
-    """Balances that were used."""
+    """Number of balances that were used."""
     estimates: dict[str, tuple[float, float, float]]
     """Value and 95 % interval in SI by parameter; NaN where the readings do not determine it."""
     events: tuple[FleetEvent, ...]
-    """Steps of its loss; `FleetEvent.gearbox` is its place in the group."""
+    """Steps of its loss; `FleetEvent.gearbox` is its index in the group."""
 
 
 @dataclass(frozen=True)
 class FollowGroup:
-    """Follows one group; it is pickled for other processes, which read the table themselves.
+    """Processes one group; it is pickled for other processes, each of which reads the table.
 
     Args:
-        path: of the table, as all workers see it.
-        scene: of the type of gearbox.
-        count: gearboxes of the whole fleet, which set the limit of false alarms.
-        sensors: what is known of the torque sensors.
+        path: path of the table, the same on all workers.
+        scene: scene of the type of gearbox.
+        count: number of gearboxes of the whole fleet, which sets the limit of an alarm.
+        sensors: accuracy of the torque sensors.
     """
 
     path: Path
@@ -52,7 +52,7 @@ class FollowGroup:
     sensors: Sensors = field(default_factory=Sensors)
 
     def __call__(self, group: Group) -> tuple[GearboxResult, ...] | Failure:
-        """Follow a group from the first to the last row of the table."""
+        """Process a group from the first to the last row of the table."""
         try:
             return self._follow(group)
         except (ValueError, ArithmeticError, OSError) as reason:
@@ -99,20 +99,20 @@ def follow_groups(
     report: Callable[[int], None] = lambda done: None,
     size: int = SIZE,
 ) -> list[GearboxResult]:
-    """Follow all gearboxes of a table.
+    """Process all gearboxes of a table.
 
     Args:
-        work: follows one group.
-        gearboxes: names, in the order of the result.
+        work: function that processes one group.
+        gearboxes: names of the gearboxes, in the order of the result.
         executor: runs the groups.
         report: called with the number of gearboxes that are done since the last call.
-        size: gearboxes of a group.
+        size: number of gearboxes in a group.
 
     Returns:
         A result for each gearbox.
 
     Raises:
-        ValueError: a group cannot be followed.
+        ValueError: a group cannot be processed.
     """
     groups = [tuple(gearboxes[n : n + size]) for n in range(0, len(gearboxes), size)]
     found: dict[Group, tuple[GearboxResult, ...]] = {}

@@ -14,23 +14,23 @@ from ..scene import Scene
 Array = NDArray[np.float64]
 
 CHECKED = 12  # points between those of the table at which its error is measured
-SAFETY = 1.5  # bound over the largest error found at them
+SAFETY = 1.5  # ratio of the bound to the largest error at these points
 
 
 class Losses(NamedTuple):
     """Loss torques at the input [N m], against the rotation, (n,) each."""
 
     teeth: Array
-    """Of tooth friction."""
+    """Loss torque of tooth friction."""
     rest: Array
-    """Of bearings, drag and churning as the scene has them."""
+    """Loss torque of bearings, drag and churning in the scene."""
 
 
 class LossTable:
-    """The table of `LossMap`, filled as a whole, with a measured error.
+    """The complete table of `LossMap`, with a measured error.
 
     Args:
-        losses: of the scene.
+        losses: losses of the scene.
     """
 
     def __init__(self, losses: LossMap) -> None:
@@ -45,9 +45,9 @@ class LossTable:
         """Losses at operating points; interpolated as in `LossMap`.
 
         Args:
-            torque: at the input [N m], (n,).
-            speed: of the input [rad/s], (n,).
-            temperature: of the oil [K], (n,).
+            torque: input torques [N m], (n,).
+            speed: input speeds [rad/s], (n,).
+            temperature: oil temperatures [K], (n,).
 
         Returns:
             The loss torques.
@@ -83,7 +83,7 @@ class LossTable:
 
 
 def _place(knots: Array, value: Array) -> tuple[NDArray[np.int64], Array]:
-    """Index of the interval of each value, and its place within it from 0 to 1."""
+    """Index of the interval of each value, and its position within it from 0 to 1."""
     n = np.clip(np.searchsorted(knots, value, "right") - 1, 0, len(knots) - 2)
     return n, np.clip(_share(knots, n, value), 0.0, 1.0)
 
@@ -98,7 +98,7 @@ def _between(
     place: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
     share: tuple[Array, Array, Array],
 ) -> Array:
-    """Linear between the eight corners of a cell; the table is (2, heat, speeds, torques)."""
+    """Interpolate linearly in a cell; the table is (2, temperatures, speeds, torques)."""
     (k, m, n), (h, v, u) = place, share
     found = np.zeros(len(u))
     for a in (0, 1):
@@ -110,10 +110,10 @@ def _between(
 
 
 def loss_table(scene: Scene) -> LossTable:
-    """Compute the table of a type of gearbox; once in a process.
+    """Compute the table of a type of gearbox, once in a process.
 
     Args:
-        scene: of the type, with one input.
+        scene: scene of the type, with one input.
 
     Returns:
         The table.

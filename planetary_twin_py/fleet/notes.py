@@ -17,11 +17,11 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
     """Write one row for each gearbox.
 
     Args:
-        path: of the table: .csv, .parquet or .npz.
+        path: path of the table: .csv, .parquet or .npz.
         found: results, in the order of the rows.
 
     Raises:
-        ValueError: the format is not known.
+        ValueError: the format is unknown.
         OSError: the file cannot be written.
     """
     kind = path.suffix.removeprefix(".")

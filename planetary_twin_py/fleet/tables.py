@@ -24,16 +24,16 @@ class FleetReadings(NamedTuple):
 
     gearboxes: tuple[str, ...]
     time: Array
-    """[s], in rising order, (m,)."""
+    """Times [s], in rising order, (m,)."""
     columns: dict[str, Array]
-    """By channel in SI, (m, n) each; NaN where there is no row."""
+    """Readings by channel in SI, (m, n) each; NaN where there is no row."""
 
 
 def gearboxes_of(path: Path) -> tuple[str, ...]:
     """Names of the gearboxes of a table, in order.
 
     Args:
-        path: of a CSV or Parquet file.
+        path: path of a CSV or Parquet file.
 
     Returns:
         The names.
@@ -55,10 +55,10 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     """Read the rows of some gearboxes.
 
     Args:
-        path: of a CSV or Parquet file with the columns gearbox, time [s], input_torque,
-            output_torque, input_speed and perhaps oil_temperature, with units in brackets unless
-            they are SI. Signs are those of gearbox_state.
-        gearboxes: names of those to read.
+        path: path of a CSV or Parquet file with the columns gearbox, time [s], input_torque,
+            output_torque, input_speed and optionally oil_temperature, with units in brackets
+            unless they are SI. Signs are those of gearbox_state.
+        gearboxes: names of the gearboxes to read.
 
     Returns:
         The readings.

@@ -1,4 +1,4 @@
-"""Model descriptions of FMI 3.0.2 and 2.0.4: what an importing tool reads of an FMU."""
+"""Model descriptions of FMI 3.0.2 and 2.0.4, which importing tools read."""
 
 from __future__ import annotations
 
@@ -29,35 +29,35 @@ CAPABILITIES_2 = {
     "canHandleVariableCommunicationStepSize": "true",
     "canGetAndSetFMUstate": "true",
 }
-STEP = 1e-3  # [s] communication step that is proposed
-STOP = 1.0  # [s] end that is proposed
+STEP = 1e-3  # [s] proposed communication step
+STOP = 1.0  # [s] proposed stop time
 
 
 @dataclass(frozen=True)
 class Description:
-    """What a model description says."""
+    """Contents of a model description."""
 
     name: str
-    """Of the model."""
+    """Name of the model."""
     identifier: str
-    """Name of the library, an identifier of C."""
+    """Name of the library, a valid identifier in C."""
     text: str
-    """In words."""
+    """Description of the model."""
     token: str
-    """Identifies the FMU."""
+    """Token that identifies the FMU."""
     tool: str
-    """That has made it, with its version."""
+    """Name and version of the exporting tool."""
     tolerance: float
-    """Relative tolerance that is proposed."""
+    """Proposed relative tolerance."""
     variables: Sequence[Variable]
-    """In the order of their value references."""
+    """Variables in the order of their value references."""
 
 
 def model_description_3(about: Description) -> bytes:
     """Model description of FMI 3.0.
 
     Args:
-        about: what it says.
+        about: contents of the description.
 
     Returns:
         The XML file.
@@ -92,7 +92,7 @@ def model_description_2(about: Description) -> bytes:
     """Model description of FMI 2.0.
 
     Args:
-        about: what it says.
+        about: contents of the description.
 
     Returns:
         The XML file.

@@ -16,13 +16,11 @@ from .records import build_records, file_of, put_variables
 from .variables import variables
 
 VERSIONS = ("3.0", "2.0")
-"""Of the Functional Mock-up Interface (FMI)."""
+"""Supported versions of the Functional Mock-up Interface (FMI)."""
 ADAPTERS, RECORDS = "fmi.so", "scene.bin"
 LIBRARIES = Path(__file__).parent.parent / "_core" / "fmu"
 NAMESPACE = uuid.UUID("d4f2c7b6-5a0f-5b55-9a3c-5f8a4c1d7e21")
-EARLIEST = (1980, 1, 1, 0, 0, 0)  # of an archive: the same scene gives the same file
-
-
+EARLIEST = (1980, 1, 1, 0, 0, 0)  # constant date in the archive: the same scene gives the same file
 PLATFORMS = {"3.0": "x86_64-linux", "2.0": "linux64"}
 """Folder of the library, by version of FMI."""
 
@@ -40,9 +38,9 @@ def export_fmu(
     without this package.
 
     Args:
-        scene: with torsional dynamics and a fixed member; its ports choose what is given.
-        path: of the file, which is written or replaced.
-        version: of FMI, one of `VERSIONS`.
+        scene: scene with torsional dynamics and a fixed member; its ports determine the inputs.
+        path: path of the file, which is written or replaced.
+        version: version of FMI, one of `VERSIONS`.
         tolerance: relative local error tolerance, unless the importing tool sets another.
 
     Returns:
@@ -89,7 +87,7 @@ def exported_levels() -> list[str]:
     """Levels of x86-64 that an FMU of this installation contains, the best first.
 
     Returns:
-        Their names.
+        Names of the levels.
     """
     return [level for level in NEEDS if (LIBRARIES / f"{level}.so").exists()]
 

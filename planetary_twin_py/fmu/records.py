@@ -1,4 +1,4 @@
-"""A scene as the records that the library of an FMU reads, see core/fmu/exported.hpp."""
+"""Converts a scene to the records that the library of an FMU reads, see core/fmu/exported.hpp."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from ..driven_engine import DrivenEngine
 from ..dynamics.bodies import body_names, build_report, mesh_names
 from ..dynamics.cycle import common_cycles, turns_per_cycle
 from ..dynamics.point_laws import record_of
-from ..engine import POINTS, new_march
 from ..runaway import Limits
 from ..scene import Scene
+from ..step_scale import POINTS, new_march
 from ..tolerance import TOLERANCES
 from .variables import Variable
 
@@ -21,7 +21,7 @@ SETTABLE = {"input": 1, "tunable": 1, "fixed": 2}
 
 
 def build_records(scene: Scene, tolerance: float) -> Exported:
-    """Collect the records of a scene.
+    """Build the records of a scene.
 
     Args:
         scene: the scene.
@@ -57,7 +57,7 @@ def build_records(scene: Scene, tolerance: float) -> Exported:
 
 
 def _put_repetitions(scene: Scene, engine: DrivenEngine, exported: Exported) -> None:
-    """After how many mesh cycles all repeats, without and with torque ripple."""
+    """Store the number of mesh cycles in a period, without and with torque ripple."""
     load = engine.model.load.copy()
     for place, ripple in zip(exported.repetition, (0.0, 1.0), strict=True):
         load.ripple = ripple
@@ -73,10 +73,10 @@ def put_variables(exported: Exported, variables: list[Variable]) -> None:
 
     Args:
         exported: the records.
-        variables: in the order of their value references.
+        variables: variables in the order of their value references.
 
     Raises:
-        ValueError: there is no room for so many, or for a name.
+        ValueError: there are too many variables, or a name is too long.
     """
     if len(variables) > _core.VARIABLES:
         raise ValueError(f"an FMU has room for {_core.VARIABLES} variables, not {len(variables)}")
@@ -93,12 +93,12 @@ def put_variables(exported: Exported, variables: list[Variable]) -> None:
 
 
 def file_of(exported: Exported) -> bytes:
-    """The file that the library reads: digest of the core, then the records.
+    """Make the file that the library reads: digest of the core, then the records.
 
     Args:
         exported: the records.
 
     Returns:
-        Its bytes.
+        Contents of the file.
     """
     return SOURCES.encode().ljust(DIGEST, b"\0") + exported.raw().tobytes()

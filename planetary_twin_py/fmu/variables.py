@@ -1,4 +1,4 @@
-"""Variables of an FMU, numbered equally in its description, its records and its library."""
+"""Variables of an FMU, with the same numbers in its description, its records and its library."""
 
 from __future__ import annotations
 
@@ -23,36 +23,36 @@ POINT_FIELDS = (
     "input_torque",
     "torque_ripple",
 )
-"""Fields of the operating point that an FMU knows, by their index in its records."""
+"""Fields of the operating point that can be variables of an FMU, by their index in its records."""
 
 
 @dataclass(frozen=True)
 class Variable:
-    """A real variable; the place in the list of all of them is its value reference."""
+    """A real variable; its index in the list of variables is its value reference."""
 
     name: str
-    """In the model description."""
+    """Name in the model description."""
     kind: str
-    """One of `_core.VARIABLE_KINDS`."""
+    """Kind, one of `_core.VARIABLE_KINDS`."""
     description: str
-    """In words."""
+    """Description for the user."""
     unit: str = ""
     """SI unit; empty for a dimensionless number."""
     index: int = 0
-    """Of the port, the mesh or the field of the operating point."""
+    """Index of the port, the mesh or the field of the operating point."""
     causality: Literal["independent", "input", "output", "parameter"] = "output"
-    """As FMI calls it."""
+    """Causality, as FMI defines it."""
     variability: Literal["continuous", "tunable", "fixed"] = "continuous"
-    """As FMI calls it."""
+    """Variability, as FMI defines it."""
     start: float | None = None
-    """Of an input or a parameter."""
+    """Start value of an input or a parameter."""
     minimum: float = 0.0
-    """Of an input or a parameter."""
+    """Smallest value of an input or a parameter."""
     maximum: float = 0.0
-    """Of an input or a parameter."""
+    """Largest value of an input or a parameter."""
 
 
-SPEEDS = 33  # at which the speed loop is examined
+SPEEDS = 33  # number of speeds at which the stability of the speed loop is checked
 PORTS = {"input": MOTOR, "output": LOAD_MACHINE}
 SHOWN = {
     "angle": ("angle of the {} shaft since the start", "rad"),
@@ -74,7 +74,7 @@ def variables(scene: Scene, exported: Exported) -> list[Variable]:
 
     Args:
         scene: the scene.
-        exported: its records, for values at the start and ranges.
+        exported: records of the scene, for start values and ranges.
 
     Returns:
         The variables in the order of their value references.
@@ -113,7 +113,7 @@ def _of_meshes(scene: Scene) -> Iterator[Variable]:
 
 
 def _of_point(scene: Scene) -> Iterator[Variable]:
-    """Fields of the operating point that the records follow without the scene."""
+    """Fields of the operating point that can change without the scene."""
     for name, variability in _variabilities(scene).items():
         tunable = scene.tunables[name]
         yield Variable(
@@ -124,10 +124,10 @@ def _of_point(scene: Scene) -> Iterator[Variable]:
 
 
 def _variabilities(scene: Scene) -> dict[str, Literal["tunable", "fixed"]]:
-    """Fields that can be given: at any time (tunable), or up to the start of a run (fixed).
+    """Fields that can be set: at any time (tunable), or until the start of a run (fixed).
 
-    Others keep their values of the scene: those that have no effect; those on which other parts of
-    the scene set bounds; the speed, if the speed loop is not stable at every one.
+    All others keep the values of the scene: fields without effect, fields whose bounds depend on
+    other parts of the scene, and the speed if the speed loop is not stable at every speed.
     """
     ports = scene.drive.ports
     found: dict[str, Literal["tunable", "fixed"]] = {}
@@ -144,9 +144,9 @@ def _variabilities(scene: Scene) -> dict[str, Literal["tunable", "fixed"]]:
 
 
 def _accepts_any_load(scene: Scene) -> bool:
-    """Whether backlash and torques have no other bounds than their own.
+    """Whether the bounds of backlash and torques are independent of the rest of the scene.
 
-    Runout and tip relief have bounds that depend on them, strictest without load and backlash.
+    Bounds of runout and tip relief depend on them; they are strictest without load and backlash.
     """
     least = {"backlash": scene.tunables["backlash"].minimum, "input_torque": 0.0}
     try:
@@ -159,8 +159,8 @@ def _accepts_any_load(scene: Scene) -> bool:
 def _holds_any_speed(scene: Scene) -> bool:
     """Whether the speed loop is stable at every speed that the drive allows.
 
-    Mesh damping that follows the speed is lowest at the highest speed, where the loop is least
-    stable; speeds below are examined, too.
+    Speed-dependent mesh damping is lowest at the highest speed, where the loop is least stable;
+    lower speeds are checked, too.
     """
     loop = SpeedLoopCheck(scene, build_train(scene))
     try:

@@ -1,1 +1,1 @@
-"""Follows a measured gearbox: what its readings tell of it, and what they cannot."""
+"""Estimates the state of a measured gearbox, and reports what the readings do not determine."""

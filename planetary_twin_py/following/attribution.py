@@ -1,8 +1,8 @@
-"""Tells friction, drag and the zero of a torque sensor apart after a step of the loss.
+"""Distinguishes friction, drag and the zero of a torque sensor after a step of the loss.
 
-The parameters from before the step are kept, and the innovations after it are explained by one of
-three courses: friction grows with the loss of the teeth, drag turns with the rotation, a zero does
-neither. They differ once load or direction have varied.
+The parameters estimated before the step are kept. The innovations after it are compared with three
+hypotheses: a change of friction is proportional to the loss of the teeth, a change of drag has the
+sign of the rotation, a change of a zero is constant. They differ once load or direction has varied.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 FRICTION, DRAG, ZERO = "friction", "drag", "zero of a torque sensor"
-LONGEST = 300.0  # [s] after the step
-FEWEST = 20  # bins
+LONGEST = 300.0  # [s] after the step in which innovations are collected
+FEWEST = 20  # bins before a cause is excluded
 BETTER = 6.0  # units of log-likelihood by which one cause must be better than the others
 
 
@@ -31,14 +31,14 @@ class Attribution:
     _square: float = 0.0
 
     def add(self, time: float, innovation: float, sd: float, loss: float, sign: float) -> None:
-        """Take an innovation of the filter from before the step.
+        """Add an innovation of the filter that keeps the parameters from before the step.
 
         Args:
-            time: of it [s].
-            innovation: of the balance [N m].
+            time: time of the innovation [s].
+            innovation: measured minus expected torque balance [N m].
             sd: its standard deviation [N m].
             loss: loss torque of tooth friction [N m].
-            sign: of the speed.
+            sign: sign of the speed.
         """
         if time > self.begin + LONGEST:
             return
@@ -50,7 +50,7 @@ class Attribution:
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Causes that may have led to these innovations, the most likely one first."""
+        """Causes that explain these innovations, the most likely one first."""
         names = (FRICTION, DRAG, ZERO)
         if self._count < FEWEST:
             return names

@@ -1,4 +1,4 @@
-"""Follows the loss of a gearbox by the torques and speeds at its ends."""
+"""Estimates the loss of a gearbox from torques and speeds at its input and output."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ from .vibration import Turning
 
 Array = NDArray[np.float64]
 
-KEPT = 36_000  # bins whose torque is kept for the teeth
+KEPT = 36_000  # bins whose torque is kept for judging teeth
 TURNING = 3_000  # bins whose speed is kept for vibration
-PERIOD = 0.1  # [s] of a bin; longer ones let innovations correlate where the duty reverses
-TELLING = 0.5  # of the prior standard deviation, below which a parameter is estimated
-NOISY = 1.25  # standard deviation of innovations over the expected one, that is remarked upon
-REFUSED = 1.0  # [s] of gated balances that are an event
+PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when the load reverses
+TELLING = 0.5  # share of the prior standard deviation below which a parameter is identifiable
+NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
+REFUSED = 1.0  # [s] of successive gated balances that cause an event
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
          "inertia": "kg m^2"}  # fmt: skip
 REMEDIES = {
@@ -64,13 +64,13 @@ OWN = {F: "a reversal of the torque", J: "a change of speed"}
 
 @dataclass
 class _Refusals:
-    """Gated balances in a row."""
+    """Successive balances that the gate rejects."""
 
     begin: float = math.nan
     noted: bool = False
 
     def add(self, time: float, gated: bool) -> float | None:
-        """Return the time at which they began, once they have lasted."""
+        """Return the time of the first of them, once they last `REFUSED`."""
         if not gated:
             self.begin, self.noted = math.nan, False
             return None
@@ -86,12 +86,12 @@ class _Refusals:
 class BalanceFollower:
     """Estimates friction level, drag, zero and gain of the torque sensors, and inertia.
 
-    Two filters take the same readings: one whose parameters fall back to their priors, for
-    intervals, and one that hardly lets them change, whose innovations tell steps.
+    Two filters process the same readings: one whose parameters decay to their priors gives the
+    intervals, and one whose parameters change slowly gives the innovations that show steps.
 
     Args:
-        scene: of the gearbox, with one input.
-        sensors: what is known of them.
+        scene: scene of the gearbox, with one input.
+        sensors: accuracy of the sensors.
         period: length of the bins over which readings are averaged [s].
     """
 
@@ -99,13 +99,13 @@ class BalanceFollower:
     sensors: Sensors = field(default_factory=Sensors)
     period: float = PERIOD
     events: list[Event] = field(init=False, default_factory=list)
-    """Changes found so far."""
+    """Detected changes."""
     innovation: Innovation | None = field(init=False, default=None)
-    """Of the last bin, of the filter for intervals."""
+    """Innovation of the last bin, from the filter for intervals."""
     time: float = field(init=False, default=math.nan)
     """End of the last bin [s]."""
     gated: int = field(init=False, default=0)
-    """Bins whose balance was too far off to be used."""
+    """Number of bins whose balance the gate has rejected."""
 
     def __post_init__(self) -> None:
         self.train = followed_train(self.scene)
@@ -128,18 +128,18 @@ class BalanceFollower:
 
     @property
     def counters(self) -> Counters:
-        """What has become of the readings."""
+        """Numbers of readings that were not used, by reason."""
         return self._bins.counters
 
     def add(self, time: Array, columns: Mapping[str, Array], sender: str = "readings") -> None:
-        """Take readings of a sender in the order of their arrival.
+        """Add readings of a sender in the order of their arrival.
 
         Args:
             time: stamps [s], (n,).
-            columns: readings in SI by channel of `bins.CHANNELS`, (n,) each; NaN where there is
-                none. Signs are those of gearbox_state.
-            sender: its name. How messages of several senders alternate changes nothing as long as
-                none lags behind by the times in `merging`.
+            columns: readings in SI by channel of `bins.CHANNELS`, (n,) each; NaN where a reading
+                is missing. Signs are those of gearbox_state.
+            sender: name of the sender. The order in which messages of several senders alternate has
+                no effect as long as none lags behind by more than the times in `merging`.
 
         Raises:
             InputError: a channel has another unit, sign or shaft, see `checks`.
@@ -148,7 +148,7 @@ class BalanceFollower:
             self._take(found)
 
     def finish(self) -> None:
-        """Use what is still open, at the end of a recording.
+        """Process the bins that are still open, at the end of a recording.
 
         Raises:
             InputError: see `add`.
@@ -268,11 +268,14 @@ class BalanceFollower:
         return float(self._wide.x[F])
 
     def torque_between(self, begin: float, end: float) -> float:
-        """Mean input torque of the bins that end within an interval [N m]; NaN without any.
+        """Mean input torque of the bins that end within an interval.
 
         Args:
-            begin: of the interval [s].
-            end: of the interval [s].
+            begin: start of the interval [s].
+            end: end of the interval [s].
+
+        Returns:
+            The mean [N m]; NaN if no bin ends in the interval.
         """
         inside = [torque for time, torque in self._torques if begin < time <= end]
         return float(np.mean(inside)) if inside else math.nan
@@ -289,7 +292,7 @@ class BalanceFollower:
         return Turning(*np.array(inside).reshape(-1, 3).T)
 
     def estimates(self) -> tuple[Estimate, ...]:
-        """Torque, loss, and parameters with intervals or with what would tell them."""
+        """Torque, loss and parameters, with intervals or with the readings that are missing."""
         if math.isnan(self.time):
             remedy = "readings of input_torque, output_torque and a speed"
             names = ["input_torque", "loss_torque", *UNITS]
@@ -317,7 +320,7 @@ class BalanceFollower:
         yield estimated("loss_torque", value, sd, "N m")
 
     def remarks(self) -> Iterator[str]:
-        """What makes the estimates less certain, a line each."""
+        """Reasons why the estimates are less certain, one line each."""
         if self.scatter > NOISY:
             yield (
                 f"the balance scatters {self.scatter:.1f} times as much as the noise of the torque "
@@ -329,7 +332,7 @@ class BalanceFollower:
                 "loss are not reported"
             )
         if self.gated:
-            yield f"{self.gated} bins are too far off the balance and are not used"
+            yield f"{self.gated} bins do not satisfy the torque balance and are not used"
 
     def _parameter(self, state: int) -> Estimate:
         wide, name = self._wide, STATES[state]
@@ -341,7 +344,7 @@ class BalanceFollower:
         return estimated(name, float(wide.x[state]), sd, UNITS[name], remedy)
 
     def _remedy(self, state: int) -> str:
-        """What would separate a parameter from that with which it correlates most."""
+        """The readings that would separate a parameter from the one it correlates with most."""
         p = self._wide.p
         sd = np.sqrt(np.maximum(np.diag(p), 1e-300))
         correlation = np.abs(p[state] / (sd * sd[state]))

@@ -6,13 +6,14 @@ Measured are the torques at the input, T_m, and at the output, T_l, with the spe
     i T_l   = -T + s (phi L(T, w, oil) + R(w, oil) + d) + b + g T + n2
     phi     = f + f_T ln(|T|/T0) + f_w ln(|w|/w0),   s = sign(w)
 
-L and R are the loss torques of tooth friction and of the rest in the scene, f is the friction
-level, d a drag that the scene lacks, b the zero of both torque sensors, g the difference of their
-gains, J the inertia, and a the acceleration. T is a state that wanders, not a regressor: its noise
-would bias the other states. f_T and f_w stand for a law of friction that is not known.
+L and R are the loss torques of tooth friction and of all other losses in the scene, f is the
+friction level, d a drag that is not in the scene, b the zero of both torque sensors, g the
+difference of their gains, J the inertia, and a the acceleration. T is a state with process noise,
+not a regressor, because its noise would bias the other states. f_T and f_w represent the deviation
+of the actual friction law from that of the scene.
 
-Joseph's form of the update (Bucy and Joseph 1968, Filtering for Stochastic Processes, ch. 16). The
-parameters are either Gauss-Markov processes, which fall back to their priors, or random walks.
+The update is in Joseph's form (Bucy and Joseph 1968, Filtering for Stochastic Processes, ch. 16).
+The parameters are Gauss-Markov processes, which decay to their priors, or random walks.
 """
 
 from __future__ import annotations
@@ -36,24 +37,24 @@ STATES = (
 )  # fmt: skip
 T, RATE, F, B, D, G, J, F_T, F_W = range(len(STATES))
 PARAMETERS = slice(F, None)
-WANDER = 0.025  # of the torque of the scene per sqrt(s)
-RATE_WANDER = 0.24  # likewise of its rate, in 1/s
+WANDER = 0.025  # random walk of the torque per sqrt(s), over the torque of the scene
+RATE_WANDER = 0.24  # random walk of its rate, likewise, in 1/s
 INERTIA = 0.1  # standard deviation over the inertia of the scene
 DRAG = 5e-4  # standard deviation over the torque of the scene
 LAW = 0.2, 0.3  # standard deviations of f_T and f_w
-STANDSTILL = 0.01  # of the speed of the scene, below which the sign of the loss is not known
-LEAST = 0.02  # of torque and speed of the scene, to which the logarithms are limited
-GATE = 5.0  # standard deviations of the innovation
-NOISE_MEMORY = 60.0  # [s]
-GAP = 2.0  # [s] without a bin, after which nothing is known of the torque
-FAR = 10.0  # standard deviation of a torque of which nothing is known, over that of the scene
-FALL = 600.0  # [s] in which the law of friction falls back to its prior by 1/e
-SLOW_FALL = 21_600.0  # [s], of friction level, zero, gain, drag and inertia: see coverage.py
+STANDSTILL = 0.01  # share of the speed of the scene below which the sign of the loss is unknown
+LEAST = 0.02  # lower limit of torque and speed in the logarithms, over those of the scene
+GATE = 5.0  # standard deviations above which an innovation is rejected
+NOISE_MEMORY = 60.0  # [s] time constant of the estimated noise
+GAP = 2.0  # [s] without a bin after which the torque is unknown
+FAR = 10.0  # standard deviation of an unknown torque over the torque of the scene
+FALL = 600.0  # [s] time constant with which the friction law decays to its prior
+SLOW_FALL = 21_600.0  # [s] likewise of friction level, zero, gain, drag, inertia: see coverage.py
 CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
 
 
 class Measured(NamedTuple):
-    """One bin for the filter; what is NaN was not measured."""
+    """Means of one bin for the filter; NaN if a quantity was not measured."""
 
     time: float
     """Middle of the bin [s]."""
@@ -62,49 +63,49 @@ class Measured(NamedTuple):
     output_torque: float
     """[N m]."""
     counts: tuple[int, int]
-    """Readings in both means."""
+    """Number of readings in the means of both torques."""
     speed: float
-    """Of the input [rad/s]."""
+    """Speed of the input [rad/s]."""
     acceleration: float
-    """Of the input [rad/s^2]."""
+    """Acceleration of the input [rad/s^2]."""
     acceleration_noise: float
-    """Its standard deviation [rad/s^2]."""
+    """Standard deviation of the acceleration [rad/s^2]."""
     oil_temperature: float
     """[K]."""
 
 
 class Innovation(NamedTuple):
-    """Measured less expected sum of both torques, referred to the input."""
+    """Measured minus expected sum of both torques, referred to the input."""
 
     value: float
     """[N m]."""
     sd: float
     """Its expected standard deviation [N m]."""
     gated: bool
-    """Whether it was too large to be used."""
+    """Whether the gate rejects it."""
 
 
 @dataclass(frozen=True)
 class Memory:
-    """How parameters may change."""
+    """How fast parameters may change."""
 
     fall: Array
-    """Times in which they fall back to their priors by 1/e [s], (7,); infinite: they do not."""
+    """Time constants of their decay to the priors [s], (7,); infinite: no decay."""
     walk: Array
-    """Random walks per sqrt(s), (7,)."""
+    """Standard deviations of their random walks per sqrt(s), (7,)."""
 
 
 def interval_memory() -> Memory:
-    """Parameters that fall back: information must not pile up beyond what a law is worth."""
+    """Parameters decay to their priors: a model error must not be averaged to certainty."""
     fall = np.array([SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, FALL, FALL])
     return Memory(fall, np.zeros(7))
 
 
 def alarm_memory(train: FollowedTrain) -> Memory:
-    """Parameters that hardly change, so that a step is not followed before it is seen.
+    """Parameters change slowly, so that a step is detected before the filter has adapted to it.
 
     Args:
-        train: its torque scales the walk of the zero.
+        train: gear train whose torque scales the random walk of the zero.
     """
     walk = np.array([2e-4, 3.2e-7 * train.torque, 0.0, 0.0, 0.0, 0.0, 0.0])
     return Memory(np.full(7, np.inf), walk)
@@ -112,13 +113,13 @@ def alarm_memory(train: FollowedTrain) -> Memory:
 
 @dataclass
 class BalanceFilter:
-    """The filter.
+    """Extended Kalman filter of the torque balance.
 
     Args:
-        train: between the torque sensors.
-        losses: of its scene.
-        sensors: what is known of them.
-        memory: how parameters may change.
+        train: gear train between the torque sensors.
+        losses: loss torques of its scene.
+        sensors: accuracy of the sensors.
+        memory: how fast parameters may change.
     """
 
     train: FollowedTrain
@@ -148,7 +149,7 @@ class BalanceFilter:
         self.restart()
 
     def restart(self) -> None:
-        """Forget everything."""
+        """Reset state and covariance to the priors."""
         mean, sd = self.prior
         self.x = np.concatenate([[0.0, 0.0], mean])
         self.p = np.diag(np.concatenate([[1.0, 1.0], sd]) ** 2)
@@ -158,20 +159,20 @@ class BalanceFilter:
         """Variance of the innovations over that of the sensors' noise, at least 1."""
 
     def reopen(self) -> None:
-        """Doubt friction, zero and drag as before any reading, after a step of the loss."""
+        """Add the prior variances of friction, zero and drag, after a step of the loss."""
         sd = self.prior[1]
         for state in (F, B, D):
             self.p[state, state] += float(sd[state - F]) ** 2
 
     def update(self, read: Measured) -> Innovation | None:
-        """Take one bin.
+        """Update the state with one bin.
 
         Args:
-            read: its means.
+            read: means of the bin.
 
         Returns:
             The innovation of the balance; None if one of the torques or the speed was not measured,
-            or the train stood still.
+            or if the train was at rest.
         """
         step = 0.0 if self._time is None else max(read.time - self._time, 0.0)
         self._time = read.time
@@ -191,10 +192,13 @@ class BalanceFilter:
         return self._balance(read, step)
 
     def innovation(self, read: Measured) -> Innovation:
-        """Innovation of the balance with the present state, which stays as it is.
+        """Innovation of the balance with the present state, without an update.
 
         Args:
-            read: a bin with both torques and the speed.
+            read: means of a bin with both torques and the speed.
+
+        Returns:
+            The innovation.
         """
         expected, _ = self._expected(read.speed, read.oil_temperature)
         noise = self._noise[1] / read.counts[1] + self._noise[0] / read.counts[0]
@@ -202,11 +206,14 @@ class BalanceFilter:
         return Innovation(value, math.sqrt(self.excess * noise), False)
 
     def loss_torque(self, speed: float, temperature: float) -> tuple[float, float]:
-        """Loss torque at the input, and its standard deviation [N m].
+        """Estimate the loss torque at the input.
 
         Args:
-            speed: of the input [rad/s].
-            temperature: of the oil [K].
+            speed: speed of the input [rad/s].
+            temperature: temperature of the oil [K].
+
+        Returns:
+            Loss torque and its standard deviation [N m].
         """
         expected, slope = self._expected(speed, temperature)
         slope[T] += 1.0

@@ -1,4 +1,4 @@
-"""Baseline of a gearbox: its deviation of transmission error while it is as it should be."""
+"""Baseline of a gearbox: the deviation of its transmission error in healthy condition."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from .tooth_scores import Bank
 
 Array = NDArray[np.float64]
 
-SEEN = 1.5  # power of a change of losses with the torque over that of noise alone
+SEEN = 1.5  # power of a change with the torque over that of noise, above which it is learned
 CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
 
 
 class LearnedCell(NamedTuple):
-    """What is learned at similar torque and speed."""
+    """Learning state of one operating cell: similar torque and speed."""
 
     torque: float
-    """Mean of the first hunting period at the input [N m]."""
+    """Mean input torque of the first hunting period [N m]."""
     speed: float
-    """Likewise, of the input [rad/s]."""
+    """Mean input speed of the first hunting period [rad/s]."""
     segment: int
-    """Of the encoders: counts losses of their turns."""
+    """Number of times that the encoders have lost the count of turns."""
     periods: int
     """Hunting periods so far."""
     needed: int
@@ -38,13 +38,13 @@ class LearnedCell(NamedTuple):
 
 @dataclass
 class Baseline:
-    """Of one operating cell: blocks at similar torque and speed.
+    """Baseline of one operating cell: blocks at similar torque and speed.
 
     Args:
-        torque: mean torque of the first block at the input [N m].
-        speed: its speed of the input [rad/s].
-        segment: of the encoders.
-        needed: number of blocks from which it is learned.
+        torque: mean input torque of the first block [N m].
+        speed: mean input speed of the first block [rad/s].
+        segment: number of times that the encoders have lost the count of turns.
+        needed: number of blocks from which the baseline is learned.
     """
 
     torque: float
@@ -60,9 +60,9 @@ class Baseline:
     known: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=bool))
     """Where the mean is known, (cycles, BINS)."""
     taken_off: bool = False
-    """Whether it was learned with changed teeth, whose amounts were taken off."""
+    """Whether it was learned with changed teeth, whose contributions were subtracted."""
     slope: Array | None = None
-    """Change of the deviation over the torque [m/(N m)], (cycles, BINS); None if it has none."""
+    """Change of the deviation with torque [m/(N m)], (cycles, BINS); None if not significant."""
     digest: str = ""
     """Of the mean and its scatter, once learned."""
     _centre: float = 0.0  # mean torque of its blocks [N m]
@@ -73,9 +73,12 @@ class Baseline:
         """Whether a block belongs to this cell.
 
         Args:
-            torque: of the block [N m].
-            speed: of the block [rad/s].
-            segment: of the encoders.
+            torque: mean input torque of the block [N m].
+            speed: mean input speed of the block [rad/s].
+            segment: number of times that the encoders have lost the count of turns.
+
+        Returns:
+            True if torque, speed and segment are those of the cell.
         """
         near = abs(torque - self.torque) <= CELL * abs(self.torque)
         return (
@@ -94,19 +97,19 @@ class Baseline:
 
     @property
     def summary(self) -> LearnedCell:
-        """What is learned so far."""
+        """The learning state."""
         return LearnedCell(
             self.torque, self.speed, self.segment, self.count, self.needed, self.digest
         )
 
     def learn(self, block: HuntingBlock, torque: float) -> None:
-        """Take a block; the last one needed makes the baseline.
+        """Add a block; the last one needed completes the baseline.
 
-        Runouts let the deviation change with the torque. That is learned, too, if it is seen.
+        With runout, the deviation changes with the torque. This is learned, too, if significant.
 
         Args:
-            block: with the gearbox as it should be. `bank` must be set.
-            torque: its mean at the input [N m].
+            block: a block of the healthy gearbox. `bank` must be set.
+            torque: mean input torque of the block [N m].
         """
         self._blocks.append((block, torque))
         if len(self._blocks) < self.needed:
@@ -147,10 +150,10 @@ class Baseline:
         return np.array(found)
 
     def noise(self, torques: Array) -> float:
-        """Standard deviation of a mean over some blocks, over that of one block.
+        """Standard deviation of a mean over blocks, relative to that of one block.
 
         Args:
-            torques: of these blocks [N m], (n,).
+            torques: mean input torques of these blocks [N m], (n,).
 
         Returns:
             The factor, with the uncertainty of the baseline.
@@ -164,13 +167,14 @@ class Baseline:
         """Deviation of a block from the baseline.
 
         Args:
-            block: of this cell, or of a neighbouring one.
-            torque: its mean at the input [N m].
+            block: a block of this cell, or of a neighbouring one.
+            torque: mean input torque of the block [N m].
 
         Returns:
-            Residual [m], 0 where it is not measured, and where it is, (cycles, BINS) each.
+            Residual [m], 0 where it is not measured, and a mask of where it is measured,
+            (cycles, BINS) each.
         """
-        assert self.mean is not None  # only learned baselines judge
+        assert self.mean is not None  # called for learned baselines only
         there = block.measured & self.known
         expected = self.mean
         if self.slope is not None:

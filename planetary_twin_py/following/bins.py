@@ -1,9 +1,9 @@
 """Puts readings of a sender in order of their stamps and averages them over bins of equal length.
 
-A reading belongs to the bin of its stamp. A bin is closed by the first reading, in the order of
-arrival, whose stamp is later than the end of the bin by `LAG`; what arrives for it afterwards is
-counted and not used. So the bins depend on the order of arrival alone: not on the clock of the
-follower, nor on how the readings are cut into blocks.
+A reading belongs to the bin of its stamp. The first reading, in the order of arrival, whose stamp
+is later than the end of a bin by `LAG` closes the bin. Readings that arrive later for this bin are
+counted and not used. So the bins depend on the order of arrival only: not on the clock of the
+follower, and not on how the readings are split into blocks.
 """
 
 from __future__ import annotations
@@ -24,23 +24,23 @@ CHANNELS = {
     "output_torque": "N m",
     "oil_temperature": "K",
 }
-"""SI units of what is measured; names and signs are those of gearbox_state."""
+"""SI units of the measured channels; names and signs are those of gearbox_state."""
 LAG = 0.2  # [s] by which stamps may be out of order
-AHEAD = 1.0  # [s]; a single stamp further ahead of both of its neighbours is wrong
-OUTLIER = 5.0  # robust standard deviations
+AHEAD = 1.0  # [s]; a single stamp that is later than both of its neighbours by more is wrong
+OUTLIER = 5.0  # robust standard deviations above which a reading is an outlier
 NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
-ENOUGH = 5  # readings of which one can be called an outlier
+ENOUGH = 5  # readings of a bin below which outliers are not searched
 
 
 class Mean(NamedTuple):
-    """Readings of a channel in one bin."""
+    """Regression line through the readings of a channel in one bin."""
 
     value: float
-    """At the middle of the bin, of the line through them; their mean below three."""
+    """Value of the line at the middle of the bin; the mean with fewer than three readings."""
     readings: int
-    """Their number."""
+    """Number of readings."""
     slope: float
-    """Of the line through them [1/s]; NaN below three readings."""
+    """Slope of the line [1/s]; NaN below three readings."""
     scatter: float
     """Standard deviation about that line; NaN below four."""
 
@@ -51,24 +51,24 @@ class Bin(NamedTuple):
     number: int
     """The bin covers `number` to `number` + 1 times its length."""
     means: dict[str, Mean]
-    """Of the channels that have readings."""
+    """Means by channel, for channels that have readings."""
 
 
 @dataclass
 class Counters:
-    """What has become of the readings."""
+    """Numbers of readings that were not used, by reason."""
 
     used: int = 0
     late: int = 0
-    """Stamped before the end of a closed bin."""
+    """Readings that arrived after their bin was closed."""
     doubled: int = 0
-    """With the stamp of another reading of the channel."""
+    """Readings with the stamp of another reading of the channel."""
     missing: int = 0
-    """Not a finite number."""
+    """Readings that are not finite."""
     outlying: int = 0
-    """More than 5 robust standard deviations off the median of their bin."""
+    """Readings further from the median of their bin than 5 robust standard deviations."""
     ahead: int = 0
-    """With a single stamp far in the future."""
+    """Readings with a single stamp far in the future."""
 
 
 @dataclass
@@ -78,7 +78,7 @@ class _Pending:
     parts: list[tuple[Array, Array]] = field(default_factory=list)
 
     def join(self) -> tuple[Array, Array]:
-        """Times and values, as one piece."""
+        """Return times and values as one array each."""
         if not self.parts:
             return np.empty(0), np.empty(0)
         time, value = (np.concatenate(pieces) for pieces in zip(*self.parts, strict=True))
@@ -89,9 +89,9 @@ class Bins:
     """Sorts readings into bins.
 
     Args:
-        length: of a bin [s].
-        noise: standard deviation of one reading, by channel; below it nothing is an outlier.
-        counters: of what has become of the readings; None: its own.
+        length: length of a bin [s].
+        noise: standard deviation of one reading, by channel; smaller deviations are no outliers.
+        counters: counters of readings that are not used; None: new ones.
     """
 
     def __init__(
@@ -111,14 +111,14 @@ class Bins:
         return self._closed
 
     def add(self, time: Array, columns: Mapping[str, Array]) -> Iterator[Bin]:
-        """Take readings in the order of their arrival.
+        """Add readings in the order of their arrival.
 
         Args:
             time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where there is none.
+            columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
 
         Returns:
-            The bins that are closed by them, in order. Bins without readings are left out.
+            The bins that these readings close, in order. Bins without readings are omitted.
         """
         time, rows = self._in_turn(time, columns)
         if len(time):
@@ -126,7 +126,7 @@ class Bins:
             yield from self._close(closed_by(self._latest, self.length))
 
     def finish(self) -> Iterator[Bin]:
-        """Close what is open, at the end of a recording.
+        """Close the open bins, at the end of a recording.
 
         Returns:
             The last bins.
@@ -138,7 +138,7 @@ class Bins:
             yield from self._close(slot_of(self._latest, self.length) + 1)
 
     def _in_turn(self, time: Array, columns: Mapping[str, Array]) -> tuple[Array, dict[str, Array]]:
-        """The rows without single stamps far ahead; a last row that may be one waits."""
+        """Remove rows with a single stamp far ahead; a last row that may be one is held back."""
         time = np.asarray(time, dtype=float)
         rows = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
         if self._held is not None:
@@ -207,7 +207,7 @@ class Bins:
             yield Bin(k, means[k])
 
     def _mean(self, name: str, middle: float, time: Array, value: Array) -> Mean:
-        """Of the readings of a bin around `middle`, in the order of their stamps."""
+        """Mean of the readings of a bin around `middle`, in the order of their stamps."""
         single = time[1:] > time[:-1]
         if not single.all():
             self.counters.doubled += int(np.sum(~single))
@@ -228,7 +228,7 @@ class Bins:
         along = time - centre
         slope = float(along @ value / (along @ along))
         left = value - mean - slope * along
-        # Where readings are missing, their mean is not that of the bin while the torque changes.
+        # A line, because the mean of incomplete readings is biased while the torque changes.
         mean += slope * (middle - centre)
         return Mean(mean, n, slope, float(np.sqrt(left @ left / (n - 2))) if n > 3 else np.nan)
 
@@ -265,7 +265,7 @@ def closed_by(stamp: float, length: float) -> int:
 def _joined(
     first: tuple[Array, dict[str, Array]], second: tuple[Array, dict[str, Array]]
 ) -> tuple[Array, dict[str, Array]]:
-    """Rows of two tables, NaN in columns that one of them lacks."""
+    """Concatenate the rows of two tables, with NaN in columns that one of them lacks."""
     names = list(dict.fromkeys([*first[1], *second[1]]))
     parts = [
         [rows.get(name, np.full(len(time), np.nan)) for time, rows in (first, second)]

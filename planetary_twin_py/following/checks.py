@@ -13,17 +13,17 @@ from .train import FollowedTrain
 
 CHECKED = 5.0  # [s]
 RPM = 30.0 / math.pi
-NEAR = 0.02  # relative deviation of a speed ratio
-EFFICIENCY = 0.3, 1.15  # of what may be a torque ratio over that without loss
-LOADED = 0.2  # of the torque of the scene, below which torques are not compared
-SMALL = 0.05  # of the torque of the scene, below which a unit may be a thousand times too large
-MOVING = 0.05  # of the speed of the scene, below which speeds are not compared
+NEAR = 0.02  # relative deviation within which two speed ratios agree
+EFFICIENCY = 0.3, 1.15  # plausible range of a torque ratio over that without loss
+LOADED = 0.2  # share of the torque of the scene below which torques are not compared
+SMALL = 0.05  # share of the torque of the scene below which a unit may be 1000 times too large
+MOVING = 0.05  # share of the speed of the scene below which speeds are not compared
 CELSIUS = 200.0  # below this, a temperature is not in kelvin
-HOTTEST = 475.0  # [K] above this, kelvin was taken for degrees Celsius
+HOTTEST = 475.0  # [K]; above this, the message had kelvin in place of degrees Celsius
 
 
 class InputError(ValueError):
-    """Readings that cannot be those of the gearbox; one line with channel, figure and remedy."""
+    """Readings that contradict the scene; the message names channel, value and correction."""
 
 
 @dataclass
@@ -31,8 +31,8 @@ class Checks:
     """Compares the first readings with the scene.
 
     Args:
-        train: of the scene.
-        length: of a bin [s].
+        train: gear train of the scene.
+        length: length of a bin [s].
     """
 
     train: FollowedTrain
@@ -42,7 +42,7 @@ class Checks:
     _done: bool = False
 
     def add(self, found: Bin) -> None:
-        """Take a bin; at the end of the first seconds, check.
+        """Add a bin; at the end of the first seconds, check the readings.
 
         Args:
             found: the bin.
@@ -75,13 +75,13 @@ class Checks:
     def _temperature(self, value: float) -> None:
         if value < CELSIUS:
             raise InputError(
-                f"oil_temperature = {value:.4g}: must be in kelvin; this is probably degC, write "
-                "oil_temperature [degC] as the heading"
+                f"oil_temperature = {value:.4g}: must be in kelvin; this is probably degC: name "
+                "the column oil_temperature [degC]"
             )
         if value > HOTTEST:
             raise InputError(
-                f"oil_temperature = {value:.4g} K: must be at most {HOTTEST:g}; messages are in "
-                "degrees Celsius by definition, and this sender is probably in kelvin"
+                f"oil_temperature = {value:.4g} K: must be at most {HOTTEST:g} K; messages are in "
+                "degrees Celsius by definition, and this sender probably uses kelvin"
             )
 
     def _faults(self) -> Iterator[str]:
@@ -113,7 +113,7 @@ class Checks:
         expected = self.train.ratio
         if abs(ratio / expected - 1.0) < NEAR:
             return
-        said = f"output_speed/input_speed = {ratio:.4g}: the teeth give {expected:.4g}"
+        found = f"output_speed/input_speed = {ratio:.4g}: must be {expected:.4g} by the teeth"
         for factor, why, remedy in (
             (-1.0, "the sign of one speed is reversed", ("output_speed", -1.0)),
             (RPM, "output_speed is probably in rpm", ("output_speed", 1.0 / RPM)),
@@ -128,12 +128,12 @@ class Checks:
             (math.pi / 180.0, "input_speed is probably in deg/s", ("input_speed", math.pi / 180)),
         ):
             if abs(ratio / (expected * factor) - 1.0) < NEAR:
-                yield f"{said}; {why}: scale {remedy[0]} by {remedy[1]:.6g}"
+                yield f"{found}; {why}: scale {remedy[0]} by {remedy[1]:.6g}"
                 return
         if abs(ratio * expected - 1.0) < NEAR:
-            yield f"{said}; input and output are exchanged"
+            yield f"{found}; input and output are exchanged"
             return
-        yield f"{said}; no unit explains it: are these the shafts of this scene?"
+        yield f"{found}; no unit explains it: are these the shafts of this scene?"
 
     def _torques(self, ratio: float, size: float) -> Iterator[str]:
         """Fault of a measured torque ratio; `size` is the magnitude of the input torque."""
@@ -142,9 +142,9 @@ class Checks:
         low, high = EFFICIENCY
         if low <= share <= 1.0 / low:
             return
-        said = f"output_torque/input_torque = {ratio:.4g}: without loss it is {expected:.4g}"
+        found = f"output_torque/input_torque = {ratio:.4g}: must be near {expected:.4g} (no loss)"
         if low <= -share <= 1.0 / low:
-            yield f"{said}; the sign of one torque is reversed: scale output_torque by -1"
+            yield f"{found}; the sign of one torque is reversed: scale output_torque by -1"
             return
         sign = int(math.copysign(1.0, share))
         for factor, name, unit, scale in (
@@ -156,9 +156,9 @@ class Checks:
             else (1e-3, "input_torque", "N mm", 1e-3),
         ):
             if low <= abs(share) / factor <= high:
-                yield f"{said}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
+                yield f"{found}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
                 return
         if abs(share * expected**2 - 1.0) < 0.5:
-            yield f"{said}; both torques seem to be referred to the same shaft"
+            yield f"{found}; both torques seem to be referred to the same shaft"
             return
-        yield f"{said}; no unit explains it"
+        yield f"{found}; no unit explains it"

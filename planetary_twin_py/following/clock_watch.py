@@ -1,8 +1,8 @@
-"""Watches the clocks of senders: by how much the stamps of each run apart from its arrivals.
+"""Estimates the skew and the offset of senders' clocks from stamps and times of arrival.
 
-The lower envelope of arrival less stamp is free of delays in the network (Moon, Skelly and Towsley
-1999, IEEE INFOCOM, 227-234). Of each window of time the least is kept, and a line through them
-gives the skew.
+The lower envelope of arrival minus stamp is free of network delays (Moon, Skelly and Towsley 1999,
+IEEE INFOCOM, 227-234). The minimum of each time window is kept, and the slope of a line through
+the minima is the skew.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-WINDOW = 10.0  # [s]
-MOST = 60  # windows
-FEWEST = 6  # windows
-SKEW = 50e-6  # that is remarked upon
-APART = 10e-3  # [s] between two senders that is remarked upon
+WINDOW = 10.0  # [s] length of a window
+MOST = 60  # windows that are kept
+FEWEST = 6  # windows that a skew needs
+SKEW = 50e-6  # skew that causes a remark
+APART = 10e-3  # [s] difference of two senders' offsets that causes a remark
 
 
 @dataclass
@@ -42,7 +42,7 @@ class _Sender:
 
     @property
     def skew(self) -> float:
-        """Seconds per second by which its clock lags; NaN while it is not known."""
+        """Seconds per second by which the clock lags; NaN with too few windows."""
         if len(self.least) < FEWEST:
             return math.nan
         stamp, late = np.array([self.least[n] for n in sorted(self.least)[:-1]]).T
@@ -50,34 +50,34 @@ class _Sender:
 
     @property
     def offset(self) -> float:
-        """Least delay of arrival in the last complete window [s]; NaN before."""
+        """Smallest delay of arrival in the last complete window [s]; NaN without one."""
         numbers = sorted(self.least)
         return self.least[numbers[-2]][1] if len(numbers) > 1 else math.nan
 
 
 @dataclass
 class ClockWatch:
-    """The clocks of all senders."""
+    """Clocks of all senders."""
 
     _senders: dict[str, _Sender] = field(default_factory=dict)
 
     def add(self, sender: str, stamp: Array, arrival: Array) -> None:
-        """Take readings.
+        """Add readings.
 
         Args:
-            sender: its name.
-            stamp: times at which they were taken, by its clock [s], (n,).
-            arrival: times at which they arrived, by the clock of the receiver [s], (n,).
+            sender: name of the sender.
+            stamp: times of the readings, by the clock of the sender [s], (n,).
+            arrival: times of their arrival, by the clock of the receiver [s], (n,).
         """
         there = np.isfinite(stamp) & np.isfinite(arrival)
         if there.any():
             self._senders.setdefault(sender, _Sender()).add(stamp[there], arrival[there])
 
     def remarks(self) -> Iterator[str]:
-        """What is wrong with the clocks, a line each."""
+        """Faults of the clocks, one line each."""
         for name, sender in self._senders.items():
             if abs(sender.skew) > SKEW:
-                yield f"clock of {name}: runs apart by {1e6 * sender.skew:.0f} ppm"
+                yield f"clock of {name}: skew of {1e6 * sender.skew:.0f} ppm"
         offsets = {
             name: sender.offset
             for name, sender in self._senders.items()

@@ -1,4 +1,4 @@
-"""Compliance and play of a gearbox: the mean transmission error over mean torque and speed.
+"""Compliance and play of a gearbox: regression of the mean transmission error on torque and speed.
 
 A delay between the two encoders shifts the error in proportion to the speed, so the speed is a
 regressor, too.
@@ -12,54 +12,55 @@ from typing import NamedTuple
 
 import numpy as np
 
-FEWEST = 8  # hunting periods
-RECENT = 32  # hunting periods of the present line
+FEWEST = 8  # hunting periods of a regression
+RECENT = 32  # hunting periods of the present regression
 LARGEST_SD = 0.05  # relative standard deviation of a slope that is reported
 
 
 class Line(NamedTuple):
-    """Plane of the transmission error over torque and speed."""
+    """Regression plane of the transmission error over torque and speed."""
 
     slope: float
-    """Over the torque [m/(N m)]."""
+    """Slope over the torque [m/(N m)]."""
     sd: float
     """Its standard deviation [m/(N m)]."""
     coefficients: np.ndarray
     """Mean error [m], slope [m/(N m)], and slope over the speed [m s/rad]."""
     covariance: np.ndarray
-    """Of the coefficients, (3, 3)."""
+    """Covariance of the coefficients, (3, 3)."""
     centre: tuple[float, float]
     """Mean torque [N m] and speed [rad/s]."""
 
     @property
     def significant(self) -> bool:
-        """Whether the torque has varied enough."""
+        """Whether the torque has varied enough to determine the slope."""
         return self.sd < LARGEST_SD * abs(self.slope)
 
     def at(self, torque: float, speed: float) -> tuple[float, float]:
         """Transmission error at an operating point.
 
         Args:
-            torque: at the input [N m].
-            speed: of the input [rad/s].
+            torque: input torque [N m].
+            speed: input speed [rad/s].
 
         Returns:
-            Error and its standard deviation [m].
+            Transmission error and its standard deviation [m].
         """
         row = np.array([1.0, torque - self.centre[0], speed - self.centre[1]])
         return float(row @ self.coefficients), math.sqrt(float(row @ self.covariance @ row))
 
 
 def fit_line(torque: np.ndarray, speed: np.ndarray, error: np.ndarray) -> Line | None:
-    """Fit by least squares.
+    """Fit a plane by least squares.
 
     Args:
-        torque: means of blocks [N m], (n,).
-        speed: means of blocks [rad/s], (n,).
-        error: means of their transmission error [m], (n,).
+        torque: mean input torques of the blocks [N m], (n,).
+        speed: mean input speeds of the blocks [rad/s], (n,).
+        error: mean transmission errors of the blocks [m], (n,).
 
     Returns:
-        The plane; None for too few blocks, or a torque that does not vary or only with the speed.
+        The plane; None if there are too few blocks, or if the torque is constant or a function of
+        the speed.
     """
     n = len(torque)
     if n < FEWEST:
@@ -84,10 +85,10 @@ def fit_line(torque: np.ndarray, speed: np.ndarray, error: np.ndarray) -> Line |
 
 @dataclass
 class Compliance:
-    """Lines of the first blocks and of the last ones, within a segment of the encoders.
+    """Regressions over the first and the last blocks, within a segment of the encoders.
 
     Args:
-        learning: number of the first blocks.
+        learning: number of first blocks.
     """
 
     learning: int
@@ -95,12 +96,12 @@ class Compliance:
     _blocks: list[tuple[float, float, float]] = field(default_factory=list)
 
     def add(self, segment: int, torque: float, speed: float, error: float) -> None:
-        """Take a block.
+        """Add a block.
 
         Args:
-            segment: of the encoders.
-            torque: mean at the input [N m].
-            speed: mean of the input [rad/s].
+            segment: number of times that the encoders have lost the count of turns.
+            torque: mean input torque [N m].
+            speed: mean input speed [rad/s].
             error: mean transmission error [m].
         """
         if not (math.isfinite(torque) and math.isfinite(error)):
@@ -114,18 +115,18 @@ class Compliance:
 
     @property
     def baseline(self) -> Line | None:
-        """Of the first blocks."""
+        """Regression over the first blocks."""
         return self._line(0, self.learning) if len(self._blocks) >= self.learning else None
 
     @property
     def present(self) -> Line | None:
-        """Of the last blocks; while there are few, of all."""
+        """Regression over the last blocks, or over all while there are few."""
         beyond = len(self._blocks) - self.learning
         return self._line(self.learning if beyond >= FEWEST else 0, None)
 
     @property
     def both(self) -> tuple[Line, Line] | None:
-        """Baseline and present, where they have no block in common."""
+        """Baseline and present regression, if they have no block in common."""
         first, last = self.baseline, self.present
         if first is None or last is None or len(self._blocks) - self.learning < FEWEST:
             return None

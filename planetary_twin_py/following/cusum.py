@@ -7,26 +7,26 @@ import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-KAPPA = 0.5  # half of the step that is found fastest, in standard deviations of one term
-LIMIT = 15.4  # of a sum; false once in half a year of terms of 1 s that are independent and normal
-TERM = 1.0  # [s]
-CLIP = 5.0  # a single innovation counts no more than that
+KAPPA = 0.5  # half of the step that is detected fastest, in standard deviations of one term
+LIMIT = 15.4  # of a sum; one false alarm in half a year of independent normal terms of 1 s
+TERM = 1.0  # [s] over which innovations are averaged
+CLIP = 5.0  # largest magnitude with which a single innovation counts
 CORRELATED = 0.2  # correlation of successive innovations above which there is no alarm
-MEMORY = 60.0  # [s] of that correlation
-TRUSTED = 30.0  # [s] before which it is not known
+MEMORY = 60.0  # [s] time constant of that correlation
+TRUSTED = 30.0  # [s] after which the correlation is known
 
 
 class Step(NamedTuple):
-    """A step that was found."""
+    """A detected step."""
 
     since: float
-    """Time at which the sum has left zero [s]."""
+    """Time at which the sum left zero [s]."""
     found: float
     """[s]."""
     size: float
     """Mean of the innovations since then [N m]."""
     sd: float
-    """Its standard deviation [N m]."""
+    """Standard deviation of this mean [N m]."""
 
 
 @dataclass
@@ -53,7 +53,7 @@ class Cusum:
     """Two sums, one for each sign."""
 
     correlation: float = 0.0
-    """Of successive innovations, over the last minute."""
+    """Correlation of successive innovations over the last minute."""
     _sums: tuple[_Sum, _Sum] = field(default_factory=lambda: (_Sum(1.0), _Sum(-1.0)))
     _term: list[tuple[float, float, float]] = field(default_factory=list)  # score, value, sd
     _begin: float | None = None
@@ -61,15 +61,15 @@ class Cusum:
     _known: float = 0.0
 
     def add(self, time: float, value: float, sd: float) -> Step | None:
-        """Take an innovation.
+        """Add an innovation.
 
         Args:
-            time: of it [s].
-            value: of it [N m].
+            time: time of the innovation [s].
+            value: innovation [N m].
             sd: its expected standard deviation [N m].
 
         Returns:
-            A step, if one is found now; the sums then start from zero.
+            The step, if one is detected now; the sums then start from zero.
         """
         score = max(-CLIP, min(CLIP, value / sd))
         self._correlate(time, score)
@@ -86,9 +86,9 @@ class Cusum:
 
     @property
     def held(self) -> bool:
-        """Whether innovations correlate so much that a sum that leaves zero now gives no alarm.
+        """Whether correlated innovations suppress the alarm of a sum that leaves zero now.
 
-        A step lets them correlate, too, so those before it count.
+        A step makes innovations correlate, too, so the correlation before the step decides.
         """
         return self._known >= TRUSTED and self.correlation > CORRELATED
 

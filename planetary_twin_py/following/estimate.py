@@ -1,4 +1,4 @@
-"""What a follower says: estimates with intervals, and events."""
+"""Results of a follower: estimates with intervals, and events."""
 
 from __future__ import annotations
 
@@ -10,35 +10,38 @@ CONFIDENT = 1.96  # standard deviations of a two-sided interval of 95 %
 
 
 class Estimate(NamedTuple):
-    """One quantity."""
+    """Estimate of one quantity."""
 
     name: str
-    """Of the quantity."""
+    """Name of the quantity."""
     value: float
-    """In SI; NaN unless the status is ESTIMATED."""
+    """Value in SI; NaN unless the status is ESTIMATED."""
     sd: float
     """Standard deviation, in SI."""
     low: float
-    """Low end of the 95 % interval, in SI; NaN unless the status is ESTIMATED."""
+    """Lower end of the 95 % interval, in SI; NaN unless the status is ESTIMATED."""
     high: float
-    """High end, likewise."""
+    """Upper end, likewise."""
     unit: str
     """SI unit; empty for a dimensionless number."""
     status: Status
-    """ESTIMATED; NOT_IDENTIFIABLE from these readings; LEARNING; STALE: no readings any more."""
+    """ESTIMATED; NOT_IDENTIFIABLE from these readings; LEARNING; STALE: readings have ended."""
     remedy: str
-    """What would tell it, or tell it better; empty if that is not known."""
+    """Readings that would determine it, or determine it better; empty if unknown."""
 
 
 def estimated(name: str, value: float, sd: float, unit: str, remedy: str = "") -> Estimate:
     """An estimate that the readings determine.
 
     Args:
-        name: of the quantity.
-        value: in SI.
-        sd: standard deviation, in SI.
+        name: name of the quantity.
+        value: value in SI.
+        sd: standard deviation in SI.
         unit: SI unit.
-        remedy: what would tell it better.
+        remedy: readings that would determine it better.
+
+    Returns:
+        The estimate with its 95 % interval.
     """
     reach = CONFIDENT * sd
     return Estimate(name, value, sd, value - reach, value + reach, unit, "ESTIMATED", remedy)
@@ -50,11 +53,14 @@ def not_identifiable(
     """A quantity that the readings do not determine, or not yet.
 
     Args:
-        name: of the quantity.
-        sd: standard deviation that is left, in SI.
+        name: name of the quantity.
+        sd: remaining standard deviation in SI.
         unit: SI unit.
-        remedy: what would tell it.
+        remedy: readings that would determine it.
         status: NOT_IDENTIFIABLE, LEARNING or STALE.
+
+    Returns:
+        The estimate without value and interval.
     """
     nan = float("nan")
     return Estimate(name, nan, sd, nan, nan, unit, status, remedy)
@@ -62,17 +68,17 @@ def not_identifiable(
 
 @dataclass(frozen=True)
 class Event:
-    """A change that was found."""
+    """A detected change."""
 
     what: str
-    """In words."""
+    """Description."""
     since: float
     """Earliest time at which it may have started [s]."""
     found: float
-    """Time of the last reading that was needed [s]."""
+    """Time of the last reading that was needed to detect it [s]."""
     size: Estimate
-    """How much."""
+    """Size of the change."""
     causes: tuple[str, ...]
-    """What may have caused it; one where the readings tell."""
+    """Possible causes; one if the readings determine it."""
     evidence: str
-    """Figures that support it."""
+    """Figures that support the detection."""

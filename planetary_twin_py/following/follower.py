@@ -1,4 +1,4 @@
-"""Follows a measured gearbox: loss, friction and torque sensors by power, teeth by encoders."""
+"""Estimates friction of a measured gearbox from torques and speeds, and its teeth from encoders."""
 
 from __future__ import annotations
 
@@ -33,21 +33,21 @@ class Readings(NamedTuple):
     time: Array
     """Stamps [s], (n,)."""
     columns: Mapping[str, Array]
-    """By channel, (n,) each in SI: input_speed, input_torque, output_speed, output_torque and
-    oil_temperature, with the signs of gearbox_state; NaN where there is none."""
+    """Readings by channel, (n,) each in SI: input_speed, input_torque, output_speed, output_torque
+    and oil_temperature, with the signs of gearbox_state; NaN where a reading is missing."""
     arrival: Array | None = None
-    """Times of arrival by the receiver's clock [s], (n,); None: not known."""
+    """Times of arrival by the receiver's clock [s], (n,); None if unknown."""
     sender: str = "readings"
-    """Whose clock the stamps are of."""
+    """Name of the device whose clock made the stamps."""
 
 
 class EncoderFormat(NamedTuple):
-    """Encoders on the members of input and output, read by one device."""
+    """Format of two encoders on the input and output members, read by one device."""
 
     counts_per_turn: tuple[int, int]
-    """Of input and output."""
+    """Counts per turn of the input and of the output."""
     period: float
-    """Of the samples [s]."""
+    """Sample period [s]."""
 
 
 class EncoderSamples(NamedTuple):
@@ -56,56 +56,56 @@ class EncoderSamples(NamedTuple):
     sample: NDArray[np.int64]
     """Numbers of the samples, (n,): times in sample periods."""
     counts: NDArray[np.int64]
-    """Of the encoders on the input and the output member, whole turns included, (n, 2)."""
+    """Counts of the input and the output encoder, whole turns included, (n, 2)."""
     format: EncoderFormat | None = None
-    """Of these encoders; None: as stated to the follower."""
+    """Format of the encoders; None: that given to the follower."""
 
 
 @dataclass(frozen=True)
 class Following:
-    """All that a follower can say at one time."""
+    """Estimated state of a gearbox at one time."""
 
     time: float
-    """Stamp of the last reading in it [s]; NaN before the first."""
+    """Stamp of the last reading that is used [s]; NaN before the first."""
     estimates: tuple[Estimate, ...]
-    """Quantities, each with its interval or NOT_IDENTIFIABLE."""
+    """Estimates of all quantities, each with its interval or status."""
     teeth: tuple[ToothState, ...]
     """Teeth that have changed."""
     events: tuple[Event, ...]
-    """Changes, in the order in which they were found."""
+    """Changes, in the order of their detection."""
     counters: dict[str, int]
-    """What has become of readings and samples."""
+    """Numbers of readings and samples that were not used, by reason, and of hunting periods."""
     remarks: tuple[str, ...]
-    """What makes the estimates less certain than they look."""
+    """Reasons why the estimates are less certain than their intervals."""
     operating: tuple[float, float]
     """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
     innovation: Innovation | None
-    """Of the last bin; None before one has both torques and a speed."""
+    """Innovation of the last bin; None before a bin has both torques and a speed."""
     scatter: float
     """Standard deviation of innovations over that of the sensors' noise, at least 1."""
     every_z: tuple[float, ...]
     """Standard deviations with which every tooth stands out in the last hunting period: sun, each
     planet, ring; empty while a baseline is being learned."""
     cells: tuple[LearnedCell, ...]
-    """What is learned of the teeth."""
+    """Learning state of the baselines, by operating cell."""
 
     def __getitem__(self, name: str) -> Estimate:
-        """Estimate of a quantity."""
+        """Return the estimate of the quantity `name`."""
         return next(one for one in self.estimates if one.name == name)
 
 
 @dataclass
 class Follower:
-    """Estimates what the readings of a gearbox determine.
+    """Estimates the state of a gearbox as far as its readings determine it.
 
     The same readings in the same order give the same estimates to the last bit, however they are
-    cut into blocks: nothing depends on the clock of the computer. Only the order of the readings of
-    each sender counts, as long as none lags behind another by 1 s.
+    split into blocks: nothing depends on the clock of the computer. Only the order of the readings
+    of each sender counts, as long as none lags behind another by 1 s.
 
     Args:
-        scene: of the gearbox, with one input.
-        sensors: what is known of the torque sensors.
-        encoders: of the samples; None: the first samples state it, or there are none.
+        scene: scene of the gearbox, with one input.
+        sensors: accuracy of the sensors.
+        encoders: format of the samples; None: the first samples state it, or there are none.
         scale: factors on the readings, by channel, for other units and signs.
         period: length of the bins over which readings are averaged [s].
 
@@ -144,14 +144,14 @@ class Follower:
         return 0 if self._teeth is None else self._teeth.blocks
 
     def add(self, block: Readings | EncoderSamples | VibrationSamples) -> None:
-        """Take readings or samples.
+        """Add readings or samples.
 
         Args:
-            block: any number of them.
+            block: any number of readings or samples.
 
         Raises:
-            InputError: readings cannot be those of the gearbox; names channel, figure and remedy.
-            ValueError: there is an unknown channel, or samples without a format of the encoders.
+            InputError: readings contradict the scene; names channel, value and correction.
+            ValueError: a channel is unknown, or samples have no format.
         """
         if isinstance(block, EncoderSamples):
             self._teeth_of(block).add(block.sample, block.counts)
@@ -180,7 +180,7 @@ class Follower:
         return self._vibration
 
     def _teeth_of(self, block: EncoderSamples) -> TeethFollower:
-        """The follower of the teeth, with the format that the first samples state."""
+        """Return the follower of the teeth, with the format that the first samples state."""
         if self._teeth is None:
             if block.format is None:
                 raise ValueError("encoders: their counts per turn and their period are missing")
@@ -191,7 +191,7 @@ class Follower:
         return self._teeth
 
     def finish(self) -> None:
-        """Use what is still waiting, at the end of a recording.
+        """Process the readings and samples that are held back, at the end of a recording.
 
         Raises:
             InputError: see `add`.
@@ -204,7 +204,7 @@ class Follower:
             self._vibration.judge(self._balance.time, self._balance.turning_between)
 
     def estimate(self, now: float | None = None) -> Following:
-        """What can be said of the gearbox.
+        """Return the estimated state of the gearbox.
 
         Args:
             now: present time by the clock of the stamps [s]; None: that of the last reading.

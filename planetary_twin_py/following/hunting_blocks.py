@@ -1,9 +1,11 @@
-"""Averages the transmission error by the sun's angle, one block for each hunting period.
+"""Averages the transmission error over the sun's angle, one block for each hunting period.
 
-The waveform that all mesh cycles have in common, known from the blocks before, is taken off every
-sample at its own angle: then means over few samples do not scatter with their places in a bin.
-Means over bins follow, less a running mean over 7 mesh cycles, which takes out swings of the load
-and errors of the encoders that are long compared with a tooth, and less the mean over all cycles.
+1. The waveform common to all mesh cycles, known from earlier blocks, is subtracted from every
+   sample at its own angle, so that means over few samples do not depend on their places in a bin.
+2. Samples are averaged over bins.
+3. A running mean over 7 mesh cycles is subtracted: slow changes of the load, and encoder errors
+   that are long compared with a tooth.
+4. The mean over all cycles is subtracted.
 """
 
 from __future__ import annotations
@@ -22,62 +24,62 @@ Array = NDArray[np.float64]
 BINS = 20  # in a mesh cycle
 FINE = 200  # bins of the common waveform in a mesh cycle
 SMOOTHED = 7  # mesh cycles of the running mean
-MARGIN = 4  # mesh cycles beyond a block that its running mean needs
-PRESENT = 0.95  # share of the usual bins within the running mean, below which there is a hole
-COMPLETE = 0.7  # share of the bins of a block, below which it is dropped
-WHOLE = 0.95  # share of its cycles, below which it has no mean
-KEPT = 0.9  # of the common waveform from block to block
-CHANGED = 0.1  # relative change of that waveform, from which on it is learned again
-SLIP = 0.5  # tooth pitches by which the error may jump across a hole
+MARGIN = 4  # mesh cycles on both sides of a block that its running mean needs
+PRESENT = 0.95  # share of the usual bins within the running mean below which there is a gap
+COMPLETE = 0.7  # share of the bins of a block below which it is dropped
+WHOLE = 0.95  # share of its cycles below which a block has no mean
+KEPT = 0.9  # weight of the earlier common waveform in the next one
+CHANGED = 0.1  # relative change of that waveform above which it is learned again
+SLIP = 0.5  # tooth pitches by which the error may jump across a gap
 DELAY = 0.2  # [s] by which packets may be out of order
-BATCH = 0.05  # [s] of samples that are used at once; it changes nothing but the cost
+BATCH = 0.05  # [s] of samples that are processed at once; affects the cost only
 
 
 class HuntingBlock(NamedTuple):
     """One hunting period."""
 
     number: int
-    """Of the hunting period since the start of the counts; decreasing where the sun turns back."""
+    """Number of the hunting period since counting started; decreases while the sun turns back."""
     begin: float
     """[s]."""
     end: float
     """[s]."""
     rate: float
-    """Mesh cycles per second, without sign."""
+    """Mesh cycles per second, a magnitude."""
     deviation: Array
-    """Transmission error by mesh cycle and bin, less what is slow or common to all cycles [m],
+    """Transmission error by mesh cycle and bin, without its slow and its common part [m],
     (cycles, BINS); 0 where it is not measured."""
     measured: NDArray[np.bool_]
-    """Where it is, (cycles, BINS)."""
+    """Where the deviation is measured, (cycles, BINS)."""
     mean: float
     """Mean transmission error [m]; NaN if much of the block is missing."""
     segment: int
-    """Counts the losses of the turns; zeros of the encoders hold within one segment."""
+    """Number of times that the count of turns was lost; encoder zeros are valid in one segment."""
 
 
 class EncoderCounters:
-    """What has become of the samples of the encoders."""
+    """Numbers of encoder samples and hunting periods that were not used, by reason."""
 
     def __init__(self) -> None:
         self.used = 0
         self.late = 0
-        """Of packets that came after `DELAY`."""
+        """Samples of packets that arrived later than `DELAY`."""
         self.doubled = 0
         self.lost = 0
-        """Missing in what is numbered."""
+        """Sample numbers that never arrived."""
         self.dropped_blocks = 0
-        """Hunting periods with too many holes, or in which the train reversed."""
+        """Hunting periods with too many gaps, or in which the train reversed."""
         self.segments = 1
-        """Times that the count of turns restarted."""
+        """Number of times that the count of turns restarted."""
 
 
 class HuntingBlocks:
     """Collects samples of two encoders into blocks.
 
     Args:
-        train: whose input and output have the encoders.
-        counts_per_turn: of both.
-        period: of the samples [s].
+        train: gear train with encoders on its input and output.
+        counts_per_turn: counts per turn of both encoders.
+        period: sample period [s].
     """
 
     def __init__(
@@ -98,14 +100,14 @@ class HuntingBlocks:
         self._sums: Array | None = None  # of the waveform and of the samples, by fine bin
 
     def add(self, sample: Counts, counts: Counts) -> Iterator[HuntingBlock]:
-        """Take samples in the order of their arrival.
+        """Add samples in the order of their arrival.
 
         Args:
-            sample: their numbers, (n,), which are times in periods.
-            counts: of input and output, (n, 2).
+            sample: numbers of the samples, (n,): times in sample periods.
+            counts: counts of the input and output encoders, (n, 2).
 
         Returns:
-            The hunting periods that are complete.
+            The hunting periods that are complete now.
         """
         sample, counts = np.asarray(sample, np.int64), np.asarray(counts, np.int64)
         latest = np.maximum.accumulate(np.concatenate([[self._latest], sample]))
@@ -119,16 +121,16 @@ class HuntingBlocks:
             yield from self._release(self._latest - delay)
 
     def finish(self) -> Iterator[HuntingBlock]:
-        """Use what is still waiting, at the end of a recording.
+        """Process the samples that are held back, at the end of a recording.
 
         Returns:
-            The hunting periods that are complete.
+            The hunting periods that are complete now.
         """
         yield from self._release(self._latest + 1)
         yield from self._blocks(last=True)
 
     def _release(self, until: int) -> Iterator[HuntingBlock]:
-        """Use the samples below a number, a hunting period at a time."""
+        """Process the samples below a number, one hunting period at a time."""
         if not self._waiting or until <= self._released:
             return
         sample = np.concatenate([numbers for numbers, _ in self._waiting])
@@ -170,7 +172,7 @@ class HuntingBlocks:
         yield from self._segments(sample[cut:], counts[cut:])
 
     def _blocks(self, last: bool = False) -> Iterator[HuntingBlock]:
-        """Blocks whose samples and margins are there."""
+        """Blocks whose samples and margins are complete."""
         while self._samples:
             if not last and self._range is not None:
                 newest = self._samples[-1][1].cycle
@@ -204,13 +206,13 @@ class HuntingBlocks:
             self._range = None
 
     def _join(self) -> None:
-        """Make one piece of the samples."""
+        """Concatenate the samples."""
         sample = np.concatenate([numbers for numbers, _ in self._samples])
         columns = zip(*(found for _, found in self._samples), strict=True)
         self._samples = [(sample, ErrorSamples(*(np.concatenate(one) for one in columns)))]
 
     def _block(self, number: int, sample: Counts, found: ErrorSamples) -> HuntingBlock | None:
-        """The block of these samples; None if it has too many holes, or teaches the waveform."""
+        """The block of these samples; None if it has too many gaps or starts a waveform."""
         begin = number * self._cycles
         cycle = found.cycle - begin + MARGIN
         many = self._cycles + 2 * MARGIN
@@ -250,10 +252,10 @@ class HuntingBlocks:
         )
 
     def _learned(self, found: ErrorSamples, cycle: Counts, per_cycle: Counts) -> Array:
-        """The waveform common to all cycles, with that of this block.
+        """The waveform common to all cycles, updated with that of this block.
 
-        Where the sample rate is a multiple of the mesh frequency, a block knows the waveform at few
-        angles only: the others are remembered, unless the waveform has changed.
+        If the sample rate is a multiple of the mesh frequency, a block has the waveform at few
+        angles only. The others are kept from earlier blocks, unless the waveform has changed.
         """
         there = np.flatnonzero(per_cycle)
         means = np.bincount(cycle, found.error)[there] / per_cycle[there]
@@ -279,7 +281,7 @@ def _agree(own: Array, before: Array) -> bool:
 
 
 def _number(cycle: Counts, cycles: int) -> int | None:
-    """Number of the block in which samples begin; None while their direction is not known."""
+    """Number of the block in which samples begin; None while their direction is unknown."""
     moved = np.flatnonzero(cycle != cycle[0])
     if not len(moved):
         return None
@@ -292,7 +294,7 @@ def _rows(found: ErrorSamples, rows: slice | NDArray[np.bool_]) -> ErrorSamples:
 
 
 def _smoothed(total: Array, count: NDArray[np.intp]) -> tuple[Array, NDArray[np.bool_]]:
-    """Means of bins less their running mean, and where both are measured."""
+    """Means of bins minus their running mean, and where both are measured."""
     present = count > 0
     mean = np.asarray(np.where(present, total / np.maximum(count, 1), 0.0))
     mean -= mean[present].mean()  # no large numbers in the sums
@@ -307,14 +309,14 @@ def _smoothed(total: Array, count: NDArray[np.intp]) -> tuple[Array, NDArray[np.
 
 
 def without_common(deviation: Array, measured: NDArray[np.bool_]) -> Array:
-    """Take off what all mesh cycles have in common.
+    """Subtract the part that is common to all mesh cycles.
 
     Args:
-        deviation: by mesh cycle and bin, (cycles, BINS).
+        deviation: deviation by mesh cycle and bin [m], (cycles, BINS).
         measured: where it is measured, (cycles, BINS).
 
     Returns:
-        The deviation, 0 where it is not measured, (cycles, BINS).
+        The deviation [m], 0 where it is not measured, (cycles, BINS).
     """
     common = np.sum(deviation * measured, axis=0) / np.maximum(measured.sum(axis=0), 1)
     return np.asarray((deviation - common) * measured)

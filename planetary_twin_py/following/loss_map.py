@@ -29,21 +29,21 @@ class Loss(NamedTuple):
     """Loss torques at the input [N m], against the rotation."""
 
     teeth: float
-    """Of tooth friction."""
+    """Loss torque of tooth friction."""
     slope: float
     """Its derivative over the magnitude of the torque [-]."""
     rest: float
-    """Of bearings, drag and churning as the scene has them."""
+    """Loss torque of bearings, drag and churning in the scene."""
 
 
 class LossMap:
-    """Loss torque between the points of a table that is filled where it is needed.
+    """Loss torque, interpolated in a table whose points are computed when they are needed.
 
-    Tooth friction over torque is linear in the logarithms of torque and speed, the rest in torque
-    and speed themselves. Beyond the table, the coefficient of friction is that at its edge.
+    Tooth friction over torque is interpolated in the logarithms of torque and speed, the rest in
+    torque and speed. Beyond the table, the coefficient of friction is that at its edge.
 
     Args:
-        scene: of the gearbox, with one input.
+        scene: scene of the gearbox, with one input.
 
     Raises:
         SceneError: the scene has two inputs.
@@ -60,12 +60,12 @@ class LossMap:
         self._tables: dict[tuple[bool, int], tuple[Array, Array]] = {}
 
     def __call__(self, torque: float, speed: float, temperature: float) -> Loss:
-        """Loss at an operating point.
+        """Loss torques at an operating point.
 
         Args:
-            torque: at the input [N m].
-            speed: of the input [rad/s].
-            temperature: of the oil [K].
+            torque: input torque [N m].
+            speed: input speed [rad/s].
+            temperature: oil temperature [K].
 
         Returns:
             The loss torques.
@@ -87,13 +87,13 @@ class LossMap:
         return self._torques, self._speeds, self._heat
 
     def tables(self, drives: bool) -> tuple[Array, Array]:
-        """The whole table for one sign of the power.
+        """The whole table for one direction of power.
 
         Args:
             drives: whether the input drives.
 
         Returns:
-            Loss torque of tooth friction over the torque [-], and that of the rest [N m],
+            Loss torque of tooth friction over the torque [-], and the other loss torque [N m],
             (temperatures, speeds, torques) each.
 
         Raises:
@@ -138,12 +138,12 @@ class LossMap:
         """Simulate an operating point.
 
         Args:
-            torque: at the input [N m].
-            speed: of the input [rad/s], above 0.
-            temperature: of the oil [K].
+            torque: input torque [N m].
+            speed: input speed [rad/s], above 0.
+            temperature: oil temperature [K].
 
         Returns:
-            Loss torques of tooth friction and of the rest [N m].
+            Loss torques of tooth friction and of all other losses [N m].
 
         Raises:
             RunawayError: there is no equilibrium.
@@ -170,13 +170,13 @@ def _share(knots: Array, n: int, value: float) -> float:
 
 
 def loss_map(scene: Scene) -> LossMap:
-    """Losses of a scene, without its faults, runouts and errors.
+    """Losses of a scene, without its faults, runout and errors.
 
     Args:
-        scene: of the gearbox; dynamics play no role.
+        scene: scene of the gearbox; its dynamics have no effect.
 
     Returns:
-        The map, one for all that follow the same scene.
+        The map, shared by all callers with the same scene.
 
     Raises:
         SceneError: the scene has two inputs.

@@ -1,7 +1,7 @@
-"""Reads measured readings and encoder samples from ROS 2 messages, live or from a recording.
+"""Converts ROS 2 messages, live or recorded, to readings and encoder samples.
 
-Fields that a message leaves empty, and NaN, are missing readings. Temperatures are in degrees
-Celsius, as sensor_msgs defines them.
+Empty fields of a message, and NaN, are missing readings. Temperatures are in degrees Celsius, as
+sensor_msgs defines them.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SIDES = "input", "output"
 ZERO_CELSIUS = 273.15  # [K]
 INTERFACES = {"velocity": "speed", "effort": "torque"}
 """Quantities by the interfaces of a joint."""
-SET = 1.0  # [s] by which stamps of blocks may run apart from their numbers; more: a clock was set
+SET = 1.0  # [s] difference of stamps and sample numbers above which a clock must have been set
 
 
 Block = Readings | EncoderSamples | VibrationSamples
@@ -37,12 +37,12 @@ Block = Readings | EncoderSamples | VibrationSamples
 
 
 class Arrived(NamedTuple):
-    """A message that has arrived."""
+    """A received message."""
 
     sender: str
-    """Its topic."""
+    """Topic of the message."""
     kind: str
-    """Its type, one of `KINDS`."""
+    """Type of the message, one of `KINDS`."""
     time: float
     """Time of arrival by the clock of the receiver [s]."""
     message: Any
@@ -62,7 +62,7 @@ class MessageReader:
 
     Args:
         joints: names of the joints of input and output.
-        scale: factors on readings by channel, with which the unit of speeds is checked.
+        scale: factors on readings by channel, for the check of the unit of speeds.
     """
 
     def __init__(self, joints: JointNames, scale: Mapping[str, float] | None = None) -> None:
@@ -80,12 +80,12 @@ class MessageReader:
         """Convert messages.
 
         Args:
-            arrived: the messages of a short time, in the order of their arrival.
+            arrived: messages of a short time, in the order of their arrival.
 
         Returns:
-            Their contents: readings in the same order, in one block where they follow one another
-            with the same sender and channels, then samples of encoders and of vibration as one
-            block each. Which of them comes first changes nothing in what a follower estimates.
+            Readings in the same order, successive ones with the same sender and channels in one
+            block, then samples of encoders and of vibration in one block each. The order of
+            readings and samples does not affect the estimates of a follower.
 
         Raises:
             InputError: a block of samples has another format than the one before, or none; or
@@ -133,7 +133,7 @@ class MessageReader:
         return values
 
     def _samples(self, one: Arrived) -> EncoderSamples:
-        """Samples of a block, numbered from time 0 of the stamps."""
+        """Return the samples of a block, numbered from time 0 of the stamps."""
         block = one.message
         counts = np.array([block.input_counts, block.output_counts], dtype=np.int64)
         found = EncoderFormat(
@@ -205,7 +205,7 @@ def _words(found: EncoderFormat) -> str:
 
 
 def _shaft(message: Any, joint: str) -> dict[str, float]:
-    """What a message holds of a joint, by interface."""
+    """Values of a joint in a message, by interface."""
     names = list(message.joint_names if hasattr(message, "joint_names") else message.name)
     if joint not in names:
         return {}
@@ -229,14 +229,14 @@ def _same_channels(one: _Row, other: _Row) -> bool:
 
 
 def _together(rows: list[_Row]) -> Readings:
-    """The rows as one block."""
+    """Join rows to one block."""
     columns = {name: np.array([row.values[name] for row in rows]) for name in rows[0].values}
     stamp, arrival = (np.array([row[k] for row in rows]) for k in (1, 2))
     return Readings(stamp, columns, arrival, rows[0].sender)
 
 
 def _joined(samples: list[EncoderSamples]) -> EncoderSamples:
-    """The samples as one block."""
+    """Join samples to one block."""
     return EncoderSamples(
         np.concatenate([one.sample for one in samples]),
         np.concatenate([one.counts for one in samples]),

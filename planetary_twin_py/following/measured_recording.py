@@ -15,7 +15,7 @@ from .follower import Readings
 from .measured_messages import JOINTS, KINDS, Arrived, Block, MessageReader
 from .sensors import JointNames
 
-PART = 0.5  # [s] of messages that are converted at once
+PART = 0.5  # [s] of messages that are converted together
 
 
 def read_recording(
@@ -29,8 +29,8 @@ def read_recording(
     Args:
         path: an MCAP file, or a folder with one or more.
         joints: names of the joints and of the topics.
-        scale: factors on readings by channel, with which the unit of speeds is checked.
-        remarks: a line is appended for each damaged part, which is left out.
+        scale: factors on readings by channel, for the check of the unit of speeds.
+        remarks: a line is appended for each damaged part, which is omitted.
 
     Returns:
         Readings of each topic and message type in a row, and samples of encoders and vibration, in
@@ -60,7 +60,7 @@ def read_recording(
 
 
 def _in_parts(arrived: Iterator[Arrived]) -> Iterator[list[Arrived]]:
-    """The messages of each short time."""
+    """Split messages into intervals of `PART`."""
     part: list[Arrived] = []
     for one in arrived:
         if part and not abs(one.time - part[0].time) < PART:

@@ -20,18 +20,18 @@ class MeasuredTable(NamedTuple):
     """Contents of a table."""
 
     readings: Readings
-    """In the order of the rows, which is that of arrival."""
+    """Readings in the order of the rows, which is the order of arrival."""
     ignored: tuple[str, ...]
-    """Headings that are not channels."""
+    """Headings of columns that are not used."""
 
 
 def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
-    """Read a table of torques and speeds, with stamps that need not be equally spaced.
+    """Read a table of torques and speeds; stamps need not be equally spaced.
 
     Args:
-        path: of a CSV or Parquet file. Headings are channels, with units unless they are SI:
-            `input_speed [rpm]`; `time` and perhaps `arrival` [s].
-        names: heading of a channel, where it has another.
+        path: path of a CSV or Parquet file. Headings are names of channels, with units unless these
+            are SI: `input_speed [rpm]`; `time` and, if known, `arrival` [s].
+        names: headings of channels whose columns have other names.
 
     Returns:
         The readings.
@@ -61,8 +61,8 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
     if not columns:
         raise ValueError(
-            f"{path}: has none of the columns {', '.join(CHANNELS)}; name others in `columns` of "
-            "the sensors"
+            f"{path}: has none of the columns {', '.join(CHANNELS)}; state other names under "
+            "`columns` in the file of --sensors"
         )
     if not any((np.isfinite(stamps) & np.isfinite(values)).any() for values in columns.values()):
         raise ValueError(f"{path}: has no row with a time and a reading")
@@ -73,15 +73,15 @@ def read_encoders(path: Path, period: float) -> EncoderSamples:
     """Read a table of the counts of two encoders.
 
     Args:
-        path: of a CSV or Parquet file with the columns input_counts and output_counts, and their
-            number `sample` or their `time` [s].
-        period: of the samples [s].
+        path: path of a CSV or Parquet file with the columns input_counts and output_counts, and
+            either the number `sample` or the `time` [s].
+        period: sample period [s].
 
     Returns:
         The samples, in the order of the rows.
 
     Raises:
-        ValueError: a column is missing or has something else than whole numbers, or the times are
+        ValueError: a column is missing or has values other than whole numbers, or the times are
             not multiples of the period.
         OSError: the file cannot be read.
     """

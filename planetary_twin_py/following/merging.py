@@ -1,11 +1,11 @@
-"""Merges what several senders measure, so that the order of arrival between them does not matter.
+"""Merges the readings of several senders independently of the order of arrival between them.
 
 The middleware keeps the order of the messages of one sender, but not that between senders: a
-recorder hears the same messages in another order. Each sender therefore has bins of its own, which
-depend on its messages alone. A bin is used once all senders of torques and speeds have closed it;
-one that lags by `WAIT` is not waited for. The oil changes its temperature slowly: a reading of a
-sender of its own is used from `OIL_DELAY` after its stamp on, and the first at once if it comes
-with the first bins.
+recorder may receive the same messages in another order. So each sender has bins of its own, which
+depend on its messages only. A bin is used once all senders of torques and speeds have closed it; a
+sender that lags by more than `WAIT` is not waited for. The oil temperature changes slowly: if it
+has a sender of its own, a reading is used from `OIL_DELAY` after its stamp on, and the first one at
+once if it arrives with the first bins.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from .bins import Bin, Bins, Counters, Mean
 Array = NDArray[np.float64]
 
 OIL = "oil_temperature"
-WAIT = 2.0  # [s] by which a sender may lag behind the foremost one
+WAIT = 2.0  # [s] by which a sender may lag behind the newest one
 START = 1.5  # [s] of bins that wait for the first messages of other senders
-FIRST_OIL = 0.5  # [s] after the first bin, within which a temperature is used at once
-OIL_DELAY = 5.0  # [s]
+FIRST_OIL = 0.5  # [s] after the first bin within which a temperature is used at once
+OIL_DELAY = 5.0  # [s] from the stamp of a temperature to its use
 
 
 @dataclass
@@ -40,7 +40,7 @@ class _Shafts:
 
 @dataclass
 class _Oil:
-    """Temperatures of a sender of its own, in the order of their stamps."""
+    """Temperatures of a separate sender, in the order of their stamps."""
 
     read: list[tuple[float, float]] = field(default_factory=list)
 
@@ -49,7 +49,7 @@ class _Oil:
             bisect.insort(self.read, (stamp, value))
 
     def at(self, time: float, first: float) -> float | None:
-        """Last reading up to a time; before that, the earliest one if it is not after `first`."""
+        """Last reading up to a time; if there is none, the earliest one up to `first`."""
         place = bisect.bisect_right(self.read, (time, math.inf))
         if place:
             del self.read[: place - 1]  # times only grow
@@ -61,8 +61,8 @@ class Merge:
     """Sorts the readings of several senders into common bins.
 
     Args:
-        length: of a bin [s].
-        noise: standard deviation of one reading, by channel; below it nothing is an outlier.
+        length: length of a bin [s].
+        noise: standard deviation of one reading, by channel; smaller deviations are no outliers.
     """
 
     def __init__(self, length: float, noise: Mapping[str, float]) -> None:
@@ -70,19 +70,19 @@ class Merge:
         self._noise = noise
         self._shafts: dict[str, _Shafts] = {}
         self._oil: dict[str, _Oil] = {}
-        self._first = 0.0  # [s] begin of the first bin that is used
+        self._first = 0.0  # [s] start of the first bin that is used
         self._used: int | None = None  # number below which all bins are used
 
     def add(self, time: Array, columns: Mapping[str, Array], sender: str) -> Iterator[Bin]:
-        """Take readings of a sender in the order of their arrival.
+        """Add readings of a sender in the order of their arrival.
 
         Args:
             time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where there is none.
-            sender: its name.
+            columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
+            sender: name of the sender.
 
         Returns:
-            The bins that are complete, in order. Bins without torques and speeds are left out.
+            The bins that are complete, in order. Bins without torques and speeds are omitted.
         """
         if sender not in self._shafts and set(columns) == {OIL}:
             self._warm(np.asarray(time, float), np.asarray(columns[OIL], float), sender)
@@ -94,7 +94,7 @@ class Merge:
         yield from self._release(self._complete())
 
     def finish(self) -> Iterator[Bin]:
-        """Use what is still open, at the end of a recording.
+        """Close the open bins, at the end of a recording.
 
         Returns:
             The last bins.
@@ -138,7 +138,7 @@ class Merge:
             yield Bin(number, means if oil is None or OIL in means else means | {OIL: oil})
 
     def _united(self, until: int) -> dict[int, dict[str, Mean]]:
-        """Means of the bins below a number; of two senders of a channel, the first by name."""
+        """Means of the bins below a number; for a channel of two senders, those of the first."""
         found: dict[int, dict[str, Mean]] = {}
         for name in sorted(self._shafts):
             closed = self._shafts[name].closed
@@ -155,7 +155,7 @@ class Merge:
         return found
 
     def _oil_at(self, time: float) -> Mean | None:
-        """Temperature that a bin which begins at `time` has from a sender of its own."""
+        """Temperature of a separate sender for a bin that begins at `time`."""
         for name in sorted(self._oil):
             value = self._oil[name].at(time - OIL_DELAY, self._first + FIRST_OIL)
             if value is not None:

@@ -1,4 +1,4 @@
-"""Writes what a follower said over time as a table."""
+"""Writes the estimates of a follower over time as a table."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from ..recording.tables.table_files import FORMATS
 from .follower import Following
 
 
-def write_notes(path: Path, said: Sequence[Following]) -> None:
-    """Write one row for each time at which the follower was asked.
+def write_notes(path: Path, states: Sequence[Following]) -> None:
+    """Write one row for each estimated state.
 
     Args:
-        path: of the table: .csv, .parquet or .npz.
-        said: what it said, in order.
+        path: path of the table: .csv, .parquet or .npz.
+        states: estimated states, in the order of time.
 
     Raises:
-        ValueError: the format is not known.
+        ValueError: the format is unknown.
         OSError: the file cannot be written.
     """
     kind = path.suffix.removeprefix(".")
     if kind not in FORMATS:
         raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
-    rows = [one for one in said if np.isfinite(one.time)]
+    rows = [one for one in states if np.isfinite(one.time)]
     batch = {"time": np.array([one.time for one in rows])}
     units = {"time": "s", "events": ""}
-    for name, unit in ((one.name, one.unit) for one in said[-1].estimates):
+    for name, unit in ((one.name, one.unit) for one in states[-1].estimates):
         for part in ("value", "low", "high"):
             column = name if part == "value" else f"{name}_{part}"
             batch[column] = np.array([getattr(one[name], part) for one in rows])

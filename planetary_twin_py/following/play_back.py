@@ -1,4 +1,4 @@
-"""Plays recorded readings back to a follower, and notes what it says every second."""
+"""Passes recorded readings to a follower, and returns the estimated state of every second."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from .follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
 from .measured_messages import Block
 
-EVERY = 1.0  # [s] from one note to the next
+EVERY = 1.0  # [s] between two estimated states
 
 
 def play_back(
@@ -18,19 +18,19 @@ def play_back(
     blocks: Sequence[Block],
     samples: EncoderSamples | None,
 ) -> Iterator[Following]:
-    """Feed a follower second by second.
+    """Pass readings to a follower second by second.
 
     Args:
-        follower: without any readings so far.
-        blocks: in the order of their arrival.
-        samples: of the encoders, which are fed beside the readings by their times; None: there
-            are none, or they are among the blocks.
+        follower: follower without readings.
+        blocks: readings in the order of their arrival.
+        samples: encoder samples, which are merged with the readings by time; None: there are none,
+            or they are among the blocks.
 
     Returns:
-        What is said after each second, and at last after all.
+        The estimated state after each second, and after the last reading.
 
     Raises:
-        InputError: readings cannot be those of the gearbox.
+        InputError: readings contradict the scene.
     """
     place, noted = 0, -math.inf
     for block in blocks:
@@ -67,7 +67,7 @@ def _seconds(part: Readings) -> Iterator[tuple[slice, float]]:
 def _feed(
     follower: Follower, encoders: EncoderFormat, samples: EncoderSamples, at: tuple[int, float]
 ) -> int:
-    """Add samples up to a time; return the index of the first one that is left."""
+    """Add samples up to a time; return the index of the first one after it."""
     begin, until = at
     end = begin + int(np.searchsorted(samples.sample[begin:], until / encoders.period))
     follower.add(EncoderSamples(samples.sample[begin:end], samples.counts[begin:end]))

@@ -1,7 +1,7 @@
-"""Recognises the unit of a measured speed by the positions beside it.
+"""Recognises the unit of a measured speed by the measured positions.
 
-Positions may be given within one turn: speed times the time between two readings must be their
-difference, up to whole turns.
+Speed times the time between two readings must equal the difference of their positions, up to whole
+turns, because positions may be reduced to one turn.
 """
 
 from __future__ import annotations
@@ -13,18 +13,18 @@ import numpy as np
 
 from .checks import CHECKED, RPM, InputError
 
-FITS = 0.02  # turns by which it may deviate, median
-FEWEST = 50  # pairs of readings
-LEAST = 0.0025  # turns between two readings, below which they stand still
+FITS = 0.02  # turns, largest median deviation of a unit that fits
+FEWEST = 50  # pairs of readings that are needed
+LEAST = 0.0025  # turns between two readings below which the shaft is at rest
 UNITS = {"rpm": 1.0 / RPM, "deg/s": math.pi / 180.0}
 
 
 @dataclass
 class PositionCheck:
-    """Compares the first seconds of a shaft.
+    """Compares speeds and positions of a shaft in the first seconds.
 
     Args:
-        channel: of the speed.
+        channel: name of the channel of the speed.
         scale: factor on its readings.
     """
 
@@ -34,12 +34,12 @@ class PositionCheck:
     _done: bool = False
 
     def add(self, stamp: float, position: float, speed: float) -> None:
-        """Take a reading.
+        """Add a reading.
 
         Args:
-            stamp: of it [s].
-            position: of the shaft [rad].
-            speed: of the shaft, by definition in rad/s.
+            stamp: stamp of the reading [s].
+            position: position of the shaft [rad].
+            speed: speed of the shaft, by definition in rad/s.
 
         Raises:
             InputError: another unit of the speed fits the positions, and rad/s does not.

@@ -1,4 +1,4 @@
-"""Sensors of a measured gearbox: noise, and how well zero and gain are known."""
+"""Sensors of a measured gearbox: noise, and uncertainty of zero and gain."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..scene.quantity import Section, quantity
 from ..scene.yaml_file import read_section
 from .train import FollowedTrain
 
-FULL_SCALE = 1.6  # of the torque of the operating point, unless it is given
+FULL_SCALE = 1.6  # default full scale over the torque of the operating point
 CLASS = 1e-3  # accuracy class 0.1 of a torque transducer
 
 
@@ -35,15 +35,15 @@ class Encoders(Section):
 
 
 class JointNames(Section):
-    """Where measured joint states are in a recording."""
+    """Names of joints and topics of measured joint states."""
 
     input: str = Field("input_joint", description="joint of the input shaft")
     output: str = Field("output_joint", description="joint of the output shaft")
-    topics: str = Field("joint_states", description="ending of the topics that are read")
+    topics: str = Field("joint_states", description="last part of the names of topics to read")
 
 
 class Sensors(Section):
-    """What is known of the sensors, and of the inertia between them."""
+    """Accuracy of the sensors, and the inertia between them."""
 
     input_torque: TorqueSensor = Field(TorqueSensor(), description="at the input shaft")
     output_torque: TorqueSensor = Field(TorqueSensor(), description="at the output shaft")
@@ -79,7 +79,7 @@ def read_sensors(path: Path) -> Sensors:
     """Read a YAML file with fields of `Sensors`.
 
     Args:
-        path: of the file.
+        path: path of the file.
 
     Returns:
         The sensors.
@@ -92,11 +92,14 @@ def read_sensors(path: Path) -> Sensors:
 
 
 def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
-    """Standard deviation of one reading of both torques [N m], the second at the output.
+    """Noise of one reading of each torque sensor.
 
     Args:
-        sensors: what is known of the sensors.
-        train: the train between them.
+        sensors: accuracy of the sensors.
+        train: gear train between them.
+
+    Returns:
+        Standard deviations at the input and at the output [N m].
     """
     first, second = _full_scales(train)
     return (
@@ -106,11 +109,14 @@ def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
 
 
 def torque_zero(sensors: Sensors, train: FollowedTrain) -> float:
-    """Standard deviation of the sum of both zeros, referred to the input [N m].
+    """Uncertainty of the sum of both zeros, referred to the input.
 
     Args:
-        sensors: what is known of the sensors.
-        train: the train between them.
+        sensors: accuracy of the sensors.
+        train: gear train between them.
+
+    Returns:
+        The standard deviation [N m].
     """
     first, second = _full_scales(train)
     here = sensors.input_torque.zero or 0.5 * CLASS * first
@@ -119,10 +125,13 @@ def torque_zero(sensors: Sensors, train: FollowedTrain) -> float:
 
 
 def torque_gain(sensors: Sensors) -> float:
-    """Standard deviation of the difference of both gains.
+    """Uncertainty of the difference of both gains.
 
     Args:
-        sensors: what is known of the sensors.
+        sensors: accuracy of the sensors.
+
+    Returns:
+        The standard deviation.
     """
     return float((sensors.input_torque.gain**2 + sensors.output_torque.gain**2) ** 0.5)
 

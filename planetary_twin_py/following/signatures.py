@@ -1,7 +1,7 @@
-"""What a cracked tooth does to the averaged transmission error, computed with the model.
+"""Signatures: the effect of a cracked tooth on the averaged transmission error, from the model.
 
-The model runs with a crack of one tooth of the sun, of each planet and of the ring. The others
-follow by shifts of whole mesh cycles: tooth t of a gear meets t cycles later than tooth 0.
+The model runs with one cracked tooth of the sun, of each planet and of the ring. Signatures of the
+other teeth are shifted by whole mesh cycles: tooth t of a gear meets t cycles after tooth 0.
 """
 
 from __future__ import annotations
@@ -19,32 +19,32 @@ from .transmission_error import model_error
 
 Array = NDArray[np.float64]
 
-LOSS = 0.05  # of stiffness, for which a signature is computed
-CYCLES = 280  # mesh cycles at least that are averaged
+LOSS = 0.05  # loss of stiffness for which a signature is computed
+CYCLES = 280  # smallest number of mesh cycles that are averaged
 POINTS = 80  # samples in a mesh cycle
-SETTLING = 1.0  # [s], in which vibration of the couplings decays
+SETTLING = 1.0  # [s] in which vibration of the couplings decays
 TOLERANCE = 1e-5
 STEP = 0.05  # relative change of the torque for the compliance
 
 
 class Signatures(NamedTuple):
-    """At one torque and speed."""
+    """Signatures at one torque and speed."""
 
     torque: float
-    """At the input [N m]."""
+    """Input torque [N m]."""
     gears: dict[str, Array]
-    """By gear: deviation of tooth 0 per unit of stiffness loss [m], (teeth, BINS)."""
+    """Deviation by tooth 0 per unit of stiffness loss, by gear [m], (teeth, BINS)."""
     compliance: float
-    """Change of the mean transmission error over that of the torque [m/(N m)]."""
+    """Derivative of the mean transmission error over the torque [m/(N m)]."""
 
 
 def signatures(scene: Scene, torque: float, speed: float) -> Signatures:
     """Compute the signatures of all gears of a scene.
 
     Args:
-        scene: of the gearbox; its own faults are left out.
-        torque: at the input [N m].
-        speed: of the input [rad/s].
+        scene: scene of the gearbox; its own faults are omitted.
+        torque: input torque [N m].
+        speed: input speed [rad/s].
 
     Returns:
         The signatures.

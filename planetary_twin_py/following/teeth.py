@@ -1,4 +1,4 @@
-"""Follows the teeth of a gearbox by two encoders: cracks, wear, compliance and play."""
+"""Estimates changes of teeth from two encoders: cracks, wear, compliance and play."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from .transmission_error import Counts
 
 Array = NDArray[np.float64]
 
-WINDOWS = 1, 4, 16, 64  # blocks that are judged together
-UNCERTAIN = 0.15  # relative standard deviation of a size: runouts move load between teeth
-UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a change
-SPEED_STEP = 0.3  # relative distance of the speeds for which signatures are computed
+WINDOWS = 1, 4, 16, 64  # numbers of blocks that are judged together
+UNCERTAIN = 0.15  # relative standard deviation of a size: runout shifts load between teeth
+UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a changed tooth
+SPEED_STEP = 0.3  # relative difference of the speeds for which signatures are computed
 
 
 class ToothState(NamedTuple):
@@ -37,15 +37,15 @@ class ToothState(NamedTuple):
     gear: str
     """"sun", "planet_1", ..., "ring"."""
     tooth: int
-    """0 meets planet 1 first, counted from where the encoders start."""
+    """Number of the tooth; tooth 0 meets planet 1 first after the encoders start."""
     loss: Estimate
-    """Loss of stiffness of a pair with this tooth, if it is a crack."""
+    """Loss of stiffness of a pair with this tooth, if the change is a crack."""
     z: float
-    """Standard deviations that it stands out with."""
+    """Amount of its signature in standard deviations."""
     kinds: tuple[str, ...]
-    """What it may be; one if the load has decided."""
+    """Possible kinds of change; one if a change of load has distinguished them."""
     candidates: tuple[str, ...]
-    """Teeth that explain the readings as well, itself included."""
+    """Teeth that explain the readings equally well, including this one."""
 
 
 class _Judged(NamedTuple):
@@ -63,10 +63,10 @@ class TeethFollower:
     """Learns a baseline for each operating cell, and finds teeth that change.
 
     Args:
-        scene: of the gearbox, with one input.
-        counts_per_turn: of the encoders on the input and the output member.
-        period: of their samples [s].
-        learning: hunting periods of a baseline.
+        scene: scene of the gearbox, with one input.
+        counts_per_turn: counts per turn of the encoders on the input and the output member.
+        period: sample period [s].
+        learning: number of hunting periods of a baseline.
     """
 
     scene: Scene
@@ -74,16 +74,16 @@ class TeethFollower:
     period: float
     learning: int = 24
     events: list[Event] = field(init=False, default_factory=list)
-    """Changes found so far."""
+    """Detected changes."""
     teeth: tuple[ToothState, ...] = field(init=False, default=())
     """Teeth that have changed."""
     blocks: int = field(init=False, default=0)
-    """Hunting periods so far."""
+    """Number of hunting periods that have been judged."""
     every_z: tuple[float, ...] = field(init=False, default=())
-    """Standard deviations with which every tooth stands out in the last hunting period; empty
-    while a baseline is being learned."""
+    """Amount of the signature of every tooth in the last hunting period, in standard deviations;
+    empty while a baseline is being learned."""
     outstanding: float = field(init=False, default=-math.inf)
-    """Likewise of the tooth that stands out most in any window that ends with it."""
+    """The largest such amount of any tooth in any window that ends with that period."""
 
     def __post_init__(self) -> None:
         first, second = self.counts_per_turn
@@ -107,25 +107,25 @@ class TeethFollower:
 
     @property
     def counters(self) -> EncoderCounters:
-        """What has become of the samples."""
+        """Numbers of samples that were not used, by reason."""
         return self._hunting.counters
 
     @property
     def cells(self) -> tuple[LearnedCell, ...]:
-        """What is learned, by operating cell."""
+        """Learning state of each operating cell."""
         return tuple(cell.summary for cell in self._cells)
 
     def add(self, sample: Counts, counts: Counts) -> None:
-        """Take samples in the order of their arrival.
+        """Add samples in the order of their arrival.
 
         Args:
-            sample: their numbers, (n,), which are times in periods.
-            counts: of both encoders, (n, 2).
+            sample: numbers of the samples, (n,): times in sample periods.
+            counts: counts of both encoders, (n, 2).
         """
         self._pending.extend(self._hunting.add(sample, counts))
 
     def finish(self) -> None:
-        """Use what is still waiting, at the end of a recording."""
+        """Process the samples that are held back, at the end of a recording."""
         self._pending.extend(self._hunting.finish())
 
     def judge(self, until: float, torque: Callable[[float, float], float]) -> None:
@@ -133,7 +133,8 @@ class TeethFollower:
 
         Args:
             until: time up to which the torque is known [s].
-            torque: mean at the input between two times [N m]; NaN: not measured, then the scene's.
+            torque: function of two times [s] that returns the mean input torque between them
+                [N m]; NaN if it was not measured: then the torque of the scene is used.
         """
         while self._pending and self._pending[0].end <= until:
             block = self._pending.popleft()
@@ -175,7 +176,7 @@ class TeethFollower:
         return len(self._cells) - 1
 
     def _bank(self, torque: float, speed: float) -> Bank:
-        """Signatures at a similar speed; they grow with the torque, whose sign chooses flanks."""
+        """Signatures at a similar speed; they scale with the torque, whose sign selects flanks."""
         train, point = self.train, self.scene.operating_point
         step = round(math.log(speed / train.speed) / math.log1p(SPEED_STEP))
         near = min(train.speed * (1.0 + SPEED_STEP) ** step, train.speed_limit)
@@ -185,7 +186,7 @@ class TeethFollower:
         return self._banks[key]
 
     def _decide(self, block: HuntingBlock, cell: Baseline) -> None:
-        """Look for teeth that stand out in any window."""
+        """Search for changed teeth in any window."""
         assert cell.bank is not None  # set with the cell
         own = cell.sd[cell.bank.gear_of]
         products = np.array([one.products for one in self._recent])[::-1].cumsum(axis=0)
@@ -217,7 +218,7 @@ class TeethFollower:
             self._forget()
 
     def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, torque: float) -> None:
-        """Take the teeth of a search as the state; a new one is an event."""
+        """Use the teeth of a search as the state; a new tooth is an event."""
         bank = cell.bank
         assert bank is not None  # set with the cell
         scale, uncertain = self._scale(bank, torque)
@@ -263,12 +264,12 @@ class TeethFollower:
         )
 
     def _forget(self) -> None:
-        """Nothing stands out; teeth found before stay named until the window is full."""
+        """No tooth has changed; teeth named before remain until the window is full."""
         if len(self._recent) >= WINDOWS[2]:
             self.teeth, self._amounts = (), {}
 
     def _scale(self, bank: Bank, torque: float) -> tuple[float, float]:
-        """Signatures of unit loss per that of the bank, and the uncertainty of a size."""
+        """Factor on the signatures of the bank, and the uncertainty of a size."""
         line = self.compliance.present
         grown = torque / bank.torque
         if line is None or not line.significant:
@@ -276,7 +277,7 @@ class TeethFollower:
         return grown * line.slope / bank.compliance, UNCERTAIN
 
     def _follow_known(self, block: HuntingBlock, torque: float, place: int) -> None:
-        """Amounts of known teeth at a load that is being learned, against the nearest baseline."""
+        """Amounts of known teeth at a load that is being learned, from the nearest baseline."""
         near = [
             cell
             for cell in self._cells
@@ -295,7 +296,7 @@ class TeethFollower:
         at: tuple[Baseline, int],
         torque: float,
     ) -> None:
-        """Amount of every known tooth in one block, the others taken off."""
+        """Amount of every known tooth in one block, with the others subtracted."""
         cell, place = at
         assert cell.bank is not None  # set with the cell
         cycles = len(residual)
@@ -311,7 +312,7 @@ class TeethFollower:
         self.teeth = tuple(self._with_kinds(state, cell.bank) for state in self.teeth)
 
     def _with_kinds(self, state: ToothState, bank: Bank) -> ToothState:
-        """A state, and its event, with what it may be now."""
+        """A state and its event, with the kinds that are possible now."""
         tooth = bank.teeth.index((state.gear, state.tooth))  # type: ignore[arg-type]
         kinds = self._kinds[tooth].kinds
         if kinds != state.kinds and tooth in self._place:
@@ -320,7 +321,7 @@ class TeethFollower:
         return state._replace(kinds=kinds)
 
     def _take_off_known(self, cell: Baseline, place: int) -> None:
-        """A baseline learned with a changed tooth is to be that without."""
+        """Subtract a changed tooth from a baseline that was learned with it."""
         assert cell.bank is not None and cell.mean is not None  # it has been learned
         for tooth, kind in self._kinds.items():
             if tooth in self._amounts:
@@ -328,15 +329,15 @@ class TeethFollower:
                 cell.mean -= kind.amount(place) * cell.bank.deviation(tooth, len(cell.mean))
 
     def remarks(self) -> Iterator[str]:
-        """What makes the estimates less certain, a line each."""
+        """Reasons why the estimates are less certain, one line each."""
         if self._unmeasured:
-            yield "encoders: without readings of the torque, that of the scene is assumed"
+            yield "encoders: the torque is not measured: that of the scene is assumed"
         if self._cells and not any(cell.learned for cell in self._cells):
             most = max(cell.count for cell in self._cells)
             yield f"teeth: {most} of {self.learning} hunting periods of a baseline are learned"
         if self.counters.dropped_blocks:
             dropped = self.counters.dropped_blocks
-            yield f"encoders: {dropped} hunting periods have holes or reversals"
+            yield f"encoders: {dropped} hunting periods with gaps or reversals are not used"
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and play since the baseline."""

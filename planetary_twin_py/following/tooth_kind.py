@@ -1,7 +1,7 @@
-"""Tells a crack from wear of the same tooth, by the load.
+"""Distinguishes a crack from wear of the same tooth, by a change of load.
 
-At one load their signatures are similar. That of a crack grows with the torque, that of wear does
-not: mean amounts at different loads are compared with both courses.
+At one load their signatures are similar. That of a crack is proportional to the torque, that of
+wear is constant: mean amounts at different loads are compared with both laws.
 """
 
 from __future__ import annotations
@@ -11,51 +11,54 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-BETTER = 3.0  # units of log-likelihood
+BETTER = 3.0  # units of log-likelihood by which one kind must be better than the other
 CRACK, WEAR = "crack", "wear"
 
 
 @dataclass
 class ToothKind:
-    """Amounts of the signature of one tooth at some loads.
+    """Amounts of the signature of one tooth at several loads.
 
     Args:
-        learning: blocks in the baseline, which all amounts at a load have in common.
+        learning: number of blocks in the baseline, whose error all amounts at a load share.
     """
 
     learning: int
     _amounts: dict[int, list[tuple[float, float, float]]] = field(default_factory=dict)
 
     def add(self, cell: int, torque: float, amount: float, sd: float) -> None:
-        """Take the amount in one block.
+        """Add the amount in one block.
 
         Args:
-            cell: operating cell.
-            torque: of the block [N m].
-            amount: of the signature.
-            sd: its standard deviation.
+            cell: index of the operating cell.
+            torque: input torque of the block [N m].
+            amount: amount of the signature.
+            sd: standard deviation of the amount.
         """
         self._amounts.setdefault(cell, []).append((torque, amount, sd))
 
     def amount(self, cell: int) -> float:
-        """Mean amount in a cell; 0 without any.
+        """Mean amount in a cell.
 
         Args:
-            cell: operating cell.
+            cell: index of the operating cell.
+
+        Returns:
+            The mean; 0 without any block.
         """
         found = self._amounts.get(cell)
         return float(np.mean([amount for _, amount, _ in found])) if found else 0.0
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """What it may be, the more likely first; one if the loads tell."""
+        """Possible kinds, the more likely one first; one kind if the loads distinguish them."""
         misfits = self._misfits()
         order = sorted(misfits, key=lambda kind: misfits[kind])
         apart = 0.5 * (misfits[order[1]] - misfits[order[0]])
         return (order[0],) if apart > BETTER else (CRACK, WEAR)
 
     def _misfits(self) -> Mapping[str, float]:
-        """Sums of squares of both courses."""
+        """Sums of squares of the residuals of both laws, by kind."""
         rows = []
         for found in self._amounts.values():
             torque, amount, sd = np.array(found).T

@@ -1,4 +1,4 @@
-"""Scores of all teeth: how much of its signature a deviation holds.
+"""Scores of all teeth: the amount of each signature in a deviation.
 
 e_j = s_j r / s_j s_j over the measured bins is the least-squares estimate of the loss of tooth j
 alone. All teeth of a gear are scored at once: the deviation is folded to the period of the gear,
@@ -23,7 +23,7 @@ class Tooth(NamedTuple):
     gear: str
     """"sun", "planet_1", ..., "ring"."""
     number: int
-    """0 is the one that meets planet 1 first, counted from where the encoders start."""
+    """Number of the tooth; tooth 0 meets planet 1 first after the encoders start."""
 
     def __str__(self) -> str:
         return f"{self.gear} tooth {self.number}"
@@ -48,14 +48,14 @@ class Bank:
         }
 
     def score(self, deviation: Array, measured: Array | NDArray[np.bool_]) -> tuple[Array, Array]:
-        """Products of a deviation with the signatures, and of these with themselves.
+        """Scalar products of a deviation with the signatures, and of these with themselves.
 
         Args:
-            deviation: by mesh cycle and bin [m], (cycles, BINS); 0 where it is not measured.
-            measured: where it is, or in how many blocks, (cycles, BINS).
+            deviation: deviation by mesh cycle and bin [m], (cycles, BINS); 0 where not measured.
+            measured: where it is measured, or in how many blocks, (cycles, BINS).
 
         Returns:
-            s_j r and s_j s_j over what is measured [m^2], (teeth,) each.
+            s_j r and s_j s_j over the measured bins [m^2], (teeth,) each.
         """
         products: list[Array] = []
         squares: list[Array] = []
@@ -74,11 +74,11 @@ class Bank:
         """Signature of a tooth over a hunting period.
 
         Args:
-            tooth: its index in `teeth`.
+            tooth: index of the tooth in `teeth`.
             cycles: mesh cycles of the hunting period.
 
         Returns:
-            Deviation per unit of loss [m], (cycles, BINS).
+            Deviation per unit of stiffness loss [m], (cycles, BINS).
         """
         gear, number = self.teeth[tooth]
         signature = np.roll(self.gears[gear], number, axis=0)

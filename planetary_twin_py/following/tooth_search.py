@@ -1,7 +1,7 @@
-"""Finds which teeth explain a residual: orthogonal matching pursuit over all teeth (Pati, Rezaiifar
-and Krishnaprasad 1993, 27th Asilomar Conf., 40-44), with a joint fit of those that are found.
+"""Finds the teeth that explain a residual: orthogonal matching pursuit over all teeth (Pati,
+Rezaiifar and Krishnaprasad 1993, 27th Asilomar Conf., 40-44), with a joint fit of those found.
 
-A joint fit of all teeth at once would be several times noisier.
+A joint fit of all teeth would be several times noisier.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from .tooth_scores import Bank
 
 Array = NDArray[np.float64]
 
-ALARM = 6.5  # standard deviations of a tooth that is found
-FURTHER = 5.0  # of a further one
-SHARE = 0.3  # of the first one, below which a further one may be its misfit: the signatures of wear
-# and of a crack correlate by 0.97, so a quarter of the one is left over by the other
-KEPT = 3.0  # of any in the joint fit
+ALARM = 6.5  # standard deviations above which the first tooth is found
+FURTHER = 5.0  # standard deviations above which a further tooth is found
+SHARE = 0.3  # of the first one, below which a further one may be a misfit of the first: signatures
+# of wear and of a crack correlate by 0.97, so each leaves a quarter of the other as residual
+KEPT = 3.0  # standard deviations below which a tooth is removed from the joint fit
 SIMILAR = 3.0  # units of log-likelihood within which teeth cannot be distinguished
-MOST = 6  # teeth
+MOST = 6  # teeth that are found at most
 
 
 class Residual(NamedTuple):
@@ -31,7 +31,7 @@ class Residual(NamedTuple):
     total: Array
     """[m], (cycles, BINS)."""
     blocks: Array
-    """Blocks in it, (cycles, BINS)."""
+    """Number of blocks in the sum, (cycles, BINS)."""
     sd: Array
     """Standard deviation of the loss of each tooth alone, at the torque of the bank, (teeth,)."""
 
@@ -42,14 +42,13 @@ class Found(NamedTuple):
     tooth: int
     """Index in the bank."""
     amount: float
-    """Signatures of unit loss at the torque of the bank."""
+    """Amount of its signature of unit loss, at the torque of the bank."""
     sd: float
-    """Its standard deviation."""
+    """Standard deviation of the amount."""
     z: float
-    """Standard deviations that it alone stands out with, the other teeth that are found taken
-    off."""
+    """Amount of this tooth alone in standard deviations, with the other found teeth subtracted."""
     candidates: tuple[int, ...]
-    """Teeth that explain it as well, itself included, the best first."""
+    """Teeth that explain it equally well, including this one, the best first."""
 
 
 def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
@@ -57,10 +56,10 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
 
     Args:
         bank: signatures of all teeth.
-        residual: of one or more blocks.
+        residual: residual of one or more blocks.
 
     Returns:
-        The teeth, the most certain one first; empty if none stands out.
+        The teeth, the most certain one first; empty if none is significant.
     """
     residual = _with_noise(bank, residual)
     active: list[int] = []
@@ -87,10 +86,10 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
 
 
 def _with_noise(bank: Bank, residual: Residual) -> Residual:
-    """The residual with the scatter that its teeth have once the best one is taken off.
+    """The residual with the scatter of its teeth after the best one is subtracted.
 
-    Few teeth change, so the median of all gives the noise: blocks may be noisier than those of the
-    baseline.
+    Few teeth change, so the median over all teeth gives the noise. Blocks may be noisier than those
+    of the baseline.
     """
     best = int(np.argmax(_z(bank, residual.total, residual)))
     left = _left(bank, residual, [best], _fit(bank, residual, [best])[0])
@@ -99,7 +98,7 @@ def _with_noise(bank: Bank, residual: Residual) -> Residual:
 
 
 def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
-    """Each tooth with those like it; of these the best one replaces it."""
+    """Each tooth with its similar ones, of which the best one replaces it."""
     cycles = len(residual.total)
     amounts, sds = _fit(bank, residual, active)
     left = _left(bank, residual, active, amounts)

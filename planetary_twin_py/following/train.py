@@ -1,4 +1,4 @@
-"""What the followers need to know of a gear train: ratios, inertia, and when teeth meet again."""
+"""Data of a gear train that the followers need: ratios, inertia, hunting period."""
 
 from __future__ import annotations
 
@@ -19,22 +19,21 @@ class FollowedTrain(NamedTuple):
     inertia: float
     """Moment of inertia of the whole train with motor and load, referred to the input [kg m^2]."""
     torque: float
-    """Magnitude of the input torque of the scene [N m]; a small share of its limit where that is
-    zero."""
+    """Magnitude of the input torque of the scene [N m]; a tenth of its limit if it is zero."""
     speed: float
-    """Magnitude of the input speed of the scene [rad/s]; likewise."""
+    """Magnitude of the input speed of the scene [rad/s]; a tenth of its limit if it is zero."""
     speed_limit: float
     """Largest speed of the input [rad/s]."""
     oil_temperature: float
-    """Of the scene [K]."""
+    """Oil temperature of the scene [K]."""
     members: tuple[str, str]
-    """Driven by the motor, and coupled to the load."""
+    """The member that the motor drives, and the member that drives the load."""
     cycles: Fraction
     """Mesh cycles per turn of the input, signed."""
     twist: tuple[Fraction, Fraction]
     """Turns of the sun (the ring, if the sun is held) per turn of the input and of the output."""
     lever: float
-    """Base radius of that gear [m], which makes a twist a transmission error."""
+    """Base radius of that gear [m], which converts a twist to a transmission error."""
     teeth: dict[str, int]
     """Number of teeth by the name of the gear, "sun", "planet_1", ..., "ring"."""
 
@@ -45,10 +44,10 @@ class FollowedTrain(NamedTuple):
 
 
 def followed_train(scene: Scene) -> FollowedTrain:
-    """Collect what the followers need to know of a scene.
+    """Collect the data of a scene that the followers need.
 
     Args:
-        scene: of the gearbox, with one input.
+        scene: scene of the gearbox, with one input.
 
     Returns:
         The train.
@@ -79,7 +78,7 @@ def followed_train(scene: Scene) -> FollowedTrain:
 
 
 def _inertia(scene: Scene, ratios: dict[str, Fraction]) -> float:
-    """Of all that turns, referred to the input [kg m^2]."""
+    """Moment of inertia of all bodies, referred to the input [kg m^2]."""
     radii = base_radii(scene)
     copies = {"planet": scene.gearset.planets}
     parts = {

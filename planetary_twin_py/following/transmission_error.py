@@ -1,8 +1,8 @@
 """Transmission error over mesh cycles: from counts of two encoders, and from the model.
 
 TE = r (A theta_i - B theta_o), with A and B the turns of the sun per turn of input and output and r
-the base radius of the sun. Position and error are computed from whole numbers: a ratio that is
-rounded at the fifth digit would let the error drift by tens of micrometres a minute.
+the base radius of the sun. Position and error are computed in integers: a ratio rounded at the
+fifth digit would let the error drift by tens of micrometres per minute.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .train import FollowedTrain, followed_train
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 
-MORE = 2.0  # mesh cycles beyond those that are used, as vibration moves the angles
+MORE = 2.0  # mesh cycles beyond those that are used, because vibration changes the angles
 
 
 class ErrorSamples(NamedTuple):
@@ -29,17 +29,17 @@ class ErrorSamples(NamedTuple):
     cycle: Counts
     """Whole mesh cycles of the sun's angle, (n,)."""
     part: Array
-    """Part of a mesh cycle beyond them, from 0 to 1, (n,)."""
+    """Remaining fraction of a mesh cycle, from 0 to 1, (n,)."""
     error: Array
-    """Transmission error [m], (n,); its zero is that of the encoders."""
+    """Transmission error [m], (n,), relative to the zeros of the encoders."""
 
 
 class ErrorOfCounts:
     """Converts counts to transmission error.
 
     Args:
-        train: the encoders are on its input and output members.
-        counts_per_turn: of both encoders.
+        train: gear train with encoders on its input and output members.
+        counts_per_turn: counts per turn of both encoders.
     """
 
     def __init__(self, train: FollowedTrain, counts_per_turn: tuple[int, int]) -> None:
@@ -52,10 +52,10 @@ class ErrorOfCounts:
         self._size = 2.0 * math.pi * train.lever / self._common
 
     def __call__(self, counts: Counts, zero: tuple[int, int]) -> ErrorSamples:
-        """Convert.
+        """Convert counts.
 
         Args:
-            counts: of input and output, (n, 2).
+            counts: counts of the input and output encoders, (n, 2).
             zero: counts at which the error is zero.
 
         Returns:
@@ -78,15 +78,15 @@ def model_error(
     """Transmission error of a scene in steady running, at equal steps of the sun's angle.
 
     Args:
-        scene: its operating point is used; a quasi-static one runs with dynamics.
+        scene: scene at its operating point; torsional dynamics replace quasi-static running.
         cycles: number of mesh cycles.
-        points: samples in each of them.
-        settling: time before them [s].
-        tolerance: of the integrator.
+        points: samples in a mesh cycle.
+        settling: time before the mesh cycles [s].
+        tolerance: relative tolerance of the integrator.
 
     Returns:
-        Number of the first step of 1/points mesh cycles since the start, and transmission error
-        [m], (cycles * points,), from there on; steps are counted backwards where the sun turns so.
+        Number of the first step of 1/points mesh cycles since the start, and the transmission error
+        from there on [m], (cycles * points,). Steps decrease if the sun turns backwards.
     """
     train = followed_train(scene)
     if scene.dynamics == "quasi_static":

@@ -6,12 +6,10 @@ motion is a separate mode. Stiffness is not projected on the line of action.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from .modes import modes_of
 from .springs import Rows, Spring, SpringModel
 
 
@@ -54,18 +52,3 @@ def printed_model(data: PrintedSet) -> SpringModel:
         springs.append(Spring("planet_ring", data.planet_ring, row({planet: 1.0, "ring.u": -1.0})))
     mass = np.array([data.sun, *[data.planet] * data.planets, data.ring, data.carrier])
     return SpringModel(coordinates, mass, tuple(springs))
-
-
-def stiffness_sweep(data: PrintedSet, sun_planet: Sequence[float]) -> np.ndarray:
-    """Natural frequencies against the sun-planet stiffness, as in their Fig. 13.
-
-    Args:
-        data: inertias and the other stiffnesses.
-        sun_planet: stiffnesses of the sun-planet meshes [N/m], (values,).
-
-    Returns:
-        Natural frequencies [Hz], (values, modes).
-    """
-    return np.array(
-        [modes_of(printed_model(data._replace(sun_planet=k))).frequencies for k in sun_planet]
-    )

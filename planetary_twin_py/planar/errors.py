@@ -1,7 +1,7 @@
 """Errors of a scene as displacements of toothings and pins.
 
-A toothing that is off its axis acts as if its gear were displaced by the same vector. Thicker teeth
-close the play on both sides of a mesh.
+An eccentric toothing acts as if its gear were displaced by the same vector. Thicker teeth reduce
+the play on both sides of a mesh.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ class Displacements(NamedTuple):
     axis: np.ndarray
     """Displacements x, y of the bearings of sun, ring and carrier [m], (P, 3, 2)."""
     closing: np.ndarray
-    """By which thicker teeth close the play of each mesh on either side [m], (meshes,)."""
+    """Reduction of the play of each mesh by thicker teeth, on either side [m], (meshes,)."""
 
 
 def displacements(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> Displacements:
     """Errors of a scene.
 
     Args:
-        scene: has the errors.
-        rows: of its gear set.
-        turns: of the first motor; a second motor is at rest, (P,).
+        scene: scene with the errors.
+        rows: rows of its gear set.
+        turns: turns of the first motor, (P,); a second motor is at rest.
 
     Returns:
         The displacements, in the frame of the carrier.
@@ -66,12 +66,12 @@ def _in_carrier_frame(offset: Offset, carrier: np.ndarray) -> np.ndarray:
 
 
 def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> np.ndarray:
-    """Displacements by runout; the angles at the start are those of `dynamics.form_errors`."""
+    """Displacements by runout, with the start angles of `dynamics.form_errors`."""
     runout, errors, teeth = scene.mesh.runout, scene.errors, scene.gearset.tooth_numbers
     carrier, first = angle["carrier"], scene.gearset.planet_angles[0]
     sun_phases, ring_phases = scene_phases(scene)
     found = np.zeros((len(carrier), len(rows.coordinates)))
-    # Of the phase of a ring mesh, what does not come from the position of the planet.
+    # The part of the phase of a ring mesh that is independent of the planet's position.
     offset = 2.0 * np.pi * float(ring_phases[0]) / teeth.ring
     for gear, size, start in (
         ("sun", runout.sun, first + math.pi + errors.sun_runout_phase),

@@ -1,9 +1,9 @@
-"""How planets share the static load, position by position.
+"""Static load sharing of the planets at several positions.
 
-Meshes push along the line of action with their stiffness at that position, both flanks of a tooth
-if both touch; bearings yield, with clearance. Friction, inertia and faults of teeth are left out.
-With all teeth in contact and equal stiffnesses the shares are those of Singh 2005 and Ligata,
-Kahraman and Singh 2008, on epicyclic load sharing.
+Meshes have their stiffness at each position, on both flanks of a tooth if both touch; bearings have
+stiffness and clearance. Friction, inertia and faults of teeth are omitted. With all teeth in
+contact and equal stiffnesses, the shares are those of Singh 2005 and Ligata, Kahraman and Singh
+2008, on epicyclic load sharing.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
 from .statics import Equilibrium, Springs, equilibrium
 from .weight import weight_forces
 
-POSITIONS = 64  # in a mesh cycle, where nothing lasts longer
-PER_CYCLE = 8  # where something does
+POSITIONS = 64  # in a mesh cycle, if the load repeats with it
+PER_CYCLE = 8  # in a mesh cycle, if the load repeats after several cycles
 MOST_CYCLES = 2000
 SIDES = (DRIVE, COAST)
 
@@ -36,7 +36,7 @@ class LoadSharing(NamedTuple):
     """Static forces and displacements at P positions of N planets."""
 
     turns: np.ndarray
-    """Of the first motor, (P,)."""
+    """Turns of the first motor, (P,)."""
     mesh_force: np.ndarray
     """Force of the drive flanks, then of the coast flanks, of each mesh, those with the sun first
     [N], (P, 2, 2 N)."""
@@ -48,7 +48,7 @@ class LoadSharing(NamedTuple):
     """Force of sun, ring and carrier on their bearings, x and y in the frame of the carrier [N],
     (P, 3, 2)."""
     displacement: np.ndarray
-    """Of sun, ring and carrier, x and y in the frame of the carrier [m], (P, 3, 2)."""
+    """Displacement of sun, ring and carrier, x and y in the carrier's frame [m], (P, 3, 2)."""
 
     @property
     def factor(self) -> float:
@@ -57,19 +57,19 @@ class LoadSharing(NamedTuple):
 
     @property
     def both_flanks(self) -> bool:
-        """Whether at some position both flanks of a mesh touch."""
+        """Whether both flanks of a mesh touch at any position."""
         return bool((self.mesh_force > 0.0).all(axis=1).any())
 
 
 def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     """Static load sharing among the planets.
 
-    Bearings are those of `scene.supports`; without these, all axes are held. Speeds do not matter.
+    Bearings are those of `scene.supports`; without these, all axes are held. Speeds have no effect.
 
     Args:
-        scene: whose operating point gives torque and backlash.
-        turns: of the first motor, (P,); default: a mesh cycle, or with runout and offsets as many
-            cycles as their angles take to return, at most 2000.
+        scene: scene with torque and backlash in its operating point.
+        turns: turns of the first motor, (P,); default: a mesh cycle, or with runout and offsets the
+            number of cycles until their angles repeat, at most 2000.
 
     Returns:
         Forces and displacements at each position.
@@ -107,15 +107,15 @@ def _positions(scene: Scene) -> np.ndarray:
         cycles = math.lcm(cycles, abs((per_turn / ratios["carrier"]).numerator))
     cycles = min(cycles, MOST_CYCLES)
     count = POSITIONS if cycles == 1 else PER_CYCLE * cycles
-    # The middle of each interval, so that no position is on the edge of a tooth pair.
+    # Middles of intervals, so that no position is at the start or end of a tooth contact.
     return np.asarray((np.arange(count) + 0.5) / count * cycles / abs(float(per_turn)))
 
 
 def _free(scene: Scene, rows: PlanarRows) -> np.ndarray:
     """Displacement of each coordinate per free coordinate, (coordinates, free).
 
-    The input member turns; the other central members are held against turning. Without bearings
-    the axes are held, and planets turn with the carrier.
+    The input member can turn, the other central members cannot. Without bearings the axes are held,
+    and planets move with the carrier.
     """
     basis = np.eye(len(rows.coordinates))
     held = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
@@ -166,12 +166,12 @@ def _springs(
 
 
 def _held_pins(scene: Scene, rows: PlanarRows, errors: Displacements) -> np.ndarray:
-    """Displacements of planets on pins that are off, and of axes that are held, (P, n)."""
+    """Displacements of planets by errors of their pins, and of held axes, (P, n)."""
     found = np.zeros((len(errors.axis), len(rows.coordinates)))
     for place, body in enumerate(CENTRAL):
         for direction, motion in enumerate("xy"):
             found[:, rows.place(f"{body}.{motion}")] = errors.axis[:, place, direction]
-    carried = -rows.pin @ found.T  # what the axis of the carrier takes along
+    carried = -rows.pin @ found.T  # displacements of the pins with the axis of the carrier
     for i in range(scene.gearset.planets):
         for direction, motion in enumerate(("xi", "eta")):
             place = rows.place(f"planet_{i + 1}.{motion}")
@@ -262,7 +262,7 @@ def _result(
     sun_mesh = forces[:, 0, :planets] - forces[:, 1, :planets]
     moved = (found.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
     flanks = np.vstack([rows.flanks(side) for side in SIDES])
-    # What meshes push each coordinate by, and weight.
+    # Forces of the meshes on each coordinate, and weight.
     on_bodies = weight - found.contact_force @ flanks
     pins = on_bodies[:, 3 * len(CENTRAL) :].reshape(count, planets, 3)[:, :, :2]
     bearing = on_bodies[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)[:, :, :2]

@@ -1,4 +1,4 @@
-"""What a run with moving axes shows: displacements, forces on bearings, loads of both flanks."""
+"""Results of a run with moving axes: displacements, bearing forces, loads of both flanks."""
 
 from __future__ import annotations
 
@@ -28,17 +28,16 @@ if TYPE_CHECKING:
     from .axes_sums import AxesStatistics
 
 SUMMED = (MESH_FORCE, BOUNDARY, VISCOUS, POWER_LOSS, MESH_POWER)  # of both flanks
-OF_EITHER = (FILM, LAMBDA)  # of the flanks that carry, or else of the others
+OF_EITHER = (FILM, LAMBDA)  # of the flanks that carry, or of the others if these do not touch
 
 
 @dataclass(frozen=True)
 class AxesMotion:
-    """Motion of the axes in a run, and what their bearings and both flanks of teeth carry.
+    """Motion of the axes in a run, and loads of their bearings and of both flanks of the teeth.
 
     Displacements and forces of sun, ring and carrier are x and y in the frame that turns with the
-    carrier, x through the position from which `gearset.planet_angles` count. Those of planets are
-    radial (outwards) and tangential (counter-clockwise) from their nominal positions on the
-    carrier.
+    carrier; x is the direction of angle 0 of `gearset.planet_angles`. Those of planets are radial
+    (outwards) and tangential (counter-clockwise) from their nominal positions on the carrier.
     """
 
     bodies: tuple[str, ...]
@@ -74,15 +73,15 @@ class AxesMotion:
 
 
 def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Samples of the meshes from those of both flanks.
+    """Combine the samples of both flanks of each mesh.
 
     Args:
         mesh: samples of all flanks, (samples, QUANTITIES, flanks).
-        place: of the flanks that carry, (meshes,).
+        place: indices of the flanks that carry, (meshes,).
 
     Returns:
-        Transmission errors of those flanks, forces and losses of both, (samples, QUANTITIES,
-        meshes).
+        Transmission errors of the flanks that carry, forces and losses of both, (samples,
+        QUANTITIES, meshes).
     """
     other = mesh[:, :, _other_flanks(place, mesh.shape[2])]
     joined: np.ndarray = mesh[:, :, place]
@@ -94,7 +93,7 @@ def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
 
 
 def _other_flanks(place: np.ndarray, flanks: int) -> np.ndarray:
-    """Places of the other flanks of the same meshes, (meshes,)."""
+    """Indices of the other flanks of the same meshes, (meshes,)."""
     return (place + flanks // 2) % flanks
 
 
@@ -105,13 +104,13 @@ def axes_motion(
     angle: np.ndarray,
     mesh_force: np.ndarray,
 ) -> AxesMotion:
-    """What samples of a run show of its axes.
+    """Compute the motion of the axes from the samples of a run.
 
     Args:
-        scene: whose axes move.
-        samples: of its meshes and bearings.
-        place: of the flanks that carry, (meshes,).
-        angle: of the carrier [rad], (samples,).
+        scene: scene with moving axes.
+        samples: samples of its meshes and bearings.
+        place: indices of the flanks that carry, (meshes,).
+        angle: angle of the carrier [rad], (samples,).
         mesh_force: mean force of each mesh over the time of the samples [N], (meshes,).
 
     Returns:
@@ -133,11 +132,11 @@ def axes_motion(
 
 
 def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMotion | None:
-    """What a window shows of its axes.
+    """Compute the motion of the axes from the samples of a window.
 
     Args:
-        waves: its samples.
-        planets: their number.
+        waves: samples of the window.
+        planets: number of planets.
         mesh_force: mean force of each mesh over the window [N], (meshes,).
 
     Returns:
@@ -158,7 +157,14 @@ def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMot
 
 
 def axes_names(planets: int) -> tuple[str, ...]:
-    """Names of the bodies in the order of arrays over bearings."""
+    """Names of the bodies in the order of arrays over bearings.
+
+    Args:
+        planets: number of planets.
+
+    Returns:
+        The names.
+    """
     return (*CENTRAL, *(f"planet_{i + 1}" for i in range(planets)))
 
 

@@ -5,9 +5,9 @@ clockwise) from its nominal position on the carrier; every body has u = r theta,
 radius, for the carrier the radius of the planet centres. These are the coordinates of Lin and
 Parker 1999.
 
-A mesh has two rows. The tangential row T q is the transmission error; a radial row R q brings the
-flanks of both sides closer. Drive flanks approach by T q + R q, coast flanks by -T q + R q. T + R
-is the row of Lin and Parker 1999, eq. (3).
+A mesh has two rows. The tangential row T q is the transmission error; the radial row R q is the
+common approach of the flanks on both sides. Drive flanks approach by T q + R q, coast flanks by
+-T q + R q. T + R is the row of Lin and Parker 1999, eq. (3).
 """
 
 from __future__ import annotations
@@ -50,7 +50,10 @@ class PlanarRows(NamedTuple):
         """Index of a coordinate.
 
         Args:
-            name: of the coordinate.
+            name: name of the coordinate.
+
+        Returns:
+            The index.
         """
         return self.coordinates.index(name)
 
@@ -59,7 +62,7 @@ def planar_coordinates(planets: int) -> tuple[str, ...]:
     """Names of the coordinates of a gear set.
 
     Args:
-        planets: their number.
+        planets: number of planets.
 
     Returns:
         3 (planets + 3) names, those of sun, ring and carrier first.

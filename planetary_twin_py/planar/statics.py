@@ -1,10 +1,10 @@
-"""Static equilibrium of springs that push only, and of bearings with clearance.
+"""Static equilibrium of unilateral springs, and of bearings with clearance.
 
-The elastic energy of a linear structure, of flanks that only push and of bearings with radial
+The elastic energy of a linear structure, of flanks that can only push and of bearings with radial
 clearance is convex, so an equilibrium is a minimum of the potential energy. Newton's method with a
-line search finds it (Nocedal and Wright 2006, Numerical Optimization, algorithm 3.2); the energy
-is piecewise smooth, and close to the solution a step is exact as soon as the set of touching
-flanks is that of the solution. All positions are solved side by side.
+line search finds it (Nocedal and Wright 2006, Numerical Optimization, algorithm 3.2). The energy
+is piecewise smooth; a step is exact once the set of touching flanks is that of the solution. All
+positions are solved together.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import numpy as np
 
 MOST_STEPS = 200
 MOST_HALVINGS = 40
-BALANCED = 1e-11  # of the largest force, to which forces balance
-DECREASE = 1e-4  # of the predicted decrease of the energy that a step must reach
-LOOSE = 1e-9  # of the largest stiffness, added for what nothing holds: it stays where it is
+BALANCED = 1e-11  # largest residual force in equilibrium, relative to the largest force
+DECREASE = 1e-4  # share of the predicted decrease of the energy that a step must reach
+LOOSE = 1e-9  # stiffness added to unconstrained coordinates, relative to the largest stiffness
 SMALLEST = 1e-300
 
 
@@ -29,7 +29,7 @@ class Springs(NamedTuple):
     contact: np.ndarray
     """Row of each pair of flanks, their approach per displacement, (flanks, n)."""
     contact_stiffness: np.ndarray
-    """[N/m], (P, flanks)."""
+    """Stiffness of each pair of flanks [N/m], (P, flanks)."""
     gap: np.ndarray
     """Approach at which flanks touch [m], (P, flanks)."""
     bearing: np.ndarray
@@ -46,23 +46,23 @@ class Equilibrium(NamedTuple):
     """Displacements and forces in equilibrium, at P positions."""
 
     displacement: np.ndarray
-    """[m], (P, n)."""
+    """Displacements [m], (P, n)."""
     contact_force: np.ndarray
-    """Of each pair of flanks, 0 where they do not touch [N], (P, flanks)."""
+    """Force of each pair of flanks, 0 where they do not touch [N], (P, flanks)."""
     bearing_force: np.ndarray
-    """On what the first body of a bearing is held by, in two directions [N], (P, bearings, 2)."""
+    """Force of the first body of a bearing on the second, two directions [N], (P, bearings, 2)."""
 
 
 def equilibrium(springs: Springs, force: np.ndarray, closed: np.ndarray) -> Equilibrium:
     """Find the equilibrium at each position.
 
-    What no spring holds, such as a floating member in a direction in which nothing pushes it, stays
-    where the initial guess leaves it.
+    Coordinates without stiffness and force, such as a floating member in an unloaded direction,
+    keep the values of the initial guess.
 
     Args:
-        springs: of the structure.
+        springs: springs of the structure.
         force: external force on each coordinate [N], (P, n).
-        closed: whether the initial guess lets flanks carry, (flanks,).
+        closed: whether flanks carry in the initial guess, (flanks,).
 
     Returns:
         The equilibrium.
@@ -81,7 +81,7 @@ def equilibrium(springs: Springs, force: np.ndarray, closed: np.ndarray) -> Equi
 
 
 def _guess(springs: Springs, force: np.ndarray, closed: np.ndarray) -> np.ndarray:
-    """Displacements with flanks that push and pull, and without clearance."""
+    """Displacements with bilateral flanks and without clearance."""
     stiffness = springs.contact_stiffness * closed
     right = force + (stiffness * springs.gap) @ springs.contact
     per_bearing = springs.bearing_stiffness[:, None, None] * springs.bearing
@@ -130,14 +130,14 @@ def _energy(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
-    """Stiffness matrix [N/m] of what touches, (P, n, n)."""
+    """Stiffness matrix of all contacts [N/m], (P, n, n)."""
     touching = springs.contact_stiffness * (q @ springs.contact.T > springs.gap)
     matrix = springs.linear + np.einsum("pf,fn,fm->pnm", touching, springs.contact, springs.contact)
     eccentricity = _eccentricity(springs, q)
     size = np.linalg.norm(eccentricity, axis=-1)
     share = np.minimum(springs.clearance / np.maximum(size, SMALLEST), 1.0)
     unit = eccentricity / np.maximum(size, SMALLEST)[..., None]
-    # along the load the bearing is as stiff as given, across it by the share that is pressed
+    # along the load a bearing has its stiffness, across it the part due to the indentation
     block = (1.0 - share)[..., None, None] * np.eye(2)
     block = block + np.where(size > springs.clearance, share, 0.0)[..., None, None] * (
         unit[..., :, None] * unit[..., None, :]
@@ -151,7 +151,7 @@ def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
 def _line_search(
     springs: Springs, force: np.ndarray, q: np.ndarray, gradient: np.ndarray
 ) -> np.ndarray:
-    """A Newton step at each position, shortened until the energy falls."""
+    """A Newton step at each position, shortened until the energy decreases."""
     step = _solve(_tangent(springs, q), -gradient)
     slope = np.sum(gradient * step, axis=1)
     before = _energy(springs, force, q)

@@ -1,4 +1,4 @@
-"""Means and largest values of what axes show over a stretch of time."""
+"""Means and largest values of the motion of axes over a time interval."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def axes_statistics(motion: AxesMotion) -> dict[str, np.ndarray]:
     """Statistics of the samples of axes that move.
 
     Args:
-        motion: of a run or a window; without samples all values are NaN.
+        motion: motion of the axes in a run or a window; without samples all values are NaN.
 
     Returns:
         By the names of `quantities.BEARING`: mean vectors (bodies, 2) and largest magnitudes

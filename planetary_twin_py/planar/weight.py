@@ -13,9 +13,9 @@ def weight_forces(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> np.ndarr
     """Force of gravity on each coordinate.
 
     Args:
-        scene: with `supports.gravity`; without supports axes are held, and weight has no effect.
-        rows: of its gear set.
-        turns: of the first motor; a second motor is at rest, (P,).
+        scene: scene with `supports.gravity`; without supports, weight has no effect.
+        rows: rows of its gear set.
+        turns: turns of the first motor, (P,); a second motor is at rest.
 
     Returns:
         Forces [N], (P, coordinates).

@@ -1,1 +1,1 @@
-"""A plant with hidden truth: plays a gearbox that changes, and the sensors that measure it."""
+"""Simulated plant with a known ground truth: a gearbox that changes, and sensors with errors."""

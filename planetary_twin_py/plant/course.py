@@ -1,4 +1,4 @@
-"""Course of torque and speed of a plant: straight lines between knots."""
+"""Torque and speed of a plant over time, linear between knots."""
 
 from __future__ import annotations
 
@@ -12,68 +12,68 @@ from .hidden import Change, Duty
 
 Array = NDArray[np.float64]
 
-EVERY = 5.0  # [s] from one target of a duty to the next
-RAMP = 0.6  # [s] from one to the next
+EVERY = 5.0  # [s] between two targets of a duty
+RAMP = 0.6  # [s] duration of the ramp from one target to the next
 LOAD = 0.27, 1.0  # range of the torques of a varied duty, over that of the scene
-SPEED = 0.7, 1.3  # likewise of its speeds
-REVERSED = -0.48, 0.95  # torques of a reversing duty
-WANDERING = 10.0  # [s] correlation time of what wanders
+SPEED = 0.7, 1.3  # range of the speeds of a varied duty, over that of the scene
+REVERSED = -0.48, 0.95  # torques of a reversing duty, over that of the scene
+WANDERING = 10.0  # [s] correlation time of random changes of torque and speed
 
 
 class Course(NamedTuple):
     """Torque and speed at the input over time; the acceleration is constant between knots."""
 
     knots: Array
-    """[s], (n,)."""
+    """Time of the knots [s], (n,)."""
     torque: Array
-    """[N m], (n,)."""
+    """Input torque at the knots [N m], (n,)."""
     speed: Array
-    """[rad/s], (n,)."""
+    """Input speed at the knots [rad/s], (n,)."""
     angle: Array
-    """Turned since time zero [rad], (n,)."""
+    """Angle of the input since time 0 [rad], (n,)."""
 
     def torque_at(self, time: Array) -> Array:
-        """Torque [N m], without that of the inertia.
+        """Input torque without the inertia torque.
 
         Args:
-            time: [s], (m,).
+            time: times [s], (m,).
 
         Returns:
-            (m,).
+            Torques [N m], (m,).
         """
         return np.interp(time, self.knots, self.torque)
 
     def speed_at(self, time: Array) -> Array:
-        """Speed [rad/s].
+        """Input speed.
 
         Args:
-            time: [s], (m,).
+            time: times [s], (m,).
 
         Returns:
-            (m,).
+            Speeds [rad/s], (m,).
         """
         return np.interp(time, self.knots, self.speed)
 
     def acceleration_at(self, time: Array) -> Array:
-        """Acceleration [rad/s^2].
+        """Input acceleration.
 
         Args:
-            time: [s], (m,).
+            time: times [s], (m,).
 
         Returns:
-            (m,).
+            Accelerations [rad/s^2], (m,).
         """
         n = np.clip(np.searchsorted(self.knots, time, "right") - 1, 0, len(self.knots) - 2)
         return np.asarray((np.diff(self.speed) / np.diff(self.knots))[n])
 
     def angle_at(self, time: Array) -> Array:
-        """Angle of the input [rad].
+        """Input angle.
 
         Args:
-            time: [s], (m,).
+            time: times [s], (m,).
 
         Returns:
-            (m,).
+            Angles [rad], (m,).
         """
         n = np.clip(np.searchsorted(self.knots, time, "right") - 1, 0, len(self.knots) - 2)
         since = time - self.knots[n]
@@ -88,14 +88,14 @@ def draw_course(
     duration: float,
     chance: np.random.Generator,
 ) -> Course:
-    """Draw the course of a duty.
+    """Draw a random course of torque and speed.
 
     Args:
-        duty: its kind, and how much it wanders.
-        changes: of them those of the load are used.
-        train: whose torque and speed are the mean ones.
-        duration: of the course [s].
-        chance: source of random numbers.
+        duty: kind of the duty, and the size of random changes.
+        changes: changes of the plant, of which those of the load are used.
+        train: gear train with the mean torque and speed.
+        duration: duration of the course [s].
+        chance: random number generator.
 
     Returns:
         The course.

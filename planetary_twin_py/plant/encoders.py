@@ -1,8 +1,8 @@
-"""Counts of two encoders of a plant, on the members of input and output.
+"""Counts of two encoders of a plant, on the input and output members.
 
-The transmission error is that of runs with dynamics at steady torques, as a function of the mesh
-cycles since the start; between these torques it is linear. So vibration excited by the meshes and
-by faults is in it, and the response to a change of the load is the static one.
+The transmission error is a function of the mesh cycles since the start, from dynamic runs at steady
+torques, with linear interpolation between these torques. So it contains the vibration excited by
+meshes and faults; the response to a change of load is static.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from .readings import Plant
 
 Array = NDArray[np.float64]
 
-POINTS = 100  # of the transmission error in a mesh cycle
-BESIDE = 0.15  # relative distance of the torques of two runs from that of a load
+POINTS = 100  # points of the transmission error in a mesh cycle
+BESIDE = 0.15  # relative difference of the torques of two runs from that of a load
 CHUNK = 20_000  # samples computed at once
 TOLERANCE = 1e-5
 SETTLING = 1.0  # [s] before a run is used
@@ -36,11 +36,11 @@ class EncoderCounts(NamedTuple):
     sample: NDArray[np.int64]
     """Numbers of the samples, (n,); sample 0 is taken at time 0."""
     counts: NDArray[np.int64]
-    """Of input and output since time 0, (n, 2)."""
+    """Counts of input and output since time 0, (n, 2)."""
 
 
 class _Pattern(NamedTuple):
-    """Transmission error over a hunting period at some torques."""
+    """Transmission error over a hunting period at several torques."""
 
     torques: Array  # [N m], (k,)
     error: Array  # [m], (k, POINTS * hunting cycles)
@@ -60,13 +60,13 @@ class _Pattern(NamedTuple):
 
 
 def play_encoders(plant: Plant) -> Iterator[EncoderCounts]:
-    """Play the encoders of a plant, in packets of which some are lost.
+    """Simulate the encoders of a plant, in packets of which some are lost.
 
     Args:
         plant: the plant; `hidden.sensors.encoders.rate` must not be 0.
 
     Returns:
-        Counts, some packets at a time.
+        Counts of several packets at a time.
     """
     train = followed_train(plant.true_scene)
     errors = plant.hidden.sensors.encoders
@@ -109,7 +109,7 @@ def _counts(
 
 
 def _patterns(plant: Plant, train: FollowedTrain) -> list[tuple[float, float, _Pattern]]:
-    """Transmission error from one time to another."""
+    """Start, end [s] and transmission error of each interval between two changes of faults."""
     loads = sorted({1.0, *(c.load for c in plant.hidden.changes if c.load is not None)})
     torques = np.unique([load * (1.0 + b) for load in loads for b in (-BESIDE, BESIDE)])
     torques = torques * train.torque * np.sign(plant.scene.operating_point.input_torque)

@@ -1,4 +1,4 @@
-"""What is hidden in a plant: its laws, what changes, its duty, and errors of its sensors."""
+"""Hidden state of a plant: its laws, its changes, its duty, and errors of its sensors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..scene.yaml_file import read_section
 
 
 class Change(Section):
-    """A change at an instant; what is not given stays as it is."""
+    """A change at an instant; quantities that are not given do not change."""
 
     at: float = quantity("s", "time of the change", ge=0.0, le=1e9)
     friction: float | None = quantity("", "factor on tooth friction", None, gt=0.0, le=100.0)
@@ -23,7 +23,7 @@ class Change(Section):
     )
     load: float | None = quantity("", "factor on the torque of the duty", None, ge=-10.0, le=10.0)
     faults: tuple[Fault, ...] | None = Field(
-        None, max_length=MOST_FAULTS, description="faulty teeth from then on"
+        None, max_length=MOST_FAULTS, description="faulty teeth from this time on"
     )
 
 
@@ -48,7 +48,7 @@ class TorqueErrors(Section):
 
 
 class EncoderErrors(Section):
-    """Both encoders, read by one device."""
+    """Errors of both encoders, which one device reads."""
 
     rate: float = quantity("Hz", "sample rate; 0: no encoders", 0.0, ge=0.0, le=1e6)
     bits: int = Field(20, ge=8, le=32, description="counts per turn, as a power of two")
@@ -73,15 +73,15 @@ class SensorErrors(Section):
     output_torque: TorqueErrors = Field(TorqueErrors(), description="at the output")
     speed_noise: float = quantity("rad/s", "standard deviation of a speed", 0.0, ge=0.0, le=1e4)
     clock_offset: float = quantity(
-        "s", "clock of the output less that of the input", 0.0, ge=-10.0, le=10.0
+        "s", "clock of the output minus that of the input", 0.0, ge=-10.0, le=10.0
     )
     lost: float = quantity("", "share of readings that are lost", 0.0, ge=0.0, lt=1.0)
-    outlying: float = quantity("", "share of readings that are wild", 0.0, ge=0.0, lt=0.5)
-    encoders: EncoderErrors = Field(EncoderErrors(), description="encoders on sun and output")
+    outlying: float = quantity("", "share of readings that are outliers", 0.0, ge=0.0, lt=0.5)
+    encoders: EncoderErrors = Field(EncoderErrors(), description="encoders on input and output")
 
 
 class Hidden(Section):
-    """Everything that a follower does not know."""
+    """Everything about a plant that a follower does not know."""
 
     scene: dict[str, Any] = Field(
         {}, description="fields in which the plant differs from the scene, by dotted name"
@@ -89,17 +89,17 @@ class Hidden(Section):
     duty: Duty = Field(Duty(), description="course of torque and speed")
     sensors: SensorErrors = Field(SensorErrors(), description="errors of the sensors")
     changes: tuple[Change, ...] = Field((), description="changes, in order of time")
-    seed: int = Field(0, ge=0, description="of all that is drawn by chance")
+    seed: int = Field(0, ge=0, description="seed of all random numbers")
 
 
 def read_hidden(path: Path) -> Hidden:
     """Read a YAML file with fields of `Hidden`.
 
     Args:
-        path: of the file.
+        path: path of the file.
 
     Returns:
-        What is hidden.
+        The hidden state.
 
     Raises:
         SceneError: the file is not in YAML, or a field is invalid.

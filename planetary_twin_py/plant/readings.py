@@ -19,12 +19,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Plant:
-    """A gearbox that plays a duty and changes on the way.
+    """A gearbox that runs a duty and changes during it.
 
     Args:
-        scene: that a follower knows.
-        hidden: what it does not know.
-        duration: of the play [s].
+        scene: scene that a follower knows.
+        hidden: differences from the scene that it does not know.
+        duration: simulated time [s].
     """
 
     scene: Scene
@@ -43,22 +43,22 @@ class Plant:
 
     @cached_property
     def course(self) -> Course:
-        """Of torque and speed."""
+        """Torque and speed over time."""
         train = self.train
         chance = np.random.default_rng([self.hidden.seed, 0])
         hidden = self.hidden
         return draw_course(hidden.duty, hidden.changes, train, self.duration, chance)
 
     def at(self, name: str, time: Array, default: float) -> Array:
-        """A quantity that changes by steps.
+        """Value of a quantity that changes by steps.
 
         Args:
             name: field of `Change`.
-            time: [s], (n,).
+            time: times [s], (n,).
             default: value before the first change.
 
         Returns:
-            Values (n,).
+            Values in the unit of the field, (n,).
         """
         values = np.full(len(time), default)
         for change in self.hidden.changes:
@@ -69,9 +69,9 @@ class Plant:
 
 
 def play_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
-    """Play the readings of a plant, in the order of their arrival.
+    """Simulate the readings of a plant, in the order of their arrival.
 
-    The losses are those of the quasi-static train, see `loss_map`; the torque at the input also
+    The losses are those of the quasi-static train, see `loss_map`. The input torque also
     accelerates the inertia of the whole train.
 
     Args:

@@ -1,4 +1,4 @@
-"""Writes what the sensors of a plant measure as tables."""
+"""Writes the measurements of a plant as tables."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def write_readings(plant: Plant, path: Path) -> int:
 
     Args:
         plant: the plant.
-        path: of the table: .csv, .parquet or .npz.
+        path: path of the table: .csv, .parquet or .npz.
 
     Returns:
         Number of rows.
 
     Raises:
-        ValueError: the format is not known, or the scene cannot be played.
+        ValueError: the format is unknown, or the scene cannot be simulated.
         OSError: the file cannot be written.
     """
     time, columns = play_readings(plant)
@@ -43,13 +43,13 @@ def write_encoders(plant: Plant, path: Path) -> int:
 
     Args:
         plant: the plant.
-        path: of the table: .csv, .parquet or .npz.
+        path: path of the table: .csv, .parquet or .npz.
 
     Returns:
         Number of rows.
 
     Raises:
-        ValueError: the format is not known, or the scene cannot be played.
+        ValueError: the format is unknown, or the scene cannot be simulated.
         OSError: the file cannot be written.
     """
     names = SAMPLE, *COUNTS

@@ -1,4 +1,4 @@
-"""What the sensors of a plant measure, in the order of time."""
+"""Measurements of a plant, in the order of time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .encoders import play_encoders
 from .readings import Plant, play_readings
 
 WARMTH = "oil_temperature"
-EVERY = 1.0  # [s] from one reading of the oil temperature to the next
+EVERY = 1.0  # [s] between two readings of the oil temperature
 
 
 class ShaftReading(NamedTuple):
@@ -22,9 +22,9 @@ class ShaftReading(NamedTuple):
     time: float
     """[s]."""
     values: dict[str, float]
-    """In SI by channel; NaN where it is lost."""
+    """Values by channel in SI; NaN if a reading is lost."""
     angles: tuple[float, float]
-    """Of input and output since time 0 [rad]."""
+    """Angles of input and output since time 0 [rad]."""
 
 
 class OilReading(NamedTuple):
@@ -40,27 +40,27 @@ class CountPacket(NamedTuple):
     """Successive samples of both encoders."""
 
     time: float
-    """At which the last sample is taken [s]."""
+    """Time of the last sample [s]."""
     first: int
     """Number of the first sample; sample 0 is taken at time 0."""
     counts: NDArray[np.int64]
-    """Of input and output since time 0, (n, 2)."""
+    """Counts of input and output since time 0, (n, 2)."""
 
 
 Measured = ShaftReading | OilReading | CountPacket
 
 
 def timeline(plant: Plant) -> Iterator[Measured]:
-    """Play a plant.
+    """Simulate the measurements of a plant.
 
     Args:
         plant: the plant.
 
     Returns:
-        What is measured, in the order of time.
+        Readings and packets of encoder samples, in the order of time.
 
     Raises:
-        SceneError: the scene cannot be played.
+        SceneError: the scene cannot be simulated.
     """
     streams: list[Iterator[Measured]] = [_readings(plant)]
     if plant.hidden.sensors.encoders.rate:
@@ -84,7 +84,7 @@ def _readings(plant: Plant) -> Iterator[Measured]:
 
 
 def _packets(plant: Plant) -> Iterator[Measured]:
-    """Packets of encoder samples; those that are lost are left out."""
+    """Packets of encoder samples, without the lost ones."""
     errors = plant.hidden.sensors.encoders
     for found in play_encoders(plant):
         cuts = np.flatnonzero(np.diff(found.sample // errors.packet)) + 1

@@ -1,16 +1,13 @@
-"""A scene: everything that a run needs, packaged or from a YAML file."""
+"""A scene: everything that a run needs, and checks across its sections."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from importlib import resources
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
-from ..printable import one_line
 from ..spatial.bearings import missing_stiffnesses
 from .defect import explain
 from .drive import Drive
@@ -20,13 +17,11 @@ from .gearset import FIELDS_ALONE, Gearset
 from .losses import Losses
 from .lubrication import Lubrication
 from .mesh import Mesh, TipReliefs
-from .names import did_you_mean, no_such_field
+from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, put
 from .quantity import SceneError, Section, listed, quantity
 from .supports import Supports
-from .yaml_file import read_text
-from .yaml_text import read_yaml
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
 _LIMITS = {  # fields of the drive that limit a quantity
@@ -282,7 +277,7 @@ class Scene(Section):
                 )
         if errors:
             raise SceneError(listed(errors))
-        return _validated(data)
+        return validated(data)
 
     def point_with(self, point: OperatingPoint, changes: Mapping[str, float]) -> OperatingPoint:
         """An operating point of this scene with other values.
@@ -312,7 +307,18 @@ class Scene(Section):
         return found
 
 
-def _validated(data: Any) -> Scene:
+def validated(data: Any) -> Scene:
+    """Validate a scene.
+
+    Args:
+        data: values of the fields, a mapping by section.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: fields are invalid or do not fit together; all errors are listed.
+    """
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
@@ -341,92 +347,3 @@ def _valid_sections(data: dict[str, Any]) -> Iterator[tuple[str, Any]]:
                 yield name, adapter.validate_python(data[name], context=FIELDS_ALONE)
             except ValidationError:
                 continue
-
-
-def packaged_scenes() -> tuple[str, ...]:
-    """Names of the packaged scenes.
-
-    Returns:
-        The names, sorted.
-    """
-    folder = resources.files(__package__) / "packaged"
-    return tuple(sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".yaml")))
-
-
-def load_scene(name_or_path: str | Path) -> Scene:
-    """Load a scene.
-
-    Args:
-        name_or_path: name of a packaged scene, or path of a YAML file.
-
-    Returns:
-        The scene.
-
-    Raises:
-        SceneError: the scene does not exist, or a field is invalid.
-    """
-    if str(name_or_path) in packaged_scenes():
-        text = (resources.files(__package__) / "packaged" / f"{name_or_path}.yaml").read_text()
-    else:
-        text = _read(Path(name_or_path))
-    return parse_scene(text)
-
-
-def _read(path: Path) -> str:
-    """Text of a regular file, up to the longest scene."""
-    try:
-        return read_text(path)
-    except SceneError as error:
-        raise SceneError(f"scene = {str(path)!r}: {error}") from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise SceneError(
-            f"scene = {str(path)!r}: neither a readable file ({reason}) nor "
-            f"one of {', '.join(packaged_scenes())}"
-            f"{did_you_mean(str(path), packaged_scenes())}"
-        ) from None
-
-
-def parse_scene(text: str) -> Scene:
-    """Parse a scene.
-
-    Args:
-        text: YAML. With the key ``base``, the name of a packaged scene, it contains only the
-            differences from that scene.
-
-    Returns:
-        The scene.
-
-    Raises:
-        SceneError: the text is not a YAML mapping, a key occurs twice, or a field is invalid.
-    """
-    data = read_yaml(text)
-    if not isinstance(data, dict):
-        raise SceneError("scene is not a YAML mapping")
-    if "base" in data:
-        base = data.pop("base")
-        if base not in packaged_scenes():
-            name = one_line(str(base), 60)
-            raise SceneError(
-                f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
-                f"{did_you_mean(name, packaged_scenes())}"
-            )
-        data = _overlaid(_without_doubles(load_scene(base).model_dump(), data), data)
-    return _validated(data)
-
-
-def _without_doubles(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """`base` without the form of the moments of inertia that `changes` gives otherwise."""
-    given = changes.get("gearset")
-    forms = {"equivalent_mass": "inertia", "inertia": "equivalent_mass"}
-    if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
-        return base
-    (form,) = forms.keys() & given.keys()
-    return base | {"gearset": base["gearset"] | {forms[form]: None}}
-
-
-def _overlaid(base: Any, changes: Any) -> Any:
-    """`base` with `changes`: mappings are merged, other values are replaced."""
-    if not isinstance(base, dict) or not isinstance(changes, dict):
-        return changes
-    return base | {name: _overlaid(base.get(name), value) for name, value in changes.items()}

@@ -1,1 +1,1 @@
-"""A gear set whose axes tilt and move along themselves: rows of its meshes, what bearings need."""
+"""A gear set whose axes tilt and move axially: rows of its meshes, requirements on bearings."""

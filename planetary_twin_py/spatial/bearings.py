@@ -1,4 +1,4 @@
-"""Axial and tilting bearings of a scene, and what it lacks for axes that tilt."""
+"""Axial and tilting stiffness of the bearings of a scene."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ STIFFNESSES = ("axial", "tilting")
 
 
 def missing_stiffnesses(supports: Supports) -> Iterator[str]:
-    """Fields that a spatial run needs and the scene does not give.
+    """Fields that a spatial run needs and the scene does not have.
 
     Args:
-        supports: of the scene.
+        supports: supports of the scene.
 
     Returns:
-        Their names, "supports.sun.axial" for instance.
+        Names of the fields, for example "supports.sun.axial".
     """
     for body in BODIES:
         for name in STIFFNESSES:

@@ -1,4 +1,4 @@
-"""Whether flanks that tilt touch all along the face, as the model takes them to."""
+"""Whether tilted flanks touch over the whole face width, as the model assumes."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 def uneven_squeeze(scene: Scene, run: Result) -> float:
-    """By how much the squeeze differs at an end of the face.
+    """Relative difference of the approach of the flanks at an end of the face.
 
     Args:
-        scene: whose axes tilt.
-        run: its result.
+        scene: scene with axes that tilt.
+        run: result of the scene.
 
     Returns:
-        Mean slope times half of the face width over the mean squeeze, of the worst mesh. Above 1,
-        the flanks of a mesh part at an end of the face. 0 if axes do not tilt or nothing is loaded.
+        Mean slope times half of the face width over the mean approach, of the worst mesh. Above 1,
+        flanks separate at an end of the face. 0 if axes do not tilt or meshes are not loaded.
     """
     if run.axes is None or run.axes.tilting is None or not len(run.time):
         return 0.0
@@ -43,11 +43,11 @@ def uneven_squeeze(scene: Scene, run: Result) -> float:
 
 
 def face_warning(scene: Scene, run: Result) -> str | None:
-    """A warning where flanks part at an end of the face.
+    """Warn if flanks separate at an end of the face.
 
     Args:
-        scene: of the run.
-        run: its result.
+        scene: scene of the run.
+        run: result of the run.
 
     Returns:
         A sentence, or None.
@@ -56,7 +56,7 @@ def face_warning(scene: Scene, run: Result) -> str | None:
     if uneven <= 1.0:
         return None
     return (
-        f"gears tilt so far that the squeeze of a mesh differs by {uneven:.2g} times its mean at "
-        "the ends of the face: there flanks part, which is not modelled, so tilts and moments are "
-        "less accurate; give bearings more tilting stiffness (supports.*.tilting)"
+        f"gears tilt so far that the flanks of a mesh separate at an end of the face ({uneven:.2g} "
+        "times the mean approach), which is not modelled: tilts and moments are less accurate; "
+        "increase the tilting stiffness of the bearings (supports.*.tilting)"
     )

@@ -1,4 +1,4 @@
-"""What a run whose axes tilt shows beyond the plane: axial motion, tilts, thrust and moments."""
+"""Results of a run with tilting axes: axial motion, tilts, thrust and moments."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import numpy as np
 
 
 class TiltingMotion(NamedTuple):
-    """Axial motion and tilts of the axes in a run, and what their bearings carry by them.
+    """Axial motion and tilts of the axes in a run, with thrust and moments on the bearings.
 
     Directions are those of `AxesMotion`: tilts and moments of sun, ring and carrier are about x and
     y in the frame of the carrier, those of planets about the radial and the tangential direction.
-    The axial direction is that from which rotations are counter-clockwise.
+    The axial direction is z of a right-handed frame; positive rotations are about it.
     """
 
     axial_displacement: np.ndarray
@@ -26,10 +26,10 @@ class TiltingMotion(NamedTuple):
 
 
 def tilting_motion(lean: np.ndarray) -> TiltingMotion | None:
-    """What samples show beyond the plane.
+    """Axial motion and tilts from samples.
 
     Args:
-        lean: of `integrators.interpolant.Samples`, (samples, bodies, 6).
+        lean: `lean` of `integrators.interpolant.Samples`, (samples, bodies, 6).
 
     Returns:
         Motion and loads; None if the axes do not tilt.

@@ -7,10 +7,9 @@ row is r = n/cos(beta_b) = n_t + hand tan(beta_b) e_z: a mesh force F along n_t 
 F tan(beta_b). It acts at the pitch point in the middle of the face, at R e_r from the axis of a
 gear, and turns that by R e_r x r: tilts it by -hand tan(beta_b) R about e_t.
 
-Coast flanks have the hand of the drive flanks, but their normal is the other way round in the
-plane. As their row counts the approach negatively, axial displacements have the same factors.
-
-Where gears tilt, the squeeze changes along the face by the slope (e_z x n_t) . (theta_A - theta_B).
+Coast flanks have the hand of the drive flanks, but the opposite normal in the plane. As their row
+counts the approach negatively, axial displacements have the same factors. Tilts change the squeeze
+along the face by the slope (e_z x n_t) . (theta_A - theta_B).
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ class MeshOfKind(NamedTuple):
     """What determines the rows of a mesh."""
 
     internal: bool
-    """Whether it is that of planet and ring."""
+    """Whether it is a planet-ring mesh."""
     pressure_angle: float
     """Working pressure angle in the transverse plane [rad]."""
     base_helix: float
@@ -42,7 +41,7 @@ class LeaningRow(NamedTuple):
     """Row of a mesh, and its slope, per motion of the central gear and of the planet."""
 
     axial: np.ndarray
-    """Of the axial displacements, (2,)."""
+    """Factors of the axial displacements, (2,)."""
     tilt: np.ndarray
     """Of the tilts [m/rad]: of the central gear about x and y, of the planet about the radial and
     the tangential direction, (2, 2)."""
@@ -66,7 +65,7 @@ def leaning_row(mesh: MeshOfKind, side: float, psi: float) -> LeaningRow:
     lean = -1.0 if mesh.internal else 1.0
     along = lean * math.tan(mesh.base_helix)
     place = np.array([mesh.central_radius, -lean * mesh.planet_radius])
-    sense = np.array([1.0, -1.0])  # the planet is what the central gear approaches
+    sense = np.array([1.0, -1.0])  # the approach counts from the central gear to the planet
     cosine, sine = math.cos(mesh.pressure_angle), math.sin(mesh.pressure_angle)
     slope = -cosine * outwards + side * lean * sine * across
     return LeaningRow(

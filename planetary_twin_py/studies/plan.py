@@ -14,7 +14,7 @@ import numpy as np
 
 from ..scene import Scene
 from ..simulation import check_run
-from ..twin import LONGEST_WINDOW
+from ..window_plan import LONGEST_WINDOW
 from .axes import Axis, Span, admitted
 
 MOST_POINTS = 1_000_000

@@ -10,8 +10,9 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 from ..scene import Scene
-from ..twin import LOWEST_SAMPLE_RATE, Twin
+from ..twin import Twin
 from ..window import Window
+from ..window_plan import LOWEST_SAMPLE_RATE
 from .axes import Axis, Span
 from .measures import row
 from .plan import Point, describe, grid

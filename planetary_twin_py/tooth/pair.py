@@ -12,13 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..gearset.geometry import PathOfContact, base_pitch, planet_ring_path, sun_planet_path
+from ..gearset.geometry import PathOfContact, base_pitch
 from ..gearset.involute import SpurGear
-from ..gearset.kinematics import Teeth
 from .contact import Contact, ContactLaw
-from .material import Material
 from .spall import NO_SPALL, Spall
-from .tooth import HUB, RIM, Tooth
+from .tooth import Tooth
 
 Floats = NDArray[np.float64]
 
@@ -135,63 +133,3 @@ class ToothPair:
         shared = self.first.body_coupling(near[0], far[0], 1)
         shared = shared + self.second.body_coupling(far[1], near[1], 1)
         return self.compliance(position), self.compliance(position + 1.0), shared
-
-
-def sun_planet_pair(
-    teeth: Teeth,
-    module: float,
-    pressure_angle: float,
-    addendum: float,
-    material: Material,
-    contact: ContactLaw,
-) -> ToothPair:
-    """Tooth pair of the external mesh.
-
-    Args:
-        teeth: tooth numbers.
-        module: [m].
-        pressure_angle: [rad].
-        addendum: [modules].
-        material: of both gears.
-        contact: law of the contact.
-
-    Returns:
-        The pair.
-
-    Raises:
-        ValueError: the teeth are impossible, see `SpurGear` and `gearset.geometry`.
-    """
-    sun, planet = (
-        Tooth(SpurGear(z, module, pressure_angle, addendum), material, HUB)
-        for z in (teeth.sun, teeth.planet)
-    )
-    return ToothPair(sun, planet, sun_planet_path(teeth, pressure_angle, addendum), contact)
-
-
-def planet_ring_pair(
-    teeth: Teeth,
-    module: float,
-    pressure_angle: float,
-    addendum: float,
-    material: Material,
-    contact: ContactLaw,
-) -> ToothPair:
-    """Tooth pair of the internal mesh.
-
-    Args:
-        teeth: tooth numbers.
-        module: [m].
-        pressure_angle: [rad].
-        addendum: [modules].
-        material: of both gears.
-        contact: law of the contact.
-
-    Returns:
-        The pair.
-
-    Raises:
-        ValueError: the teeth are impossible, see `SpurGear` and `gearset.geometry`.
-    """
-    planet = Tooth(SpurGear(teeth.planet, module, pressure_angle, addendum), material, HUB)
-    ring = Tooth(SpurGear(teeth.ring, module, pressure_angle, addendum, True), material, RIM)
-    return ToothPair(planet, ring, planet_ring_path(teeth, pressure_angle, addendum), contact)

@@ -195,7 +195,7 @@ def _followed() -> rrb.Vertical:
         for name, pair in PAIRS.items()
     ]
     left = [
-        _plot(f"{PLACE}/{name}_residual", f"{pair.quantity.heading}: measured less twin", False)
+        _plot(f"{PLACE}/{name}_residual", f"{pair.quantity.heading}: measured minus twin", False)
         for name, pair in PAIRS.items()
     ]
     alone = [_plot(f"{PLACE}/{name}", title, legend=True) for name, title in ALONE.items()]

@@ -1,4 +1,4 @@
-"""Curves of a measured gearbox beside those of its twin, with what is left between them."""
+"""Curves of a measured gearbox and of its twin, with the differences."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..quantities import Quantity
-from ..recording.runs.followed import Followed, Said, read_followed
+from ..recording.runs.followed import Followed, MessageColumns, read_followed
 from ..recording.runs.reader import Recording, Series
 from . import timeline
 from .layer import Layer
@@ -23,11 +23,11 @@ _LEFT = (205, 104, 86)
 
 
 class Pair(NamedTuple):
-    """A quantity that is measured and simulated."""
+    """A quantity that is both measured and simulated."""
 
     quantity: Quantity
     field: str
-    """Of GearboxState."""
+    """Field of GearboxState."""
 
 
 PAIRS = {
@@ -35,16 +35,16 @@ PAIRS = {
     "input_speed": Pair(Quantity("Input speed", "rad/s"), "input_speed"),
     "power_loss": Pair(Quantity("Power loss", "W"), "power_loss"),
 }
-"""Plots of a measured gearbox beside its twin, by name."""
+"""Plots of measured and simulated quantities, by name."""
 ALONE = {
     "friction_level": "Friction level: tooth friction over that of the scene, with 95 % interval",
-    "innovation": "Balance of the torques: measured less expected [N m]",
+    "innovation": "Balance of the torques: measured minus expected [N m]",
 }
-"""Titles of plots of what has no counterpart in the twin."""
+"""Titles of plots of quantities that are not simulated."""
 
 
 def followed_of(recording: Recording) -> Followed | None:
-    """What a follower has said in a recording; None if there was none."""
+    """Messages of the follower in a recording; None if there are none."""
     return read_followed(recording.path, recording.namespace, recording.topics)
 
 
@@ -52,27 +52,27 @@ def log_followed(layer: Layer, recording: Recording, followed: Followed) -> None
     """Log measured and simulated quantities, residuals, friction level and changes.
 
     Args:
-        layer: to draw into.
-        recording: of the twin, whose states are interpolated at the stamps of the estimates.
-        followed: what is measured.
+        layer: layer to draw into.
+        recording: recording of the twin; its states are interpolated at the stamps of estimates.
+        followed: messages of the follower.
     """
-    said, state = followed.estimate, recording.state
-    index = _index(state, said.stamp)
+    found, state = followed.estimate, recording.state
+    index = _index(state, found.stamp)
     measured = {
-        "input_torque": _with_interval(said, "input_torque"),
-        "input_speed": said["input_speed"][:, None],
-        "power_loss": _with_interval(said, "loss_torque") * np.abs(said["input_speed"])[:, None],
+        "input_torque": _with_interval(found, "input_torque"),
+        "input_speed": found["input_speed"][:, None],
+        "power_loss": _with_interval(found, "loss_torque") * np.abs(found["input_speed"])[:, None],
     }
     for name, pair in PAIRS.items():
         factor = pair.quantity.factor
-        values, twin = measured[name], _at(state, pair.field, said.stamp)
+        values, twin = measured[name], _at(state, pair.field, found.stamp)
         bounds = ["low", "high"][: values.shape[1] - 1]
         columns = factor * np.column_stack([values[:, 0], twin, values[:, 1:]])
         names, colours = ["measured", "twin", *bounds], [_MEASURED, _TWIN, _BOUND, _BOUND]
         _log(layer, f"{PLACE}/{name}", index, columns, names, colours)
         left = factor * (values[:, :1] - twin[:, None])
-        _log(layer, f"{PLACE}/{name}_residual", index, left, ["measured less twin"], [_LEFT])
-    level = _with_interval(said, "friction_level")
+        _log(layer, f"{PLACE}/{name}_residual", index, left, ["measured minus twin"], [_LEFT])
+    level = _with_interval(found, "friction_level")
     names = ["friction level", "low", "high"]
     _log(layer, f"{PLACE}/friction_level", index, level, names, [_MEASURED, _BOUND, _BOUND])
     _log_balance(layer, state, followed.residuals)
@@ -82,10 +82,10 @@ def log_followed(layer: Layer, recording: Recording, followed: Followed) -> None
     layer.send_columns(EVENTS, _index(state, stamps), columns_of_text)
 
 
-def _log_balance(layer: Layer, state: Series, residuals: Said) -> None:
+def _log_balance(layer: Layer, state: Series, residuals: MessageColumns) -> None:
     sd = 2.0 * residuals["innovation_sd"]
     columns = np.column_stack([residuals["innovation"], -sd, sd])
-    names = ["measured less expected", "-2 sd", "+2 sd"]
+    names = ["measured minus expected", "-2 sd", "+2 sd"]
     colours = [_LEFT, _BOUND, _BOUND]
     _log(layer, f"{PLACE}/innovation", _index(state, residuals.stamp), columns, names, colours)
 
@@ -102,9 +102,9 @@ def _log(
     layer.send_columns(path, index, rr.Scalars.columns(scalars=values))
 
 
-def _with_interval(said: Said, name: str) -> Array:
+def _with_interval(found: MessageColumns, name: str) -> Array:
     """A quantity with its 95 % interval, (n, 3)."""
-    return np.column_stack([said[name], said[f"{name}_low"], said[f"{name}_high"]])
+    return np.column_stack([found[name], found[f"{name}_low"], found[f"{name}_high"]])
 
 
 def _index(state: Series, stamp: NDArray[np.int64]) -> list[rr.TimeColumn]:

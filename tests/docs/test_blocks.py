@@ -21,7 +21,7 @@ import planetary_twin_py as pt
 
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
-PATIENCE = 1200.0  # [s] for a command; those that compile take a minute, others a few seconds
+PATIENCE = 1200.0  # [s] longest time of a command; most take a few seconds
 STARTS = 600.0  # [s] for the first output of a background command
 ENDS = 120.0  # [s] for its end
 

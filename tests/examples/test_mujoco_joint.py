@@ -1,4 +1,4 @@
-"""The twin as the gear of a MuJoCo joint: inertia, play, energy and stability at 1 kHz."""
+"""The twin as the gear of a MuJoCo joint: inertia, backlash, energy and stability at 1 kHz."""
 
 import math
 import sys
@@ -38,7 +38,7 @@ def motor_inertia(scene):
     return RATIO**2 * float(own.sum())
 
 
-def test_a_motor_torque_speeds_the_joint_up_as_an_ideal_gear_with_armature(scene):
+def test_a_motor_torque_accelerates_the_joint_like_an_ideal_gear_with_armature(scene):
     lossless = scene.replace(backlash=0.0, **NO_LOSS)
     joint, count, torque = GearedJoint(arm(), "elbow", lossless), 400, 0.3
     for _ in range(count):
@@ -67,7 +67,7 @@ def test_the_joint_turns_exactly_as_the_shaft_of_the_twin(scene):
 
 @pytest.mark.parametrize("integral", [0.0, 200.0])
 def test_a_position_loop_has_the_limit_cycle_of_two_masses_with_play(scene, integral):
-    """The controller reads the joint, the motor's speed damps: play lets it never rest."""
+    """The controller reads the joint and damps by the motor speed: with backlash it oscillates."""
     lossless = scene.replace(**NO_LOSS)
     target, count = 0.02, 3000
 
@@ -122,7 +122,7 @@ def exchanged(scene, step):
 
 
 def test_no_energy_is_lost_between_the_twin_and_mujoco(scene):
-    """What leaves the port reaches the joint, ever closer with shorter steps."""
+    """The energy that leaves the port reaches the joint; the error falls with the step."""
     gaps = []
     for step in (STEP, STEP / 4.0):
         motor, port, on_joint, kinetic = exchanged(scene, step)
@@ -133,7 +133,7 @@ def test_no_energy_is_lost_between_the_twin_and_mujoco(scene):
 
 
 def test_an_undamped_shaft_does_not_gain_energy_at_1_khz(scene):
-    """A blow on the joint: the momentum stays, and vibration does not grow in 5 s."""
+    """After an impact, the momentum is constant and vibration does not grow in 5 s."""
     lossless = scene.replace(backlash=0.0, **NO_LOSS, **{"drive.output.coupling_damping": 0.0})
     joint = GearedJoint(arm(), "elbow", lossless)
     joint.data.qvel[0] = 0.5

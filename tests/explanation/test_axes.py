@@ -1,4 +1,4 @@
-"""What `explain` says of held axes, against statics and symmetry."""
+"""Description of held axes in `explain`, against statics and symmetry."""
 
 import math
 
@@ -39,6 +39,6 @@ def test_with_bearings_both_factors_are_named():
     scene = pt.load_scene("floating_sun")
     held = pt.load_sharing(scene.replace(supports=None)).factor
     moving = pt.load_sharing(scene).factor
-    said = meaning_of_held_axes(scene)
-    assert f"{held:.3f} with held axes" in said and f"{moving:.3f} with the bearings" in said
+    text = meaning_of_held_axes(scene)
+    assert f"{held:.3f} with held axes" in text and f"{moving:.3f} with the bearings" in text
     assert held > moving + 0.1

@@ -17,7 +17,7 @@ def paper(**changes):
 
 
 class Played:
-    """A fleet that plays its readings."""
+    """A fleet with simulated readings."""
 
     def __init__(self, count, seed, true_scene=None, period=1.0):
         self.chance = np.random.default_rng(seed)

@@ -21,7 +21,7 @@ def followed(played, rows, change=None):
 
 
 @pytest.mark.parametrize("changes", [{}, OTHER], ids=["same law", "with bearings"])
-def test_intervals_of_friction_hold_the_truth(changes):
+def test_intervals_contain_the_true_friction_level(changes):
     played = Played(300, 1, paper(**changes))
     fleet = followed(played, 600)
     found, true = fleet.estimate("friction_level"), played.level()
@@ -39,7 +39,7 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
 
 
-def test_slow_readings_find_it_too():
+def test_slow_readings_show_a_step_too():
     played = Played(100, 3, period=10.0)
     fleet = followed(played, 1080, 360)
     assert {event.gearbox for event in fleet.events} == set(range(10))

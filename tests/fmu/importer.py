@@ -81,13 +81,13 @@ class Slave:
         self.time = reached.value
 
     def state(self):
-        """A copy of all that changes."""
+        """A copy of the state."""
         kept = c_void_p()
         self._call("fmi3GetFMUState", byref(kept))
         return kept, self.time
 
     def restore(self, state):
-        """Go on from a copy."""
+        """Restore a copy of the state."""
         self._call("fmi3SetFMUState", state[0])
         self.time = state[1]
 

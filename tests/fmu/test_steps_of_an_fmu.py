@@ -19,13 +19,13 @@ def slave_of(scene, folder, **options):
 
 
 def shown(states):
-    """What the ports of a twin show, in the order of SHOWN."""
+    """States of the ports of a twin, in the order of SHOWN."""
     names = [name.replace(".", "_") for name in SHOWN]
     return [getattr(states, name) for name in names]
 
 
 def commands(scene, count):
-    """Random commands at both ports, as they take them: arguments of `Twin.step`."""
+    """Random commands at both ports, as arguments of `Twin.step`."""
     rng = np.random.default_rng(4)
     mean = {"torque": (63.0, 147.0), "motion": (104.7, -44.88)}
     swing = {"torque": 9.0, "motion": 0.05}

@@ -1,4 +1,4 @@
-"""Plants with hidden truth, and what a follower makes of them."""
+"""Plants whose true values are known, with followers of their readings."""
 
 from functools import cache
 
@@ -80,7 +80,7 @@ def friction_level(plant):
 
 
 def toothed(laws, changes, duration, seed=0, encoders=None, wander=0.02):
-    """Plant with encoders, and follower of its teeth at the end of the play."""
+    """Plant with encoders, and follower of its teeth at the end of the run."""
     hidden = Hidden.model_validate(
         {"scene": laws, "duty": {"torque_wander": wander}, "changes": changes, "seed": seed,
          "sensors": {"encoders": {"rate": RATE, "lost": 0.003} | (encoders or {})}}

@@ -1,4 +1,4 @@
-"""Friction, drag, zero, gain and inertia of plants with hidden truth."""
+"""Friction, drag, zero, gain and inertia of plants whose true values are known."""
 
 import numpy as np
 import pytest
@@ -24,13 +24,13 @@ def test_a_step_of_friction_by_five_percent_is_found(kind):
     assert event.size.value > 0.0 and "friction" in event.causes
 
 
-def test_reversal_tells_friction_from_drag_and_zero():
+def test_a_reversal_separates_friction_from_drag_and_zero():
     changes = ({"at": 40.0, "friction": 1.2},)
     _, follower = balance_of("reversing", {}, 90.0, 1, changes)
     assert follower.events[0].causes == ("friction",)
 
 
-def test_steady_running_does_not_tell_the_cause_of_a_step():
+def test_steady_running_does_not_show_the_cause_of_a_step():
     _, follower = balance_of("steady", {}, 90.0, 1, ({"at": 40.0, "torque_zero": 0.1},))
     assert set(follower.events[0].causes) == {"friction", "drag", "zero of a torque sensor"}
 
@@ -41,14 +41,14 @@ def test_a_moved_zero_is_distinguished_from_friction_where_the_torque_reverses()
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_reversing_duty_tells_friction_to_some_percent(law):
+def test_a_reversing_duty_determines_friction_to_some_percent(law):
     plant, follower = balance_of("reversing", LAWS[law], 60.0, 5)
     friction = named(follower)["friction_level"]
     assert friction.status == "ESTIMATED" and friction.sd < 0.04
     assert friction.low < friction_level(plant) < friction.high
 
 
-def test_steady_running_tells_neither_drag_nor_zero_nor_gain_nor_inertia():
+def test_steady_running_determines_neither_drag_nor_zero_nor_gain_nor_inertia():
     _, follower = balance_of("steady", {}, 60.0, 5)
     found = named(follower)
     for name in ("drag", "torque_zero", "torque_gain", "inertia"):
@@ -57,7 +57,7 @@ def test_steady_running_tells_neither_drag_nor_zero_nor_gain_nor_inertia():
     assert "reversal" in found["drag"].remedy and "speed" in found["inertia"].remedy
 
 
-def test_changing_speed_tells_inertia():
+def test_a_changing_speed_determines_the_inertia():
     _, follower = balance_of("varied", {}, 60.0, 5)
     inertia = named(follower)["inertia"]
     assert inertia.status == "ESTIMATED" and inertia.sd < 0.03 * follower.train.inertia
@@ -93,7 +93,7 @@ def test_readings_of_another_machine_are_an_event():
     assert any(30.0 <= event.found < 34.0 for event in follower.events)
 
 
-def test_wild_readings_and_gaps_do_no_harm():
+def test_outliers_and_gaps_do_no_harm():
     _, time, columns = played(
         "reversing", {}, 60.0, 6, sensors={"outlying": 0.02, "lost": 0.05, "clock_offset": 1e-3}
     )
@@ -106,7 +106,7 @@ def test_wild_readings_and_gaps_do_no_harm():
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("kind", DELAYS)
-def test_stated_intervals_hold_the_truth_with_other_laws(kind):
+def test_intervals_contain_the_true_value_with_other_laws(kind):
     inside, found = {}, {}
     for seed in range(16):
         law = LAWS[[*LAWS][seed % 4]]

@@ -39,7 +39,7 @@ def test_it_is_refused_in_one_line(readings, what):
 
 
 @pytest.mark.parametrize("what", ["reversed torque", "speed of the output in rpm"])
-def test_the_remedy_mends_it(readings, what):
+def test_the_stated_correction_is_accepted(readings, what):
     factors, said = WRONG[what]
     time, columns = readings
     wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
@@ -69,5 +69,5 @@ def test_good_readings_pass(readings):
 def test_kelvin_taken_for_degrees_celsius_is_named(readings):
     time, columns = readings
     warm = np.full(len(time), 343.15 + 273.15)
-    with pytest.raises(InputError, match="this sender is probably in kelvin"):
+    with pytest.raises(InputError, match="this sender probably uses kelvin"):
         Follower(paper()).add(Readings(time, columns | {"oil_temperature": warm}))

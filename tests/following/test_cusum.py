@@ -18,7 +18,7 @@ def test_no_alarm_in_a_day_of_noise():
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_step_is_found_with_its_begin_and_its_size(sign):
+def test_a_step_is_found_with_its_start_and_its_size(sign):
     values = np.random.default_rng(2).standard_normal(2000)
     values[1000:] += sign * 0.8
     (first, *_), _ = steps(values[:1200])
@@ -27,7 +27,7 @@ def test_a_step_is_found_with_its_begin_and_its_size(sign):
     assert abs(first.size - sign * 0.8) < 3.0 * first.sd
 
 
-def test_a_single_wild_value_is_no_step():
+def test_a_single_outlier_is_no_step():
     values = np.random.default_rng(3).standard_normal(2000)
     values[1000] = 1e6
     assert steps(values)[0] == []

@@ -27,7 +27,7 @@ def machine():
 
 
 def following(machine, cuts, sensors):
-    """What is said at the end, with readings and samples cut in different places."""
+    """Estimates at the end, with readings and samples split at different places."""
     scene, readings, samples = machine
     follower = Follower(scene, sensors, FORMAT)
     parts = []
@@ -75,7 +75,7 @@ def test_stamps_of_estimates_only_grow():
         last = now if np.isfinite(now) else last
 
 
-def test_clocks_that_run_apart_are_remarked_upon():
+def test_clocks_with_different_rates_cause_remarks():
     _, time, columns = played("steady", {}, 100.0)
     follower, delay = Follower(paper()), np.random.default_rng(0).exponential(1e-3, len(time))
     parts = [["input_speed", "input_torque"], ["output_speed", "output_torque"]]
@@ -84,21 +84,21 @@ def test_clocks_that_run_apart_are_remarked_upon():
         some = {name: columns[name] for name in names}
         follower.add(Readings(stamp, some, time + delay, sender))
     remarks = follower.estimate().remarks
-    assert "clock of load: runs apart by 200 ppm" in remarks
+    assert "clock of load: skew of 200 ppm" in remarks
     assert any(line.startswith("clocks of motor and load: stamps differ by 1") for line in remarks)
     assert not any(line.startswith("clock of motor") for line in remarks)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         ({"scale": {"speed": 2.0}}, "scale: 'speed': must be one of input_speed"),
         ({"period": 0.0}, r"period = 0\.0 s: must be within"),
         ({"encoders": EncoderFormat((0, 4), 1e-4)}, "counts_per_turn = 0, 4"),
     ],
 )
-def test_arguments_are_checked(arguments, said):
-    with pytest.raises(ValueError, match=said):
+def test_arguments_are_checked(arguments, message):
+    with pytest.raises(ValueError, match=message):
         Follower(paper(), **arguments)
 
 

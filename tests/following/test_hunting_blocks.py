@@ -37,7 +37,7 @@ def wave(cycles):
     return 2e-6 * np.sin(2 * np.pi * cycles) + 5e-6 * np.sin(cycles / 300.0) + 1e-7 * deep
 
 
-def test_what_is_slow_or_common_is_taken_off_and_one_tooth_remains():
+def test_slow_and_common_parts_are_subtracted_and_one_tooth_remains():
     blocks, _ = blocks_of(counts_of(wave))
     assert len(blocks) == 2  # of three and a half hunting periods; the first taught the waveform
     deviation = blocks[0].deviation
@@ -90,7 +90,7 @@ def test_doubled_and_late_packets_are_counted():
     assert found.counters.used == len(counts)
 
 
-def test_a_hole_masks_what_is_near_it():
+def test_a_gap_masks_the_bins_near_it():
     missing = np.arange(20_000, 20_200)  # 5 mesh cycles
     (block, *_), counters = blocks_of(counts_of(wave), missing=[missing])
     hole = np.flatnonzero(~block.measured.all(axis=1))

@@ -33,13 +33,13 @@ def test_another_unit_is_named_with_its_factor(speed, factor, unit):
         read(speed, factor)
 
 
-def test_the_factor_mends_it():
+def test_readings_with_the_stated_factor_pass():
     read(104.72, 30 / math.pi, scale=math.pi / 30)
 
 
-def test_positions_that_no_unit_fits_are_left_alone():
+def test_positions_that_no_unit_fits_pass():
     read(104.72, 1.0, turning=0.3)  # of another shaft
 
 
-def test_slow_readings_are_left_alone():
+def test_slow_readings_pass():
     read(104.72, 30 / math.pi, rate=5.0)

@@ -1,4 +1,4 @@
-"""Cracked and worn teeth of plants with hidden truth."""
+"""Cracked and worn teeth of plants whose faults are known."""
 
 import numpy as np
 import pytest
@@ -23,14 +23,14 @@ def test_a_crack_of_one_percent_is_found_within_four_seconds(cracked):
     assert LEARNED < event.found < LEARNED + 4.0
 
 
-def test_its_size_is_stated_with_an_interval_that_holds_it(cracked):
+def test_its_size_is_stated_with_an_interval_that_contains_it(cracked):
     (tooth,) = cracked[1].teeth
     assert tooth.loss.low < 0.01 < tooth.loss.high
     assert tooth.loss.value == pytest.approx(0.01, rel=0.1)
     assert tooth.candidates == ("sun tooth 7",)
 
 
-def test_a_change_of_load_tells_that_it_is_a_crack(cracked):
+def test_a_change_of_load_identifies_a_crack(cracked):
     assert cracked[1].events[0].causes == ("crack",)
 
 
@@ -44,7 +44,7 @@ def test_the_compliance_is_that_of_the_model(cracked):
 
 
 @pytest.mark.exhaustive
-def test_a_change_of_load_tells_wear():
+def test_a_change_of_load_identifies_wear():
     worn = {"kind": "wear", "gear": "sun", "tooth": 7, "depth": 2e-7}
     _, follower = toothed({}, ({"at": LEARNED, "faults": [worn]}, {"at": 30.0, "load": 1.3}), 42.0)
     (event,) = follower.events

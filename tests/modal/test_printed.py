@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.modal.modes import modes_of
-from planetary_twin_py.modal.printed import (
-    EQUATION_37,
-    FITTED_TO_TABLE_5,
-    printed_model,
-    stiffness_sweep,
-)
+from planetary_twin_py.modal.printed import EQUATION_37, FITTED_TO_TABLE_5, printed_model
 
 TABLE_5 = [0, 3687, 5956, 10070, 10070, 11948]
+
+
+def stiffness_sweep(data, sun_planet):
+    """Natural frequencies [Hz] at each sun-planet stiffness [N/m], (values, modes)."""
+    return np.array(
+        [modes_of(printed_model(data._replace(sun_planet=k))).frequencies for k in sun_planet]
+    )
 
 
 def test_matrices_are_those_of_37_and_38():

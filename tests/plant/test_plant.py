@@ -89,7 +89,7 @@ def test_lost_packets_and_quantisation_are_as_given():
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("duty: {kind: idle}", "duty.kind = 'idle': must be"),
         ("changes: [{friction: 2}]", r"changes\.0\.at: missing"),
@@ -97,10 +97,10 @@ def test_lost_packets_and_quantisation_are_as_given():
         ("sensor: {}", "sensor: no such field"),
     ],
 )
-def test_what_is_hidden_is_checked(tmp_path, text, said):
+def test_fields_of_the_hidden_state_are_checked(tmp_path, text, message):
     from planetary_twin_py.plant.hidden import read_hidden
 
     file = tmp_path / "hidden.yaml"
     file.write_text(text)
-    with pytest.raises(pt.SceneError, match=said):
+    with pytest.raises(pt.SceneError, match=message):
         read_hidden(file)

@@ -27,14 +27,14 @@ def _warm_up() -> None:
     """
     Start the process from which nodes are forked.
 
-    A node spends most of its start on imports and on loading kernels: here this happens once for
+    A node spends most of its start on imports and on loading the core: here this happens once for
     each test runner.
-    test runner starts.
     """
     _WARM.set_forkserver_preload(["ros.warm"])
     with pytest.MonkeyPatch.context() as environment:
         # Python 3.11 gives that process no search path of the tests.
-        environment.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+        paths = str(Path(__file__).parents[1]), os.environ.get("PYTHONPATH")
+        environment.setenv("PYTHONPATH", os.pathsep.join(filter(None, paths)))
         ensure_running()
 
 

@@ -170,7 +170,7 @@ def test_a_node_picks_the_dynamics_of_a_scene_that_leaves_them_open_and_reports_
     peer.until(lambda: states and report() and origins, 120.0)
     status = report()
     assert status is not None and status.level == DiagnosticStatus.OK
-    assert status.message.startswith("dynamics = planar, picked by auto at 1000 rpm and 63 N m")
+    assert status.message.startswith("dynamics = planar, selected by auto at 1000 rpm and 63 N m")
     values = {pair.key: pair.value for pair in status.values}
     assert values["dynamics"] == "planar"
     assert float(values["error.torsional"]) > float(values["allowed_error"]) > 0.0

@@ -179,7 +179,7 @@ def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start)
     stamp(warm, BEGIN)
     rig.oil.publish(warm)
     rig.send(0.0, 2.0)
-    rig.said("inputs", DiagnosticStatus.ERROR, "probably in kelvin")
+    rig.said("inputs", DiagnosticStatus.ERROR, "probably uses kelvin")
 
 
 def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from planetary_twin.live import Progress, State
+from planetary_twin.live_interface import Progress, State
 from planetary_twin.real_time import RealTimeReport
 
 import planetary_twin_py as pt

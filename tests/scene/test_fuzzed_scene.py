@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import planetary_twin_py as pt
 from planetary_twin_py.scene import SceneError
-from planetary_twin_py.scene.scene import packaged_scenes
+from planetary_twin_py.scene.load import packaged_scenes
 
 pytestmark = [pytest.mark.exhaustive, pytest.mark.filterwarnings("ignore")]
 

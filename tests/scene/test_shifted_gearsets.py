@@ -5,7 +5,7 @@ import math
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.scene.scene import parse_scene
+from planetary_twin_py.scene.load import parse_scene
 
 PAPER = pt.load_scene("paper")
 STAGE = pt.load_scene("reference_gearbox_stage")

@@ -1,7 +1,7 @@
 #pragma once
 
-// A scene as records, as an FMU carries it. `planetary_twin_py.fmu` writes it: the digest of the
-// core that has made it, then this record byte for byte.
+// A scene as a record in the file of an FMU. `planetary_twin_py.fmu` writes the file: the digest of
+// the core, then this record byte for byte.
 
 #include <cstdint>
 
@@ -14,29 +14,29 @@
 
 namespace gearbox {
 
-constexpr int VARIABLES = 96;    // at most: of 7 planets there are 64
-constexpr int NAME = 64;         // characters of a name, with the zero behind it
-constexpr int DIGEST = 64;       // characters before the record, filled up with zeros
+constexpr int VARIABLES = 96;    // largest number; with 7 planets there are 64
+constexpr int NAME = 64;         // characters of a name, with the final zero
+constexpr int DIGEST = 64;       // characters before the record, padded with zeros
 constexpr int NODE_CHOICES = 3;  // numbers of collocation points
 
-// What a variable is.
+// Kinds of variables.
 constexpr std::int64_t TIME = 0, ANGLE = 1, SPEED = 2, TORQUE = 3, MESH_DTE = 4, MESH_LOAD = 5,
                        MESH_FRICTION = 6, POWER_LOST = 7, POINT = 8;
 
 // When a variable may be set.
 constexpr std::int64_t NOT_GIVEN = 0, AT_ANY_TIME = 1, BEFORE_THE_END = 2;
 
-// Variables are numbered by their place: the value reference.
+// The index of a variable is its value reference.
 struct Variable {
     std::int64_t kind;
-    std::int64_t index;  // of the port, of the mesh that is reported, or in the operating point
-    std::int64_t given;  // NOT_GIVEN, AT_ANY_TIME or BEFORE_THE_END of the initialisation
-    double lowest;       // value that may be set
-    double highest;      // value that may be set
+    std::int64_t index;       // of the port, of the reported mesh, or in the operating point
+    std::int64_t given;       // NOT_GIVEN, AT_ANY_TIME or BEFORE_THE_END of the initialisation
+    double lowest;            // lower limit of values that may be set
+    double highest;           // upper limit of values that may be set
     std::uint8_t name[NAME];  // in the model description
 };
 
-// After how many mesh cycles all repeats, and turns of the motor in these.
+// Number of mesh cycles in a period, and turns of the motor in a period.
 struct Repetition {
     std::int64_t cycles;
     std::int64_t numerator;
@@ -53,10 +53,10 @@ struct alignas(64) Exported {
     PointLaws laws;
     OperatingPoint point;
     Repetition repetition[2];  // without and with torque ripple
-    bool linear;               // interpolation of what is given
+    bool linear;               // interpolation of given values
     double tolerance;
     double tolerances[2];                  // allowed
-    double least_tolerance[NODE_CHOICES];  // above it, so many collocation points:
+    double least_tolerance[NODE_CHOICES];  // lowest tolerance for each number of points:
     std::int64_t points[NODE_CHOICES];
     std::int64_t variables;
     Variable variable[VARIABLES];

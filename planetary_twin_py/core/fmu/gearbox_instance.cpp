@@ -1,4 +1,4 @@
-// The gearbox behind `fmu::Instance`: variables, errors and snapshots of a run.
+// The gearbox as an `fmu::Instance`: variables, errors and snapshots of a run.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 using fmu::Complaint;
 
-constexpr double SAME_INSTANT = 1e-9;  // [s] by which communication points may miss one another
+constexpr double SAME_INSTANT = 1e-9;  // [s] largest difference of equal communication points
 
 struct Saved : fmu::Snapshot {
     RunState run;
@@ -143,7 +143,7 @@ private:
             run_.command.speed[variable.index] = value;
     }
 
-    // Before the end of the initialisation, put the run at the start that is now wanted.
+    // Before the end of the initialisation, start the run with the present values.
     Complaint settle() {
         if (run_.running || !run_.dirty) return {};
         try {
@@ -196,7 +196,7 @@ private:
         return meshes_.power_loss;
     }
 
-    // An input has the value that was set, and until then the one that acts.
+    // An input has the value that was set last, or the present value if none was set.
     static double shown_at_port(const Variable& variable, double commanded, double acting) {
         return variable.given != NOT_GIVEN && !std::isnan(commanded) ? commanded : acting;
     }

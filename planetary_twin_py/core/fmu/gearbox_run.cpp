@@ -37,7 +37,7 @@ void set_nodes(const Exported& scene, RunState& run) {
     }
 }
 
-// Put the operating point that is wanted into the model, and scale the tolerances by it.
+// Apply the wanted operating point to the model, and scale the tolerances by it.
 void load_point(const Exported& scene, RunState& run) {
     const OperatingPoint& point = run.wanted;
     Model& model = run.model;
@@ -58,7 +58,7 @@ void load_point(const Exported& scene, RunState& run) {
     run.point = point;
 }
 
-// Samples of one instant, of all quantities.
+// Samples of all quantities at one instant.
 struct OneSample {
     double mesh[QUANTITIES * MESHES], turns[AXES], angle[BODIES], speed[BODIES],
         drag[SAMPLE_DRAGS] = {};
@@ -72,7 +72,7 @@ void take_sample(RunState& run, OneSample& sample) {
     advance(run.model, run.march, now(run), NEVER, {}, {}, sample.room(run.model.train));
 }
 
-// Mean loss of tooth friction [W] in the step that has been made.
+// Mean loss of tooth friction [W] in the last step.
 double mean_loss(const Exported& scene, RunState& run, double duration) {
     take_mesh_sums(run.model, run.march, now(run), run.books.sums);
     double lost = 0.0;
@@ -81,7 +81,7 @@ double mean_loss(const Exported& scene, RunState& run, double duration) {
     return lost / duration;
 }
 
-// Let the sums of the meshes and the ledger begin now.
+// Restart the sums of the meshes and the ledger.
 void clear_books(RunState& run) {
     OneSample sample;
     take_mesh_sums(run.model, run.march, now(run), run.books.sums);

@@ -9,43 +9,42 @@
 
 namespace gearbox {
 
-// All that changes in a run.
+// State of a run.
 struct alignas(64) RunState {
     Model model;
     March march;
-    OperatingPoint point;   // that acts
-    OperatingPoint wanted;  // from the next step on
-    Command command;        // of the next step; NaN: nothing is given
+    OperatingPoint point;   // present operating point
+    OperatingPoint wanted;  // operating point from the next step on
+    Command command;        // of the next step; NaN: no value is given
     PortStates shown;
     WindowEnd books;
     std::int64_t ticks;  // since the start
     double origin;       // time at the start [s]
     double tolerance;
-    double tooth_loss;  // of tooth friction, mean of the last step [W]
-    bool running;       // the initialisation is over
-    bool dirty;         // what has been set has had no effect yet
+    double tooth_loss;  // loss of tooth friction, mean of the last step [W]
+    bool running;       // the initialisation is complete
+    bool dirty;         // values have been set that are not applied yet
     bool started;
     bool stepped;  // since the operating point changed
-    bool failed;   // no step leads on
+    bool failed;   // no further step is possible
 };
 
 // The state before a run starts.
 void prepare(const Exported& scene, RunState& run);
 
-// Put the run at its start, in steady running at the operating point that is wanted. Throws
-// NoFiniteState.
+// Start the run in steady running at the wanted operating point. Throws NoFiniteState.
 void start(const Exported& scene, RunState& run);
 
-// Let the operating point that is wanted act from now on. Throws NoFiniteState.
+// Apply the wanted operating point from now on. Throws NoFiniteState.
 void change_point(const Exported& scene, RunState& run);
 
 // Simulate until `end` [ticks] under the command.
 Outcome make_step(const Exported& scene, RunState& run, std::int64_t end);
 
-// What the meshes show now.
+// Present quantities of the meshes.
 struct MeshesShown {
     double mesh[QUANTITIES][MESHES];
-    double power_loss;  // of bearings and churning now, and of tooth friction in the step [W]
+    double power_loss;  // present loss of bearings and churning, mean loss of teeth in the step [W]
 };
 
 void show_meshes(const Exported& scene, RunState& run, MeshesShown& out);

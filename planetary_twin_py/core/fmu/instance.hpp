@@ -1,17 +1,17 @@
 #pragma once
 
-// A gearbox in a co-simulation, as the adapters of FMI 2.0 and 3.0 see it. It is compiled for each
-// level of x86-64; the adapters are compiled once, for every processor, and load the best.
+// Interface of a gearbox in a co-simulation for the adapters of FMI 2.0 and 3.0. The gearbox is
+// compiled for each level of x86-64; the adapters are compiled once and load the best level.
 
 #include <cstdint>
 #include <string>
 
 namespace fmu {
 
-// What went wrong, in one line; empty: nothing.
+// Error message in one line; empty: no error.
 using Complaint = std::string;
 
-// All that changes in a run; its owner deletes it.
+// State of a run; its owner deletes it.
 struct Snapshot {
     virtual ~Snapshot() = default;
 };
@@ -24,25 +24,25 @@ public:
     virtual Complaint set(std::uint32_t variable, double value) = 0;
     virtual Complaint get(std::uint32_t variable, double& value) = 0;
 
-    // Take the local error tolerance of the integrator; before the start.
+    // Set the local error tolerance of the integrator, before the start.
     virtual Complaint set_tolerance(double tolerance) = 0;
 
-    // Begin at a time [s], and end the initialisation.
+    // Set the start time [s]; then `start` ends the initialisation.
     virtual void begin_at(double time) = 0;
     virtual Complaint start() = 0;
 
     // Simulate from one communication point to another [s].
     virtual Complaint step(double from, double to) = 0;
 
-    // Back to what it was when it was made.
+    // Restore the state after the instantiation.
     virtual void reset() = 0;
 
     virtual Snapshot* snapshot() const = 0;
     virtual void restore(const Snapshot& snapshot) = 0;
 };
 
-// Function `make_instance` of the library of a level: reads the records of a scene; null where it
-// cannot, and then tells why.
+// Function `make_instance` of the library of a level: reads the records of a scene. If it fails, it
+// returns null and sets the message.
 using MakeInstance = Instance* (*)(const char* records, Complaint& complaint);
 
 }  // namespace fmu

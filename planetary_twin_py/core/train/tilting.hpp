@@ -6,8 +6,9 @@
 // turns at W, the tilts theta = theta_x + i theta_y under a moment M,
 //     J_t theta'' + i (2 W J_t - J_p w_0) theta' + (J_p w_0 W - J_t W^2) theta = M,
 // from the change of its angular momentum (Goldstein 1980, Classical Mechanics, section 5.5, for
-// small tilts). Bearings of sun, ring and carrier are at rest in the housing, so their damping sees
-// the tilts turn, too; those of planets are on the carrier, whose tilts lift and lean the pins.
+// small tilts). Bearings of sun, ring and carrier are at rest in the housing, so their damping acts
+// on the rotation of the tilts, too. Those of planets are on the carrier, whose tilts displace and
+// tilt the pins.
 
 #include <cmath>
 
@@ -18,7 +19,7 @@
 
 namespace gearbox {
 
-// Whether the axes tilt and move along themselves.
+// Whether the axes tilt and move axially.
 inline bool tilts(const Train& train) {
     return MOVING && train.moving.entries > IN_PLANE;
 }
@@ -29,7 +30,7 @@ struct Lean {
     InPlane tilt;  // [rad]
 };
 
-// That of what bearing b holds against what it is on, from x; its rate from v.
+// Motion of the body on bearing b relative to its support, from displacements x; its rate from v.
 inline Lean lean_across(const Train& train, std::int64_t b, const double* x) {
     const TiltingAxis &own = train.moving.tilting[b],
                       &carrier = train.moving.tilting[CARRIER_BEARING];
@@ -43,7 +44,7 @@ inline Lean lean_across(const Train& train, std::int64_t b, const double* x) {
             {lean.tilt.along - along, lean.tilt.across - across}};
 }
 
-// Add a force and moments on what bearing b holds to `force`, and their reactions.
+// Add a force and moments on the body on bearing b to `force`, and their reactions.
 inline void add_lean(const Train& train, std::int64_t b, const Lean& pull, double* force) {
     const TiltingAxis &own = train.moving.tilting[b],
                       &carrier = train.moving.tilting[CARRIER_BEARING];
@@ -59,7 +60,7 @@ inline void add_lean(const Train& train, std::int64_t b, const Lean& pull, doubl
 }
 
 struct LeanForce {
-    Lean pull;    // on what the bearing holds [N], [N m]
+    Lean pull;    // force and moments on the body [N], [N m]
     double lost;  // to damping [W]
 };
 
@@ -81,7 +82,7 @@ inline LeanForce lean_force(const Train& train, std::int64_t b, double turning, 
                 c * (against.along * rate.tilt.along + against.across * rate.tilt.across)};
 }
 
-// Add axial force and moments of bearing b to `force`; the power that damping takes [W].
+// Add axial force and moments of bearing b to `force`; return the power lost to damping [W].
 inline double tilt_bearing(const Train& train, std::int64_t b, double turning, const double* x,
                            const double* v, double* force) {
     const LeanForce found = lean_force(train, b, turning, x, v);
@@ -89,7 +90,7 @@ inline double tilt_bearing(const Train& train, std::int64_t b, double turning, c
     return found.lost;
 }
 
-// Add the moments of a gyroscope on what bearing b holds, which spins at `spin` [rad/s].
+// Add the gyroscopic moments on the body on bearing b, which spins at `spin` [rad/s].
 inline void add_gyroscopic(const Train& train, std::int64_t b, double turning, double spin,
                            const double* x, const double* v, double* force) {
     const TiltingAxis& own = train.moving.tilting[b];

@@ -1,4 +1,4 @@
-"""Reads what a follower has said of a measured gearbox, beside the messages of its twin."""
+"""Reads the messages of a follower of a measured gearbox from a recording."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ BALANCE = "innovation", "innovation_sd"
 
 
 @dataclass(frozen=True)
-class Said:
+class MessageColumns:
     """Messages of one topic as columns."""
 
     stamp: NDArray[np.int64]
     """ROS time of the last readings used [ns since the epoch], (n,)."""
     columns: dict[str, Array]
-    """Fields in SI, (n,) each; NaN where nothing is estimated."""
+    """Fields in SI, (n,) each; NaN where there is no estimate."""
 
     def __getitem__(self, name: str) -> Array:
-        """A field."""
+        """Return a field by name."""
         return self.columns[name]
 
     def __len__(self) -> int:
@@ -44,23 +44,23 @@ class Said:
 
 @dataclass(frozen=True)
 class Followed:
-    """What a follower has said."""
+    """Messages of a follower."""
 
-    estimate: Said
-    """With the fields in `ESTIMATED`."""
-    residuals: Said
-    """With the fields in `BALANCE`."""
+    estimate: MessageColumns
+    """Estimates, with the fields in `ESTIMATED`."""
+    residuals: MessageColumns
+    """Residuals, with the fields in `BALANCE`."""
     events: tuple[tuple[int, str], ...]
-    """ROS time [ns] at which each change was found, and the change in words."""
+    """ROS time of detection [ns] and description of each change."""
 
 
 def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followed | None:
     """Read the messages of a follower.
 
     Args:
-        path: of an .mcap file, or a folder of them.
-        namespace: of the gearbox.
-        topics: names of those in the files.
+        path: path of an .mcap file, or of a folder of them.
+        namespace: namespace of the gearbox.
+        topics: names of the topics in the files.
 
     Returns:
         The messages; None if there are none.
@@ -74,12 +74,12 @@ def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followe
     found: dict[str, list[Any]] = {name: [] for name in wanted.values()}
     for file in files_of(path):
         decoder = Decoder(file, wanted.__contains__)
-        for record in records_of(file, []):  # remarks: of the twin's messages
+        for record in records_of(file, []):  # the remarks are those of the reader of the twin
             if (message := decoder.read(record)) is not None:
                 found[wanted[message[0]]].append(message[1])
     if not found[ESTIMATE]:
         return None
-    # An event is published again as its size is better known: the last message counts.
+    # An event is published again if its size changes: the last message counts.
     events = {one.number: one for one in found[EVENT]}
     return Followed(
         _columns(found[ESTIMATE], ESTIMATED),
@@ -88,12 +88,12 @@ def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followe
     )
 
 
-def _columns(messages: Sequence[Any], names: Sequence[str]) -> Said:
-    """Messages in the order of their stamps."""
+def _columns(messages: Sequence[Any], names: Sequence[str]) -> MessageColumns:
+    """Convert messages to columns in the order of their stamps."""
     stamps = np.array([_stamp(one) for one in messages], dtype=np.int64)
     order = np.argsort(stamps, kind="stable")
     columns = {name: np.array([getattr(one, name) for one in messages], float) for name in names}
-    return Said(stamps[order], {name: values[order] for name, values in columns.items()})
+    return MessageColumns(stamps[order], {name: values[order] for name, values in columns.items()})
 
 
 def _stamp(message: Any) -> int:

@@ -16,7 +16,7 @@ from rosbags.typesys import get_types_from_msg
 
 from ...integrators.clock import TICKS
 from ...scene import TUNABLES, Scene
-from ...twin import LONGEST_WINDOW
+from ...window_plan import LONGEST_WINDOW
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
 from ..ros2.fields import ROOM

@@ -1,4 +1,4 @@
-"""Measured courses of a manoeuvre: torques and speeds over time, in bins."""
+"""Measurements of a manoeuvre: torques and speeds over time, averaged over bins."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from ...printable import one_line
 Array = NDArray[np.float64]
 
 SUFFIXES = (".csv", ".parquet", ".mat")
-PERIOD = 0.1  # [s] of a bin
-FEWEST = 20  # bins of a fit
+PERIOD = 0.1  # [s] length of a bin
+FEWEST = 20  # smallest number of bins of a fit
 TIME = "time"
 _LONGEST_REASON = 200  # characters
 
@@ -26,13 +26,13 @@ class Course(NamedTuple):
     """Means over the bins of a manoeuvre, (n,) each, in SI, with the signs of gearbox_state."""
 
     time: Array
-    """Middles of the bins [s]."""
+    """Middle of each bin [s]."""
     input_torque: Array
     output_torque: Array
     speed: Array
     """Of the input."""
     acceleration: Array
-    """Of the input [rad/s^2]."""
+    """Acceleration of the input [rad/s^2]."""
     oil_temperature: Array
 
     def between(self, begin: float, end: float) -> Course:
@@ -48,14 +48,14 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
         path: a .csv or .parquet table with the columns time, input_torque, output_torque and
             input_speed or output_speed, with units in brackets unless they are SI; or a .mat file
             with vectors of these names, in SI.
-        train: of the gearbox.
-        period: of the bins [s].
+        train: gear train of the gearbox.
+        period: length of the bins [s].
 
     Returns:
-        Means over the bins that have all of them.
+        Means over the bins that have all channels.
 
     Raises:
-        ValueError: the file is not such a file, a channel is missing, or there are too few bins.
+        ValueError: the file has another format, a channel is missing, or there are too few bins.
         OSError: the file cannot be read.
     """
     time, columns = _read_mat(path) if path.suffix == ".mat" else read_readings(path, {})[0][:2]

@@ -1,11 +1,11 @@
-"""Torque at the input that a scene needs for a measured manoeuvre.
+"""Input torque of a scene in a measured manoeuvre.
 
-The torque at the output and the speed are given. The torque at the input is that of the static
-balance, with the losses of quasi-static runs at every torque and speed, and that of the inertia:
+Output torque and speed are given. The input torque follows from the static balance, with the losses
+of quasi-static runs at every torque and speed, and from the inertia:
 
     T_in = -i T_out + s L(T_in, w, oil) + J a,   s = sign(w)
 
-Vibrations are not in it; means over bins of a manoeuvre do not have them either.
+The model omits vibration, which averages out over a bin of a manoeuvre.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ class CourseModel:
     """Input torques of a course for values of the free parameters; results are cached.
 
     Args:
-        scene: of the gearbox.
+        scene: scene of the gearbox.
         free: names of the free parameters.
-        report: called with the number of evaluated points so far.
+        report: called with the number of points evaluated so far.
     """
 
     scene: Scene
@@ -46,11 +46,14 @@ class CourseModel:
         return len(self._known)
 
     def at(self, values: Array, course: Course) -> Array | None:
-        """Input torque [N m] over a course, (n,); None if the scene cannot be simulated.
+        """Compute the input torque of a manoeuvre.
 
         Args:
-            values: of the free parameters in SI, (p,).
+            values: values of the free parameters in SI, (p,).
             course: the manoeuvre.
+
+        Returns:
+            Input torque [N m], (n,); None if the scene cannot be simulated.
         """
         try:
             losses, inertia, ratio = self._at(values)
@@ -73,11 +76,14 @@ class CourseModel:
     def residuals(
         self, course: Course, weight: float
     ) -> Callable[[Sequence[Array]], list[Array | None]]:
-        """Function that returns weighted residuals at several points, see `least_squares`.
+        """Make a function that computes weighted residuals at several points.
 
         Args:
             course: the manoeuvre.
             weight: factor on the difference of simulated and measured torque [1/(N m)].
+
+        Returns:
+            The function, see `least_squares.Residuals`.
         """
 
         def residuals(points: Sequence[Array]) -> list[Array | None]:

@@ -21,10 +21,10 @@ from .parameter import Parameter, read_parameters
 from .runs_test import Runs, count_runs
 
 CONFIDENCE = 0.95
-LEAST = 1e-9  # [N m] of noise
-NEAR = 1e-2  # of the scale of a parameter, within which it is at an end of its range
-SLOW = 0.01  # of the largest speed of the course, below which the sign of the loss is not known
-LARGEST = 0.98  # correlation of successive residuals that is taken into account
+LEAST = 1e-9  # [N m] smallest noise
+NEAR = 1e-2  # distance within which a parameter is at an end of its range, over its scale
+SLOW = 0.01  # share of the largest speed below which the sign of the loss is unknown
+LARGEST = 0.98  # upper limit of the correlation of successive residuals
 
 
 @dataclass(frozen=True)
@@ -35,13 +35,13 @@ class FittedCourse:
     parameters: tuple[Parameter, ...]
     estimate: Estimate
     course: Course
-    """That was fitted."""
+    """Fitted part of the manoeuvre."""
     simulated: Array
     """Input torque at the estimate [N m], (n,)."""
     noise: float
     """Standard deviation of the residuals [N m]."""
     correlation: float
-    """Of successive residuals."""
+    """Correlation of successive residuals."""
     runs: Runs | None
     held_out: Course | None
     predicted: Array | None
@@ -71,16 +71,16 @@ def fit_course(
 ) -> FittedCourse:
     """Estimate free parameters from the torque at the input over a manoeuvre.
 
-    Residuals of successive bins are counted as 1/n of independent ones as an autoregressive process
-    of first order has them (Bartlett 1946).
+    The weight of successive residuals is reduced by their correlation, as for a first-order
+    autoregressive process (Bartlett 1946).
 
     Args:
-        path: see `read_course`.
-        scene: of the gearbox.
-        free: dotted names of fields of the scene.
+        path: path of the file, see `read_course`.
+        scene: scene of the gearbox.
+        free: dotted names of the free fields of the scene.
         start: initial values, by name.
-        span: begin and end of the part that is fitted [s].
-        hold_out: begin and end of a part that is predicted [s].
+        span: start and end of the part that is fitted [s].
+        hold_out: start and end of a part that is predicted [s].
         report: called with the number of simulated points.
 
     Returns:
@@ -160,7 +160,7 @@ def _predict(
 
 
 def _turning(course: Course) -> Course:
-    """Without standstill, where the sense of the loss is not known."""
+    """Remove standstill, where the sign of the loss is unknown."""
     turning = np.abs(course.speed) > SLOW * float(np.abs(course.speed).max())
     return Course(*(values[turning] for values in course))
 
@@ -200,12 +200,12 @@ def course_remarks(found: FittedCourse) -> Iterator[str]:
             end = parameter.low if value - parameter.low <= near else parameter.high
             yield (
                 f"{parameter.name}: is at the end of its range, {end:.3g} {parameter.unit}".rstrip()
-                + "; the model lacks something, or another field is wrong"
+                + "; the model lacks a loss, or another field is wrong"
             )
     if found.runs is not None and not found.runs.noise:
         yield (
             f"the residuals are not noise: {found.runs.runs} runs of one sign, "
             f"{found.runs.expected:.0f} expected in random order, correlation "
-            f"{found.correlation:.2f}; the model misses something that changes slowly, intervals "
+            f"{found.correlation:.2f}; an effect that changes slowly is not modelled; intervals "
             "are widened accordingly"
         )

@@ -14,8 +14,9 @@ from ...accuracy import Course
 from ...integrators.clock import TICKS
 from ...quantities import TRAIN
 from ...scene import TUNABLES
-from ...twin import LONGEST_WINDOW, Twin
+from ...twin import Twin
 from ...window import Window
+from ...window_plan import LONGEST_WINDOW
 from .excerpt import Excerpt
 from .readings import Array, IntervalReadings, Readings, read, simulated
 from .steady_points import steady_points

@@ -1,4 +1,4 @@
-"""Predictions of readings that an estimate has not used, with intervals, beside these readings."""
+"""Predictions of held-out readings, with intervals, for comparison with these readings."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class Predicted(NamedTuple):
 
     name: str
     measured: Array
-    """(points, channels), in SI."""
+    """Measured means in SI, (points, channels)."""
     predicted: Array
-    """(points, channels)."""
+    """Predicted means in SI, (points, channels)."""
     reach: Array
     """Half of the interval of a prediction, (points, channels)."""
 
@@ -40,7 +40,7 @@ class Predicted(NamedTuple):
 
 @dataclass(frozen=True)
 class Fitted:
-    """What a prediction needs of a fit."""
+    """Data of a fit that a prediction needs."""
 
     parameters: tuple[Parameter, ...]
     estimate: Estimate
@@ -55,14 +55,14 @@ def predict(
 ) -> tuple[Predicted, ...]:
     """Predict the means over operating points that were held out.
 
-    The variance of a new mean is that of the estimates, carried through the model, plus that of a
-    mean about the model, which the fitted operating points show (Draper and Smith 1998, Applied
-    Regression Analysis, ch. 24): with what the model misses, if the residuals are larger than the
-    noise of the readings.
+    The variance of a new mean is the variance of the estimates, propagated through the model, plus
+    the variance of a mean about the model, estimated from the fitted operating points (Draper and
+    Smith 1998, Applied Regression Analysis, ch. 24). The second part contains model errors if the
+    residuals are larger than the noise of the readings.
 
     Args:
         runs: simulations of the operating points that were held out.
-        held_out: their readings, one entry for each observable.
+        held_out: measured readings, one entry for each observable.
         fitted: the fit.
 
     Returns:

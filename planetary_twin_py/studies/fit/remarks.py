@@ -71,8 +71,8 @@ def _not_noise(name: str, residuals: Array) -> Iterator[str]:
             which = f"{name} of mesh {channel}" if residuals.shape[1] > 1 else name
             yield (
                 f"{which}: the residuals of {len(values)} operating points are not noise: "
-                f"{runs.runs} runs of one sign, {runs.expected:.0f} expected in random order; the "
-                "model misses something that changes slowly from one operating point to the next"
+                f"{runs.runs} runs of one sign, {runs.expected:.0f} expected in random order; an "
+                "effect that changes slowly with the operating point is not modelled"
             )
 
 

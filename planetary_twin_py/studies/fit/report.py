@@ -46,8 +46,8 @@ def report_of_course(found: FittedCourse) -> Report:
     held_out = None
     facts = [
         f"{len(found.course.time)} bins from {found.course.time[0]:.4g} to "
-        f"{found.course.time[-1]:.4g} s; residuals of {found.noise:.3g} N m, correlation of "
-        f"successive ones {found.correlation:.2f}.",
+        f"{found.course.time[-1]:.4g} s; residuals {found.noise:.3g} N m rms, with a correlation "
+        f"of {found.correlation:.2f} between successive bins.",
         f"{found.simulations} simulated points, {found.processor_time:.1f} s of processor time.",
     ]
     if found.held_out is not None and found.predicted is not None and found.reach is not None:

@@ -1,9 +1,9 @@
-"""Whether residuals are noise, by the number of their runs of one sign.
+"""Tests whether residuals are noise, by the number of their runs of one sign.
 
 Wald and Wolfowitz 1940, Ann. Math. Stat. 11, 147-162: among n1 positive and n2 negative values in
 random order, the number of runs has the mean 1 + 2 n1 n2/n and the variance
-2 n1 n2 (2 n1 n2 - n)/(n^2 (n - 1)). Fewer runs mean that neighbours have the same sign: the model
-misses something that changes slowly from one reading to the next.
+2 n1 n2 (2 n1 n2 - n)/(n^2 (n - 1)). With fewer runs, neighbours tend to have the same sign: an
+effect that changes slowly from one reading to the next is not modelled.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from .readings import Array
 
-FEWEST = 12  # residuals, from which the number of runs is nearly normal
+FEWEST = 12  # residuals above which the number of runs is nearly normally distributed
 CHANCE = 0.01  # probability below which residuals are not noise
 
 
@@ -24,9 +24,9 @@ class Runs(NamedTuple):
 
     runs: int
     expected: float
-    """Of values in random order."""
+    """Number of runs of values in random order."""
     probability: float
-    """Of so few runs or fewer, if the values are in random order."""
+    """Probability of so few runs or fewer, if the values are in random order."""
 
     @property
     def noise(self) -> bool:

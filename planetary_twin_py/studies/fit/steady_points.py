@@ -1,7 +1,7 @@
-"""Simulates the operating points of a measured table, each on its own.
+"""Simulates the operating points of a measured table independently of each other.
 
-The rows of a table are means of test runs that need not follow each other: from one operating point
-to the next there is no manoeuvre.
+The rows of a table are means of separate test runs: there is no manoeuvre from one operating point
+to the next.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def steady_points(
     """Simulate the intervals of an excerpt of a table with other parameters.
 
     Args:
-        excerpt: of a measured table.
+        excerpt: excerpt of a measured table.
         overrides: values of the free parameters in SI, by name.
         most_samples: upper limit of samples per interval.
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// What FMI 2.0 and 3.0 have in common: an instance with its phase, and who receives
-// the messages of errors.
+// Common part of FMI 2.0 and 3.0: an instance with its phase, and a callback for error messages.
 
 #include <cstddef>
 #include <functional>
@@ -24,7 +23,8 @@ public:
         : instance_(std::move(instance)), tell_(std::move(tell)) {}
 
     Status get(const std::uint32_t* references, std::size_t count, double* values) {
-        if (phase_ == Phase::MADE) return refuse("outputs: are known from the initialisation on");
+        if (phase_ == Phase::MADE)
+            return refuse("outputs: are available after the initialisation starts");
         for (std::size_t n = 0; n < count; ++n)
             if (Status status = answer(instance_->get(references[n], values[n]))) return status;
         return OK;
@@ -75,7 +75,7 @@ public:
         return OK;
     }
 
-    // A copy of all that changes; `state` may hold one, which it then replaces.
+    // Copy the state of the run; a copy that `state` already has is replaced.
     Status get_state(void** state) {
         free_state(state);
         *state = new State{phase_, std::unique_ptr<Snapshot>(instance_->snapshot())};

@@ -27,7 +27,7 @@ struct Callbacks {
     void* environment;
 };
 
-// A component, and what only FMI 2.0 asks for.
+// A component, with the members that only FMI 2.0 needs.
 struct Component2 {
     Component component;
     double reached = 0.0;  // end of the last step [s]
@@ -43,7 +43,7 @@ int digit(char c) {
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-// The path in a URI of a file, in which %20 is a space; empty where it is none.
+// The path in the URI of a file, with %20 as a space; empty if it is no such URI.
 std::string path_of(const std::string& uri) {
     const std::string scheme = "file:";
     if (uri.rfind(scheme, 0) != 0) return {};
@@ -173,7 +173,7 @@ EXPORTED int fmi2FreeFMUstate(void*, void** state) {
     return Component::free_state(state);
 }
 
-// What this FMU has not, see fmi3.cpp.
+// Functions that this FMU does not support, see fmi3.cpp.
 #define REFUSED(name)                                          \
     EXPORTED int name(void* instance) {                        \
         return of(instance).refuse(#name ": is not provided"); \

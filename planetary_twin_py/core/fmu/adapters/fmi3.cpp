@@ -112,8 +112,8 @@ EXPORTED void* fmi3InstantiateScheduledExecution(const char*, const char*, const
     return nullptr;
 }
 
-// The rest of the standard is about what this FMU has not: its model description says so. The
-// arguments behind the first are not read, so one signature is all that the callee needs.
+// Functions that this FMU does not support, as its model description states. They read no argument
+// but the first, so one signature is sufficient.
 #define REFUSED(name)                                          \
     EXPORTED int name(void* instance) {                        \
         return of(instance).refuse(#name ": is not provided"); \

@@ -9,7 +9,7 @@ namespace {
 
 struct Level {
     const char* name;
-    bool runs;  // on this processor
+    bool runs;  // whether this processor can run it
 };
 
 // Levels of x86-64, the best first, by the instructions that planetary_twin_py/_core/levels.py

@@ -1,6 +1,6 @@
 #pragma once
 
-// The library of the gearbox for the processor that an FMU finds itself on.
+// Loads the library of the gearbox that fits the processor.
 
 #include <memory>
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace fmu {
 
-// An instance of the scene in a folder of resources; null where there is none, and then why.
+// Make an instance of the scene in a folder of resources. If it fails, it returns null and sets the
+// message.
 std::unique_ptr<Instance> load(const std::string& resources, Complaint& complaint);
 
 }  // namespace fmu

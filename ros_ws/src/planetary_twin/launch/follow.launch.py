@@ -9,7 +9,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),
-    ("sensors", "", "YAML file with what is known of the sensors"),
+    ("sensors", "", "YAML file with the accuracy of the sensors"),
     ("namespace", "planetary_twin", "namespace of the nodes, one for each gearbox"),
     ("joint_states", "measured/joint_states", "topic of the measured joint states"),
     ("oil_temperature", "measured/oil_temperature", "topic of the measured oil temperature"),

@@ -1,4 +1,4 @@
-"""Sets a running simulation to what a follower estimates, so that it shows what is inside."""
+"""Sets the operating point of a running simulation to the estimates of a follower."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from rclpy.task import Future
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import FollowedTrain
 
-PERIOD = 1.0  # [s] least time between two changes
-RAMP = 1.0  # [s] of a change: some 50 periods of the couplings, which a step would excite
-_SMALL = 0.005  # of torque and speed of the scene, below which nothing changes
-_COOL = 0.5  # [K] likewise
+PERIOD = 1.0  # [s] smallest time between two changes
+RAMP = 1.0  # [s] duration of a change: 50 periods of the couplings, which a step would excite
+_SMALL = 0.005  # change of torque and speed below which nothing is sent, over those of the scene
+_COOL = 0.5  # [K] change of the oil temperature below which nothing is sent
 _LOG_PERIOD = 10.0  # [s]
 
 
 class TwinBeside:
     """
-    Sends torque, speed and oil temperature to the simulation `name` as linear changes.
+    Sends torque, speed and oil temperature to the simulation `name` as linear ramps.
 
-    There is at most one in a second, and only if a quantity has changed by 0.5 % of its value in
-    the scene of `train`, or 0.5 K.
+    It sends at most once a second, and only if a quantity has changed by 0.5 % of its value in the
+    scene of `train`, or by 0.5 K.
     """
 
     def __init__(self, node: Node, name: str, train: FollowedTrain) -> None:
@@ -40,8 +40,8 @@ class TwinBeside:
         self._next = 0.0
         self._waiting: Future | None = None
 
-    def follow(self, said: Following) -> None:
-        """Send what has changed; never waits."""
+    def follow(self, state: Following) -> None:
+        """Send changed quantities, without waiting for an answer."""
         now = time.monotonic()
         if now < self._next:
             return
@@ -49,7 +49,7 @@ class TwinBeside:
         if not self._client.service_is_ready():
             self._sent = {}
             return
-        values = _values(said)
+        values = _values(state)
         if all(self._near(name, value) for name, value in values.items()):
             return
         if self._waiting is not None and not self._waiting.done():
@@ -77,10 +77,10 @@ class TwinBeside:
             )
 
 
-def _values(said: Following) -> Mapping[str, float]:
+def _values(state: Following) -> Mapping[str, float]:
     """Return the operating point as far as it is estimated."""
-    torque = said["input_torque"]
-    speed, oil = said.operating
+    torque = state["input_torque"]
+    speed, oil = state.operating
     values = {
         "input_torque": torque.value if torque.status == "ESTIMATED" else math.nan,
         "input_speed": speed,

@@ -1,4 +1,4 @@
-"""Reports in /diagnostics which dynamics was picked for a scene that leaves it open, and why."""
+"""Reports in /diagnostics which dynamics `dynamics: auto` has selected, and why."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The follower node: what measured topics tell of a gearbox that exists."""
+"""The follower node: estimates the state of a gearbox from measured topics."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ _KEPT = {"event", "baseline"}  # for late subscribers
 
 class Follower(ManagedNode):
     """
-    Follows a measured gearbox.
+    Estimates the state of a measured gearbox.
 
-    `activate` starts without readings; `deactivate` uses what waits and publishes an estimate.
-    Messages are taken, used and published in a thread, so services answer while tables are
-    computed.
+    `activate` starts without readings; `deactivate` processes waiting messages and publishes the
+    last estimate. A thread receives, processes and publishes, so that services respond while
+    tables are computed.
     """
 
     def __init__(self) -> None:
@@ -93,15 +93,15 @@ class Follower(ManagedNode):
             self.get_logger().info(f"{kind} is not installed: there is no subscription")
 
     def activate(self) -> None:
-        """Follow, without any readings so far."""
+        """Start to follow, without readings."""
         if self._intake is None:
             raise ValueError("the node is not configured")
         self._live = LiveFollower(self._options, self._intake, self)
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
-        self.get_logger().info(f"follows {self._options.scene.name}")
+        self.get_logger().info(f"following {self._options.scene.name}")
 
     def deactivate(self) -> None:
-        """Use the readings that are waiting, and publish the last estimate."""
+        """Process the waiting messages, and publish the last estimate."""
         self._end()
         self._diagnose()
         self._live = None
@@ -128,7 +128,7 @@ class Follower(ManagedNode):
         self._events, self._periods, self._learned = {}, 0, ""
 
     def said(self, following: Following) -> None:
-        """Publish something new."""
+        """Publish a new estimate."""
         frame = self._options.frame
         self._send("estimate", estimate_message(following, frame, self._next("estimate")))
         self._send("residuals", residuals_message(following, frame, self._next("residuals")))
@@ -146,7 +146,7 @@ class Follower(ManagedNode):
             self._send("baseline", baseline_message(following, frame, self._next("baseline")))
 
     def refused(self, reason: str) -> None:
-        """Report readings that cannot be those of the gearbox."""
+        """Report readings that contradict the scene."""
         self.get_logger().error(f"{reason}; following has ended until ~/reset")
 
     def jumped(self, seconds: float) -> None:
@@ -165,7 +165,7 @@ class Follower(ManagedNode):
         self.fail(f"following stopped: {defect}")
 
     def _announce(self, following: Following) -> None:
-        """Publish events that are new or better known."""
+        """Publish events that are new or have changed."""
         for event in following.events:
             key = event.what, event.since
             number, before = self._events.get(key, (len(self._events) + 1, None))

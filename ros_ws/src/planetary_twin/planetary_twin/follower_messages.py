@@ -26,7 +26,7 @@ def time_of(seconds: float) -> Time:
 
 
 def estimate_message(said: Following, frame: str, sequence: int) -> msg.FollowerEstimate:
-    """Return what is `said` as a message in `frame`."""
+    """Return the estimates of the state `said` as a message in `frame`."""
     message = msg.FollowerEstimate(header=_header(said, frame), sequence=sequence)
     message.input_speed, message.oil_temperature = said.operating
     for one in said.estimates:
@@ -42,7 +42,7 @@ def estimate_message(said: Following, frame: str, sequence: int) -> msg.Follower
 
 
 def residuals_message(said: Following, frame: str, sequence: int) -> msg.FollowerResiduals:
-    """Return the residuals of what is `said` as a message in `frame`."""
+    """Return the residuals of the state `said` as a message in `frame`."""
     message = msg.FollowerResiduals(header=_header(said, frame), sequence=sequence)
     found = said.innovation
     message.scatter = said.scatter
@@ -92,7 +92,7 @@ def event_message(event: pt.Event, frame: str, sequence: int, number: int) -> ms
 
 
 def baseline_message(said: Following, frame: str, sequence: int) -> msg.FollowerBaseline:
-    """Return what is learned of the teeth as a message in `frame`."""
+    """Return the learning state of the baselines as a message in `frame`."""
     cells = said.cells
     digest = sha256("".join(cell.digest for cell in cells).encode()).hexdigest()[:16]
     return msg.FollowerBaseline(

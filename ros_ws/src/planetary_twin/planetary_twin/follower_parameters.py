@@ -20,7 +20,7 @@ _LARGEST = 1e6  # factor on readings
 
 @dataclass(frozen=True)
 class FollowerOptions:
-    """What to follow, by which sensors, and how to report it."""
+    """Scene, sensors and reporting of a follower."""
 
     scene: pt.Scene
     sensors: pt.Sensors
@@ -35,7 +35,7 @@ class FollowerOptions:
     twin: str
 
     def follower(self) -> pt.Follower:
-        """Return a follower without any readings so far."""
+        """Return a new follower."""
         return pt.Follower(self.scene, self.sensors, scale=self.scale, period=self.period)
 
 
@@ -47,7 +47,7 @@ def declare_options(node: ParameterNode) -> None:
     """
     declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
     declare_fixed(
-        node, "sensors", "", "YAML file with what is known of the sensors; empty: class 0.1"
+        node, "sensors", "", "YAML file with the accuracy of the sensors; empty: class 0.1"
     )
     declare_fixed(node, "input_joint", "", "joint of the input; empty: as `sensors` states")
     declare_fixed(node, "output_joint", "", "joint of the output; empty: as `sensors` states")
@@ -76,7 +76,7 @@ def declare_options(node: ParameterNode) -> None:
         node, "hardware_id", "", "serial number of the gearbox; empty: the namespace of the node"
     )
     declare_fixed(
-        node, "twin", "", "simulation that is set to the estimates once a second; empty: none"
+        node, "twin", "", "simulation whose operating point follows the estimates; empty: none"
     )
     declare_changing(
         node, "friction_limit", 2.0, (1.0, 100.0),

@@ -16,25 +16,25 @@ _SPOILT = ("late", "doubled", "outlying", "ahead", "encoder_late", "encoder_lost
 
 
 class Limits(NamedTuple):
-    """Beyond which a condition is an error."""
+    """Limits above which a condition is an error."""
 
     friction: float
     tooth: float
 
 
 class Feed(NamedTuple):
-    """How readings arrive."""
+    """State of the incoming readings."""
 
     silent: float
     """Time since the last new estimate [s]."""
     timeout: float
-    """Above which it is too long [s]."""
+    """Limit of this time [s]."""
     refusal: str
-    """Why the readings cannot be those of the gearbox; empty if they can."""
+    """Reason why the readings contradict the scene; empty if they do not."""
     jumps: int
-    """Times that stamps have jumped back."""
+    """Number of times that stamps have jumped back."""
     behind: float
-    """Time that the last messages waited to be used [s]."""
+    """Time that the last messages waited to be processed [s]."""
 
 
 def statuses(
@@ -78,7 +78,7 @@ def _clock(said: Following, feed: Feed) -> _Part:
         lines.append(f"stamps have jumped back {feed.jumps} times")
     level = DiagnosticStatus.WARN if lines else DiagnosticStatus.OK
     values = {"jumps": str(feed.jumps), "behind": f"{feed.behind:.3f}"}
-    return level, "; ".join(lines) or "stamps run with their arrival", values
+    return level, "; ".join(lines) or "stamps agree with the times of arrival", values
 
 
 def _estimator(said: Following) -> _Part:
@@ -94,7 +94,7 @@ def _estimator(said: Following) -> _Part:
 
 
 def _condition(said: Following, limits: Limits) -> _Part:
-    """Return WARN for a change that was found, ERROR where a size is surely above its limit."""
+    """Return WARN for a detected change, ERROR if its whole interval is above the limit."""
     lines = [f"{event.what}: {event.evidence}" for event in said.events]
     values = {f"event {n}": line for n, line in enumerate(lines, 1)}
     friction = next(one for one in said.estimates if one.name == "friction_level")

@@ -1,4 +1,4 @@
-"""Follows a measured gearbox in a thread: messages in, what they tell out."""
+"""Follows a measured gearbox in a thread: receives messages and reports estimates."""
 
 from __future__ import annotations
 
@@ -20,34 +20,34 @@ from planetary_twin_py.following.measured_messages import (
 
 from .follower_parameters import FollowerOptions
 
-_TICK = 0.04  # [s] between two looks for messages
-_DISCOVERY = 0.2  # [s] between two looks for publishers
-_JUMP = 1.0  # [s] by which stamps go back in a jump
-_JUMPED = 5  # messages in a row
-_LONGEST_END = 60.0  # [s] for what is waiting when following ends
+_TICK = 0.04  # [s] between two polls for messages
+_DISCOVERY = 0.2  # [s] between two polls for publishers
+_JUMP = 1.0  # [s] smallest step of stamps back in time that is a jump
+_JUMPED = 5  # successive messages that confirm a jump
+_LONGEST_END = 60.0  # [s] longest time to process waiting messages at the end
 
 
 class Source(Protocol):
-    """Where messages come from."""
+    """Source of the messages."""
 
     def follow_publishers(self) -> None:
-        """Subscribe as the publishers offer."""
+        """Adapt the subscriptions to the QoS that the publishers offer."""
 
     def take(self) -> list[Arrived]:
         """Return the messages that have arrived since the last call, in order."""
 
 
 class Audience(Protocol):
-    """Hears what the follower says, in its thread."""
+    """Receives the results of the follower, called in its thread."""
 
     def started(self) -> None:
-        """Forget what was said: the follower restarts."""
+        """Discard earlier results: the follower restarts."""
 
     def said(self, following: Following) -> None:
-        """Publish something new."""
+        """Publish a new estimate."""
 
     def refused(self, reason: str) -> None:
-        """Report readings that cannot be those of the gearbox."""
+        """Report readings that contradict the scene."""
 
     def jumped(self, seconds: float) -> None:
         """Report stamps that have gone back by so many seconds."""
@@ -57,7 +57,7 @@ class Audience(Protocol):
 
 
 class JumpWatch:
-    """Recognises stamps of a sender that go back for good: single late ones are no jump."""
+    """Recognises stamps of a sender that jump back in time; single late messages are no jump."""
 
     def __init__(self) -> None:
         self._newest: dict[str, float] = {}
@@ -102,11 +102,11 @@ class Portions:
 
 class LiveFollower:
     """
-    Feeds a follower with the messages of `source` and tells `audience` what follows from them.
+    Passes the messages of `source` to a follower and its estimates to `audience`.
 
-    What is said depends on the messages alone: neither on when the thread runs nor on how many
-    messages it takes at once, so a slow computer says the same, later. Only silence is by the
-    clock.
+    The estimates depend on the messages only: not on when the thread runs, and not on how many
+    messages it processes at once. On a slow computer the same estimates come later. Only silence
+    is measured by the clock.
     """
 
     def __init__(self, options: FollowerOptions, source: Source, audience: Audience) -> None:
@@ -120,13 +120,13 @@ class LiveFollower:
         self._thread.start()
 
     def stop(self) -> None:
-        """Use what has arrived, say the last word, and end the thread."""
+        """Process all received messages, report the last estimate, and end the thread."""
         self._stop.set()
         if self._thread is not threading.current_thread():
             self._thread.join(_LONGEST_END)
 
     def reset(self) -> None:
-        """Forget everything; readings that have not been used yet are the first ones."""
+        """Restart the follower with the next messages."""
         self._restart.set()
 
     @property
@@ -136,21 +136,21 @@ class LiveFollower:
 
     @property
     def refusal(self) -> str:
-        """Reason why the readings cannot be those of the gearbox; empty if they can."""
+        """Reason why the readings contradict the scene; empty if they do not."""
         return self._refusal
 
     def _begin(self) -> None:
         self._audience.started()
         self._follower = self._options.follower()
         self.latest: Following = self._follower.estimate()
-        """What was said last."""
+        """The last reported estimate."""
         self._reader = MessageReader(self._options.joints, self._options.scale)
         self._portions = Portions(self._options.period)
         self._newest = -math.inf  # stamp of the newest estimate, said or not [s]
         self._due = -math.inf  # stamp of the next one to say [s]
         self._jumps = JumpWatch()
         self._refusal = ""
-        self._stale = True  # nothing has been said that could become stale
+        self._stale = True  # there is no estimate that could become stale
 
     def _run(self) -> None:
         try:
@@ -175,7 +175,7 @@ class LiveFollower:
             self._say(self._follower.estimate())
 
     def _use(self, arrived: Sequence[Arrived]) -> None:
-        """Feed the messages, and say what is new."""
+        """Process the messages, and report a new estimate."""
         if arrived:
             self.behind = max(time.time() - arrived[0].time, 0.0)
         if self._refusal:
@@ -206,7 +206,7 @@ class LiveFollower:
         self._checked(feed)
 
     def _checked(self, step: Callable[[], None]) -> None:
-        """Make a step; readings of another unit, sign or shaft end following."""
+        """Run `step`; readings of another unit, sign or shaft end the following."""
         try:
             step()
         except InputError as fault:

@@ -1,4 +1,4 @@
-"""Takes the messages of a measured gearbox from the middleware, in the order of their arrival."""
+"""Receives the messages of a measured gearbox in the order of their arrival."""
 
 from __future__ import annotations
 

@@ -7,84 +7,20 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from enum import StrEnum
-from typing import NamedTuple, Protocol
 
-from planetary_twin_py import OperatingPoint, Twin, Window
+from planetary_twin_py import Twin
 from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.runaway import RunawayError
 
 from .command_queue import CommandQueue
 from .hold import Hold
+from .live_interface import Given, Listener, Progress, State, nothing_given
 from .pacing import Pace
 from .ramps import Ramps
 
 LONGEST_STEP = 10.0  # [s] simulated time of one step of a paused twin
 _STOP_POLL = 0.1  # [s] between two checks of a paused twin for a stop
 _ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
-
-
-class Listener(Protocol):
-    """Callbacks of a live twin, called in its thread."""
-
-    def prepare(self, window: Window) -> None:
-        """Receive a computed interval before the wall time of its end."""
-
-    def publish(self) -> None:
-        """Publish the prepared interval; its end is at the present wall time."""
-
-    def changed(self, point: OperatingPoint, instant: float) -> None:
-        """Receive the operating point that applies from simulated time `instant` [s]."""
-
-    def refused(self, reason: str) -> None:
-        """Receive the reason why a ramp ended early, or why a command had no effect."""
-
-    def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
-        """From simulated time `instant` [s], the setting of `quality` replaces `before`."""
-
-    def ready(self) -> bool:
-        """Return whether time can pass: for example, the clock to follow is available."""
-
-    def has_room(self) -> bool:
-        """Return whether the recorder has kept up and the next interval may be published."""
-
-    def resumed(self, twin: Twin) -> None:
-        """Map the present time of `twin` to the present ROS time, after a start or a halt."""
-
-    def stopped(self, defect: Exception) -> None:
-        """Receive the exception that ended the thread."""
-
-
-class State(StrEnum):
-    """State of simulated time."""
-
-    RUNNING = "running"
-    PAUSED = "paused"
-    WAITING = "waits"
-    FAILED = "failed"
-
-
-class Progress(NamedTuple):
-    """Times and counters of a live twin at the end of an interval."""
-
-    simulated: float  # [s]
-    wall: float  # [s] steady clock
-    ran: float  # [s] simulated time of all intervals; steps of a paused twin do not count
-    lasted: float  # [s] wall time of these intervals; pauses do not count
-    cpu: float  # [s] processor time of the thread
-    overruns: int
-    repeats: bool  # steady running: mesh cycles are repeated, not computed
-    state: State
-    failure: str = ""  # reason of the state FAILED
-    held: float = 0.0  # [s] wall time for which the twin has waited for its recorder
-
-
-Given = Callable[[Twin, float], dict[str, float]]
-
-
-def nothing_given(twin: Twin, interval: float) -> dict[str, float]:
-    """Return no commands."""
-    return {}
 
 
 class LiveTwin:
@@ -95,8 +31,8 @@ class LiveTwin:
     `quality` chooses tolerance and sample rate; any thread may replace it at any time. Commands
     are executed between two intervals; their futures return the simulated instant [s].
 
-    `given` returns what is given at the ports from the present time of a twin on, as arguments of
-    `Twin.advance`, for an interval [s] of a running twin; for a step of a paused one, it is 0.
+    `given` returns the commands at the ports for the next interval [s] of a twin, as arguments of
+    `Twin.advance`; for a step of a paused twin, the interval is 0.
 
     Above real time and in steps, the twin waits for its recorder. At real time or below, it does
     not.
@@ -222,7 +158,7 @@ class LiveTwin:
         """
         Compute one interval and publish it after `wait`; returns False if the twin fails.
 
-        Raises `ValueError` if the twin does not take what is `given`; no time has passed then.
+        Raises `ValueError` if the twin does not accept `given`; then no time has passed.
 
         The quality control chooses the setting beforehand and then observes the computing time,
         which does not include the wait.

@@ -1,4 +1,4 @@
-"""Rows of a table with what is measured of a gearbox beside what its twin simulates."""
+"""Rows of a table that compares the measurements of a gearbox with its simulation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Row = tuple[str, str, str, str]
 
 
 class Pair(NamedTuple):
-    """A quantity of both."""
+    """A measured quantity and its simulated value."""
 
     title: str
     unit: str
@@ -21,7 +21,7 @@ class Pair(NamedTuple):
 
     @property
     def residual(self) -> float:
-        """Measured less simulated."""
+        """Measured minus simulated value."""
         return self.measured - self.simulated
 
 
@@ -38,7 +38,7 @@ def pairs(estimate: FollowerEstimate, state: GearboxState) -> list[Pair]:
 def beside_rows(
     estimate: FollowerEstimate, state: GearboxState, events: Iterable[FollowerEvent]
 ) -> Iterator[Row]:
-    """Yield title, value, unit and a remark: twin and residual of pairs, then changes."""
+    """Yield title, value, unit and remark: simulated value and residual, then changes."""
     for pair in pairs(estimate, state):
         beside = f"twin {pair.simulated:.5g}, residual {pair.residual:+.3g}"
         known = math.isfinite(pair.measured)

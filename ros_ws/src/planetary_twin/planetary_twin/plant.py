@@ -1,4 +1,4 @@
-"""The plant node: plays a gearbox with hidden changes on the measured topics."""
+"""The plant node: publishes simulated measurements of a gearbox with hidden changes."""
 
 from __future__ import annotations
 
@@ -36,20 +36,20 @@ _LAST = Duration(seconds=10.0)  # longest wait until the last messages have arri
 
 
 class Plant(ManagedNode):
-    """Plays once, in real time; the node ends with the play."""
+    """Publishes the measurements of a plant once, in real time; then the node ends."""
 
     def __init__(self) -> None:
         super().__init__("plant")
         declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
         declare_fixed(
-            self, "hidden", "", "YAML file with laws, duty, changes and sensors; empty: perfect"
+            self, "hidden", "", "YAML file with laws, duty, changes and sensor errors; empty: none"
         )
-        declare_bounded(self, "duration", 60.0, (0.1, 86_400.0), "of the play [s]")
+        declare_bounded(self, "duration", 60.0, (0.1, 86_400.0), "duration of the run [s]")
         declare_fixed(self, "input_joint", "input_joint", "joint of the input")
         declare_fixed(self, "output_joint", "output_joint", "joint of the output")
         declare_fixed(self, "frame_id", "gearbox", "base frame of the gearbox")
         # rclpy derives the type of a list from its first element.
-        declare_fixed(self, "wait_for", [""], "nodes that must have subscribed before the play")
+        declare_fixed(self, "wait_for", [""], "nodes that must subscribe before the run starts")
         self._measured: Iterator[Measured] = iter(())
         self._messages: PlantMessages | None = None
         self._audiences: list[Audience] = []
@@ -57,7 +57,7 @@ class Plant(ManagedNode):
         self._outlets: dict[type, LifecyclePublisher] = {}
 
     def configure(self) -> None:
-        """Create the publishers, and compute how the plant vibrates."""
+        """Create the publishers, and simulate the vibration of the plant."""
         given = {n: p.value for n, p in self.get_parameters_by_prefix("").items()}
         hidden = self._hidden(given["hidden"])
         played = Played(pt.load_scene(given["scene"]), hidden, given["duration"])
@@ -74,16 +74,16 @@ class Plant(ManagedNode):
         self._measured = itertools.chain([next(measured)], measured)  # the first takes seconds
 
     def activate(self) -> None:
-        """Play from the beginning, or from where it was paused."""
+        """Publish from the beginning, or from the time of the pause."""
         if self._messages is None:
             raise ValueError("the node is not configured")
         for audience in self._audiences:
             audience.begin()
         self._player = PlantPlayer(self._measured, self._messages, self)
-        self.get_logger().info(f"plays {self.get_parameter('scene').value}")
+        self.get_logger().info(f"publishing measurements of {self.get_parameter('scene').value}")
 
     def deactivate(self) -> None:
-        """Pause the play."""
+        """Pause the run."""
         if self._player is not None:
             self._player.stop()
             self._player = None
@@ -110,16 +110,16 @@ class Plant(ManagedNode):
         self._outlets[type(message)].publish(message)
 
     def ended(self, defect: Exception | None) -> None:
-        """End the process, once the last messages have arrived."""
+        """End the process once the last messages are acknowledged."""
         if not self.context.ok():
             return
         if defect is not None:
             self.get_logger().error("".join(traceback.format_exception(defect)))
-            self.fail(f"the play stopped: {defect}")
+            self.fail(f"the run stopped: {defect}")
             return
         for publisher in self._outlets.values():
             publisher.wait_for_all_acked(_LAST)
-        self.get_logger().info("the play has ended")
+        self.get_logger().info("the run has ended")
         rclpy.try_shutdown(context=self.context)
 
     def _hidden(self, name: str) -> Hidden:
@@ -133,7 +133,7 @@ class Plant(ManagedNode):
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node until the play or a signal ends it; returns the exit code."""
+    """Run the node until its end or a signal; returns the exit code."""
     return run_node(Plant, args)
 
 

@@ -1,4 +1,4 @@
-"""Plays a plant on the measured topics in real time."""
+"""Publishes the measurements of a plant in real time."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _SIDES = "input", "output"
 
 
 class Stage(Protocol):
-    """Where a plant is played."""
+    """Node that publishes the messages of a plant."""
 
     def ready(self) -> bool:
-        """Return whether the play may begin."""
+        """Return whether the run may begin."""
 
     def now(self) -> int:
         """Return the ROS time [ns]."""
@@ -33,12 +33,12 @@ class Stage(Protocol):
         """Publish a message."""
 
     def ended(self, defect: Exception | None) -> None:
-        """Learn that the play has ended; `defect` is the reason unless it is complete."""
+        """Handle the end of the run; `defect` is the reason unless it is complete."""
 
 
 class PlantMessages:
     """
-    Converts what is measured to messages in `frame`.
+    Converts measurements to messages in `frame`.
 
     `joints` are the names of the joints of input and output.
     """
@@ -85,20 +85,20 @@ class PlantMessages:
 
 
 class PlantPlayer:
-    """Publishes each of the `measured` at its time, from the first on, in a thread."""
+    """Publishes each entry of `measured` at its time in a thread, starting with the first."""
 
     def __init__(
         self, measured: Iterator[Measured], messages: PlantMessages, stage: Stage
     ) -> None:
         self._measured, self._messages, self._stage = measured, messages, stage
         self.played = 0.0
-        """Time of what was published last [s]."""
+        """Time of the last published measurement [s]."""
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="plant", daemon=True)
         self._thread.start()
 
     def stop(self) -> None:
-        """End the play."""
+        """End the run."""
         self._stop.set()
         if self._thread is not threading.current_thread():
             self._thread.join()
@@ -113,7 +113,7 @@ class PlantPlayer:
                 self._stage.ended(None)
 
     def _play(self) -> bool:
-        """Return whether the play is complete."""
+        """Publish all measurements; return False if `stop` is called before the end."""
         while not self._stage.ready():
             if self._stop.wait(0.05):
                 return False

@@ -12,7 +12,7 @@ from planetary_twin_py import Change
 from planetary_twin_py.quality_control import QualityControl
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
 
-from .live import Progress, State
+from .live_interface import Progress, State
 
 _TOLERATED_LAG = 0.01  # share of the rate factor; a larger lag is a warning
 _TOLERATED_INTERVALS = 2.0  # lag that the instants of two reports within intervals can cause

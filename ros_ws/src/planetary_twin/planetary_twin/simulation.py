@@ -11,8 +11,7 @@ from concurrent.futures import Future
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
-from rclpy.parameter import Parameter
+from planetary_twin_msgs.srv import NaturalModes
 from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 
@@ -28,13 +27,13 @@ from .audience import Audience
 from .backlog import Backlog
 from .dynamics_report import dynamics_status
 from .ledger_report import LedgerReport
-from .live import LiveTwin, Progress
+from .live import LiveTwin
+from .live_interface import Progress
 from .managed import ManagedNode, NodeError, run_node
-from .parameters import brief
-from .ramps import LONGEST_RAMP
+from .operating_point_control import OperatingPointControl
 from .real_time import KEEPS_UP, RealTimeReport
 from .shaft_commands import ShaftCommands
-from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
+from .simulation_parameters import SimulationParameters
 from .simulation_services import SimulationServices
 from .stamps import STEADY
 from .telemetry import STALL, Telemetry
@@ -57,8 +56,6 @@ class Simulation(ManagedNode):
         self._urdf = ""
         self._verdict = KEEPS_UP
         self._other_publishers = 0
-        self._submitted: Future[float] | None = None
-        self._ramp = 0.0  # [s] duration of the ramp for the parameters being set
         self._given = SimulationParameters(self)
         self._ledger = LedgerReport(self.get_namespace())
         self._accuracy = AccuracyReport(self.get_namespace())
@@ -67,10 +64,9 @@ class Simulation(ManagedNode):
         self._audience: Audience | None = None
         self._commands: ShaftCommands | None = None
         self._subscription: Subscription | None = None
-        self.add_post_set_parameters_callback(self._submit)
+        self._point = OperatingPointControl(self, self)
         self._backlog: Backlog | None = None
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
-        self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self, self)
         if simulation_services.AVAILABLE:
@@ -191,7 +187,22 @@ class Simulation(ManagedNode):
             self.get_logger().error("".join(traceback.format_exception(defect)))
         self.fail(f"the twin stopped: {defect}")
 
-    # Time, see `time_services`.
+    # Time and operating point, see `time_services` and `operating_point_control`.
+
+    @property
+    def live(self) -> LiveTwin | None:
+        """The live twin; None unless the node is active."""
+        return self._live
+
+    @property
+    def longest_wait(self) -> float:
+        """Longest wait for a command [s], which is executed between two intervals."""
+        return 2.0 * self._given.period + 1.0
+
+    def renew_quality(self) -> None:
+        """Apply the parameter `tolerance` to the live twin."""
+        if self._live is not None:
+            self._live.quality = self._given.quality(self._running_twin())
 
     def running(self) -> LiveTwin:
         """Return the live twin."""
@@ -213,7 +224,7 @@ class Simulation(ManagedNode):
         """Start again at time zero, at the operating point of the parameters."""
         live, twin = self.running(), self._new_twin()
         instant = live.restart(twin)
-        instant.result(timeout=self._longest_wait)
+        instant.result(timeout=self.longest_wait)
         self._twin = twin
         self._report = self._new_report(twin, live.progress)
         return instant
@@ -221,78 +232,6 @@ class Simulation(ManagedNode):
     def stamp(self, instant: float) -> int:
         """Return the ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
-
-    def _submit(self, parameters: list[Parameter]) -> None:
-        if self._live is None:
-            return
-        if any(p.name == TOLERANCE.name for p in parameters):
-            self._live.quality = self._given.quality(self._running_twin())
-        values = tunables(parameters)
-        if not values:
-            return
-        before = self._submitted
-        if self._ramp > 0.0:
-            self._submitted = self._live.ramp(values, self._ramp)
-        else:
-            self._submitted = self._live.submit(values)
-        if self._submitted is not before:  # otherwise merged with the change before
-            self._submitted.add_done_callback(self._report_refusal)
-
-    def _report_refusal(self, submitted: Future[float]) -> None:
-        """Warn if the twin refuses parameters that are within their ranges."""
-        refusal = submitted.exception()
-        if refusal is not None and self._live is not None:
-            self.get_logger().warning(f"the twin does not follow its parameters: {refusal}")
-
-    def _set_operating_point(
-        self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
-    ) -> SetOperatingPoint.Response:
-        try:
-            instant = self._change(request.names, request.values, request.ramp)
-        except (ValueError, TimeoutError) as refusal:
-            response.success, response.message = False, str(refusal)
-            return response
-        response.success = True
-        response.simulated_time = instant
-        response.stamp.sec, response.stamp.nanosec = divmod(
-            self._telemetry.stamp(instant), 1_000_000_000
-        )
-        return response
-
-    def _change(self, names: list[str], values: list[float], ramp: float) -> float:
-        """Set parameters and return the instant [s] from which they apply."""
-        if not 0.0 <= ramp <= LONGEST_RAMP:
-            raise ValueError(f"ramp = {ramp:g} s: must be within 0 and {LONGEST_RAMP:g}")
-        if len(names) != len(values) or not names:
-            raise ValueError(
-                f"{len(names)} names for {len(values)} values: must be equal, and at least 1"
-            )
-        for name in names:
-            if name not in pt.TUNABLES:
-                raise ValueError(
-                    f"{brief(name)}: no such quantity; there are {', '.join(pt.TUNABLES)}"
-                )
-            if list(names).count(name) > 1:
-                raise ValueError(f"{name}: named twice")
-        if self._live is None:
-            raise ValueError("the simulation is not active")
-        parameters = [
-            Parameter(name, Parameter.Type.DOUBLE, value)
-            for name, value in zip(names, values, strict=True)
-        ]
-        self._ramp = ramp
-        try:
-            result = self.set_parameters_atomically(parameters)
-        finally:
-            self._ramp = 0.0
-        if not result.successful or self._submitted is None:
-            raise ValueError(result.reason)
-        return self._submitted.result(timeout=self._longest_wait)
-
-    @property
-    def _longest_wait(self) -> float:
-        """Longest wait for a command [s], which is executed between two intervals."""
-        return 2.0 * self._given.period + 1.0
 
     def _natural_modes(
         self, request: NaturalModes.Request, response: NaturalModes.Response

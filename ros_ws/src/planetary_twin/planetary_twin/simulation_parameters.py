@@ -73,7 +73,7 @@ class SimulationParameters:
         self._wanted = self.scene
         self._open = self.scene.dynamics == AUTO
         self.choice: pt.DynamicsChoice | None = None
-        """What was picked for a scene that leaves its dynamics open; None for others."""
+        """Selection of the dynamics for a scene with `dynamics: auto`; None for others."""
         self.read()
         node.add_on_set_parameters_callback(self._validate)
         node.add_post_set_parameters_callback(self._follow)

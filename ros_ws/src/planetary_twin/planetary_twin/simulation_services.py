@@ -12,7 +12,8 @@ from typing import Any, Protocol
 
 from rclpy.node import Node
 
-from .live import LiveTwin, State
+from .live import LiveTwin
+from .live_interface import State
 
 try:
     from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures

@@ -1,4 +1,4 @@
-"""What a follower made of a plant: as a table and lines, or as JSON values."""
+"""Results of following a plant: a table and lines, or JSON values."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from planetary_twin_py.recording.ros2.message_units import units_of
 
 from ..follower_messages import QUANTITIES
 
-_HEADINGS = "quantity", "estimate", "95 % interval", "unit", "status", "what would tell"
+_HEADINGS = "quantity", "estimate", "95 % interval", "unit", "status", "improved by"
 
 
 @dataclass(frozen=True)
 class Followed:
-    """A finished play; `begin` is the stamp of the first reading [s]."""
+    """Results of a finished run; `begin` is the stamp of the first reading [s]."""
 
     folder: Path
     begin: float
@@ -62,7 +62,7 @@ class Followed:
 
 
 def event_line(event: FollowerEvent, begin: float) -> str:
-    """Return an event in words, with times since `begin` [s]."""
+    """Return an event as a line, with times since `begin` [s]."""
     causes = f"; {' or '.join(event.causes)}" if event.causes else ""
     since, found = (_seconds(stamp) - begin for stamp in (event.since, event.header.stamp))
     return f"{event.what}: {event.evidence}; since {since:.1f} s, found at {found:.1f} s{causes}"

@@ -1,4 +1,4 @@
-"""Listens to a follower and a logger as a user does, and ends the following."""
+"""Subscribes to the topics of a follower and a logger, and deactivates the follower at the end."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..client import Client
 from .children import RunError
 
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_SETTLED = 0.5  # [s] without a new estimate, after which there is none on the way
+_SETTLED = 0.5  # [s] without a new estimate after which no further one is expected
 _PATIENCE = 10.0  # [s] until the logger has counted the last estimate
 
 
@@ -46,9 +46,9 @@ class FollowerListener(Client):
 
     def finish(self) -> None:
         """
-        Make the follower use what waits, until its last estimate has been received and recorded.
+        Deactivate the follower, and wait until its last estimate is received and recorded.
 
-        Raises `RunError` if it does not answer.
+        Raises `RunError` if it does not respond.
         """
         request = ChangeState.Request()
         request.transition.label = "deactivate"

@@ -1,4 +1,4 @@
-"""A play of a plant, a follower and a twin beside it, from their start to a finished recording."""
+"""A run of a plant, a follower and a simulation, from their start to a finished recording."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _POLL = 0.2  # [s]
 
 @dataclass(frozen=True)
 class PlantPlan:
-    """What to play and to follow; paths are absolute, or empty."""
+    """Settings of a run; paths are absolute, or empty."""
 
     scene: str
     duration: float  # [s]
@@ -34,7 +34,7 @@ class PlantPlan:
 
 def run_plant_session(plan: PlantPlan, console: Console) -> Followed:
     """
-    Play `plan` to its end, or until interrupted; in both cases, the recording is finished.
+    Run `plan` to its end, or until interrupted; in both cases, the recording is finished.
 
     Changes are shown on `console` when they are found. Raises `RunError` if a node fails.
     """
@@ -54,7 +54,7 @@ def _run(plan: PlantPlan, console: Console) -> Followed:
         for name, given in _parameters(plan).items():
             nodes.append(stack.enter_context(Child(name, plan.namespace, given)))
         listener = stack.enter_context(FollowerListener(plan.namespace, watch))
-        plant = nodes.pop()  # whose end is that of the play
+        plant = nodes.pop()  # ends by itself, and with it the run
         with contextlib.suppress(KeyboardInterrupt):
             _watch(listener, plant, console)
         with undisturbed():
@@ -85,7 +85,7 @@ def _parameters(plan: PlantPlan) -> dict[str, dict[str, object]]:
 
 
 def _watch(listener: FollowerListener, plant: Child, console: Console) -> None:
-    """Show the newest estimate and each new change until the play ends."""
+    """Show the newest estimate and each new change until the plant ends."""
     shown = 0
     with console.status("starting") as status:
         while plant.returncode is None:

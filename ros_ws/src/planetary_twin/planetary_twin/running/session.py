@@ -24,7 +24,7 @@ from .show import Show
 from .tour import Stop
 
 _START = 60.0  # [s] longest wait for the nodes to discover each other
-_BUILD = 300.0  # [s] longest wait for the model, which the first run compiles
+_BUILD = 300.0  # [s] longest wait for the model
 _END = 3.0  # [s] longest wait for the twin's last report
 SILENCE = 10.0  # [s] longest silence of a running twin
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .material import Material
+from planetary_twin_py.tooth.material import Material
 
 STEEL = 206e9  # [Pa] Young's modulus of the regression
 CORRECTION = 0.8  # C_M: measured over theoretical stiffness of solid disc gears

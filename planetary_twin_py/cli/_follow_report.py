@@ -1,0 +1,117 @@
+"""Results of `planetary-twin follow`: a table and lines, and figures for `--json`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+from ..terminal.messages import remark
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..following.follower import Following
+
+EPOCH = 1e8  # [s] above this, stamps count from 1970
+REMEDY = "improved by"
+"""Heading of the column with readings that would determine a quantity, or determine it better."""
+
+
+def print_state(console: Console, name: str, state: Following) -> None:
+    """Print estimates, events, teeth and warnings.
+
+    Args:
+        console: console to print on.
+        name: name of the scene.
+        state: estimated state.
+    """
+    from rich.table import Table
+
+    table = Table(title=f"{name}, {_instant(state.time)}")
+    for heading in ("quantity", "estimate", "95 % interval", "unit", "status", REMEDY):
+        table.add_column(heading, justify="left" if heading == REMEDY else "right")
+    for one in state.estimates:
+        shown = one.status in ("ESTIMATED", "STALE")
+        value = f"{one.value:.4g}" if shown else "-"
+        span = f"{one.low:.4g} to {one.high:.4g}" if shown else "-"
+        status = one.status.replace("_", " ")
+        table.add_row(one.name, value, span, one.unit or "-", status, one.remedy)
+    console.print(table)
+    for line in _lines(state):
+        console.print(line, highlight=False, markup=False, soft_wrap=True)
+    for line in state.remarks:
+        remark(f"warning: {line}")
+
+
+def _instant(time: float) -> str:
+    """Format a stamp: as a date in UTC if it counts from 1970."""
+    if not time > EPOCH:
+        return f"{time:.1f} s"
+    return datetime.fromtimestamp(time, UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-5]
+
+
+def _lines(state: Following) -> Iterator[str]:
+    """Events and teeth, one line each."""
+    if not state.events:
+        yield "no change found"
+    for event in state.events:
+        causes = f"; {' or '.join(event.causes)}" if event.causes else ""
+        since = f"since {_instant(event.since)}, found at {_instant(event.found)}"
+        yield f"{event.what}: {event.evidence}; {since}{causes}"
+    for tooth in state.teeth:
+        loss = tooth.loss
+        yield (
+            f"{tooth.gear} tooth {tooth.tooth}: {' or '.join(tooth.kinds)}, as a crack "
+            f"{100 * loss.low:.2g} to {100 * loss.high:.2g} % of stiffness lost, z = {tooth.z:.1f}"
+        )
+
+
+def state_figures(state: Following) -> dict[str, Any]:
+    """Results for `--json`.
+
+    Args:
+        state: estimated state.
+
+    Returns:
+        Estimates, events, teeth, counters and remarks.
+    """
+    return {
+        "time": _finite(state.time),
+        "estimates": {
+            one.name: {key: _finite(value) for key, value in one._asdict().items() if key != "name"}
+            for one in state.estimates
+        },
+        "events": [
+            {
+                "what": event.what,
+                "since": event.since,
+                "found": event.found,
+                "size": {key: _finite(value) for key, value in event.size._asdict().items()},
+                "causes": event.causes,
+                "evidence": event.evidence,
+            }
+            for event in state.events
+        ],
+        "teeth": [
+            {
+                "gear": tooth.gear,
+                "tooth": tooth.tooth,
+                "stiffness_loss": tooth.loss.value,
+                "low": tooth.loss.low,
+                "high": tooth.loss.high,
+                "z": tooth.z,
+                "kinds": tooth.kinds,
+                "candidates": tooth.candidates,
+            }
+            for tooth in state.teeth
+        ],
+        "counters": state.counters,
+        "remarks": state.remarks,
+    }
+
+
+def _finite(value: Any) -> Any:
+    """`value`, or None in place of NaN, which JSON lacks."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value

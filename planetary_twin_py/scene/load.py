@@ -1,0 +1,103 @@
+"""Loads scenes: packaged ones, or YAML files that may start from a packaged one."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from ..printable import one_line
+from .names import did_you_mean
+from .quantity import SceneError
+from .scene import Scene, validated
+from .yaml_file import read_text
+from .yaml_text import read_yaml
+
+
+def packaged_scenes() -> tuple[str, ...]:
+    """Names of the packaged scenes.
+
+    Returns:
+        The names, sorted.
+    """
+    folder = resources.files(__package__) / "packaged"
+    return tuple(sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".yaml")))
+
+
+def load_scene(name_or_path: str | Path) -> Scene:
+    """Load a scene.
+
+    Args:
+        name_or_path: name of a packaged scene, or path of a YAML file.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: the scene does not exist, or a field is invalid.
+    """
+    if str(name_or_path) in packaged_scenes():
+        text = (resources.files(__package__) / "packaged" / f"{name_or_path}.yaml").read_text()
+    else:
+        text = _read(Path(name_or_path))
+    return parse_scene(text)
+
+
+def _read(path: Path) -> str:
+    """Text of a regular file, up to the longest scene."""
+    try:
+        return read_text(path)
+    except SceneError as error:
+        raise SceneError(f"scene = {str(path)!r}: {error}") from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise SceneError(
+            f"scene = {str(path)!r}: neither a readable file ({reason}) nor "
+            f"one of {', '.join(packaged_scenes())}"
+            f"{did_you_mean(str(path), packaged_scenes())}"
+        ) from None
+
+
+def parse_scene(text: str) -> Scene:
+    """Parse a scene.
+
+    Args:
+        text: YAML. With the key ``base``, the name of a packaged scene, it contains only the
+            differences from that scene.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: the text is not a YAML mapping, a key occurs twice, or a field is invalid.
+    """
+    data = read_yaml(text)
+    if not isinstance(data, dict):
+        raise SceneError("scene is not a YAML mapping")
+    if "base" in data:
+        base = data.pop("base")
+        if base not in packaged_scenes():
+            name = one_line(str(base), 60)
+            raise SceneError(
+                f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
+                f"{did_you_mean(name, packaged_scenes())}"
+            )
+        data = _overlaid(_without_other_inertia(load_scene(base).model_dump(), data), data)
+    return validated(data)
+
+
+def _without_other_inertia(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """Return `base` without its moments of inertia if `changes` gives them in another form."""
+    given = changes.get("gearset")
+    forms = {"equivalent_mass": "inertia", "inertia": "equivalent_mass"}
+    if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
+        return base
+    (form,) = forms.keys() & given.keys()
+    return base | {"gearset": base["gearset"] | {forms[form]: None}}
+
+
+def _overlaid(base: Any, changes: Any) -> Any:
+    """`base` with `changes`: mappings are merged, other values are replaced."""
+    if not isinstance(base, dict) or not isinstance(changes, dict):
+        return changes
+    return base | {name: _overlaid(base.get(name), value) for name, value in changes.items()}

@@ -1,0 +1,82 @@
+"""Scales and initial values of the step control."""
+
+from __future__ import annotations
+
+import math
+from types import ModuleType
+
+import numpy as np
+
+from ._core import METHODS, Load, March, PointLaws, Train, deflection_at
+from .dynamics.point_laws import record_of
+from .dynamics.static_load import mesh_force, static_torques
+from .dynamics.train import lightest_body
+from .scene import OperatingPoint, Scene
+
+# Lowest tolerance for each number of collocation points, with which it is fastest.
+POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
+LONGEST_STEP = 1e-3  # [s]
+FIRST_STEP = 1e-6  # [s]
+
+
+class StepScale:
+    """Deflections to which the tolerance of a step is relative.
+
+    Args:
+        scene: the scene.
+        train: its gear train.
+        laws: dependence of the loads on the operating point.
+    """
+
+    def __init__(self, scene: Scene, train: Train, laws: PointLaws) -> None:
+        self._laws = laws
+        self._per_torque = abs(mesh_force(scene, 1.0))
+        self._stiffness = float(train.stiffness.min())
+        self._shares = np.abs(static_torques(scene)[::2])
+        motors = train.coupling[: 2 * len(self._shares) : 2, 0]
+        self._own = train.mass[motors] * train.radius[motors] ** 2
+        self.quickness = math.sqrt(2.0 * self._stiffness / lightest_body(train))
+
+    def deflection(self, point: OperatingPoint) -> float:
+        """Deflection of the meshes under the torques of steady running.
+
+        Args:
+            point: operating point.
+
+        Returns:
+            The deflection [m].
+        """
+        return deflection_at(self._laws, record_of(point))
+
+    def yielding(self, load: Load) -> np.ndarray:
+        """Deflection of the meshes per acceleration of each input.
+
+        The inertia of a motor itself does not load the meshes.
+
+        Args:
+            load: loads of the train.
+
+        Returns:
+            Deflection per acceleration [m s^2/rad], (inputs,).
+        """
+        inertia = load.inertia.diagonal()[: len(self._own)]
+        torque: np.ndarray = np.maximum(inertia - self._own, 0.0) / self._shares
+        return self._per_torque * torque / self._stiffness
+
+
+def new_march(core: ModuleType, method: str) -> March:
+    """Make the state of the integrator before its first step.
+
+    Args:
+        core: module of the compiled core that fits the scene.
+        method: one of METHODS, see `Engine`.
+
+    Returns:
+        The state.
+    """
+    march: March = core.March()
+    control = march.control
+    control.step = control.next_step = control.next_stiff = FIRST_STEP
+    control.longest = LONGEST_STEP
+    control.method = METHODS[method]
+    return march

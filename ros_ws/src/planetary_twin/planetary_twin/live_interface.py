@@ -1,0 +1,73 @@
+"""Interface of a live twin: its listener, its progress, and commands at its ports."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+from typing import NamedTuple, Protocol
+
+from planetary_twin_py import OperatingPoint, Twin, Window
+from planetary_twin_py.quality_control import QualityControl, Setting
+
+
+class Listener(Protocol):
+    """Callbacks of a live twin, called in its thread."""
+
+    def prepare(self, window: Window) -> None:
+        """Receive a computed interval before the wall time of its end."""
+
+    def publish(self) -> None:
+        """Publish the prepared interval; its end is at the present wall time."""
+
+    def changed(self, point: OperatingPoint, instant: float) -> None:
+        """Receive the operating point that applies from simulated time `instant` [s]."""
+
+    def refused(self, reason: str) -> None:
+        """Receive the reason why a ramp ended early, or why a command had no effect."""
+
+    def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
+        """From simulated time `instant` [s], the setting of `quality` replaces `before`."""
+
+    def ready(self) -> bool:
+        """Return whether time can pass: for example, the clock to follow is available."""
+
+    def has_room(self) -> bool:
+        """Return whether the recorder has kept up and the next interval may be published."""
+
+    def resumed(self, twin: Twin) -> None:
+        """Map the present time of `twin` to the present ROS time, after a start or a halt."""
+
+    def stopped(self, defect: Exception) -> None:
+        """Receive the exception that ended the thread."""
+
+
+class State(StrEnum):
+    """State of simulated time."""
+
+    RUNNING = "running"
+    PAUSED = "paused"
+    WAITING = "waits"
+    FAILED = "failed"
+
+
+class Progress(NamedTuple):
+    """Times and counters of a live twin at the end of an interval."""
+
+    simulated: float  # [s]
+    wall: float  # [s] steady clock
+    ran: float  # [s] simulated time of all intervals; steps of a paused twin do not count
+    lasted: float  # [s] wall time of these intervals; pauses do not count
+    cpu: float  # [s] processor time of the thread
+    overruns: int
+    repeats: bool  # steady running: mesh cycles are repeated, not computed
+    state: State
+    failure: str = ""  # reason of the state FAILED
+    held: float = 0.0  # [s] wall time for which the twin has waited for its recorder
+
+
+Given = Callable[[Twin, float], dict[str, float]]
+
+
+def nothing_given(twin: Twin, interval: float) -> dict[str, float]:
+    """Return no commands."""
+    return {}
