@@ -25,15 +25,15 @@ def time_of(seconds: float) -> Time:
     return found
 
 
-def estimate_message(said: Following, frame: str, sequence: int) -> msg.FollowerEstimate:
-    """Return the estimates of the state `said` as a message in `frame`."""
-    message = msg.FollowerEstimate(header=_header(said, frame), sequence=sequence)
-    message.input_speed, message.oil_temperature = said.operating
-    for one in said.estimates:
+def estimate_message(state: Following, frame: str, sequence: int) -> msg.FollowerEstimate:
+    """Return the estimates of the state `state` as a message in `frame`."""
+    message = msg.FollowerEstimate(header=_header(state, frame), sequence=sequence)
+    message.input_speed, message.oil_temperature = state.operating
+    for one in state.estimates:
         setattr(message, one.name, one.value)
         for part in ("status", "sd", "low", "high", "remedy"):
             setattr(message, f"{one.name}_{part}", getattr(one, part))
-    known = {one.name for one in said.estimates}
+    known = {one.name for one in state.estimates}
     for name in QUANTITIES:
         if name not in known:
             for field in (name, f"{name}_sd", f"{name}_low", f"{name}_high"):
@@ -41,11 +41,11 @@ def estimate_message(said: Following, frame: str, sequence: int) -> msg.Follower
     return message
 
 
-def residuals_message(said: Following, frame: str, sequence: int) -> msg.FollowerResiduals:
-    """Return the residuals of the state `said` as a message in `frame`."""
-    message = msg.FollowerResiduals(header=_header(said, frame), sequence=sequence)
-    found = said.innovation
-    message.scatter = said.scatter
+def residuals_message(state: Following, frame: str, sequence: int) -> msg.FollowerResiduals:
+    """Return the residuals of the state `state` as a message in `frame`."""
+    message = msg.FollowerResiduals(header=_header(state, frame), sequence=sequence)
+    found = state.innovation
+    message.scatter = state.scatter
     message.innovation = math.nan if found is None else found.value
     message.innovation_sd = math.nan if found is None else found.sd
     message.normalized = math.nan if found is None else found.value / found.sd
@@ -54,19 +54,19 @@ def residuals_message(said: Following, frame: str, sequence: int) -> msg.Followe
 
 
 def teeth_message(
-    said: Following, frame: str, sequence: int, counts: list[int]
+    state: Following, frame: str, sequence: int, counts: list[int]
 ) -> msg.FollowerTeeth:
     """
     Return the state of the teeth as a message in `frame`.
 
     `counts` are the teeth of sun, each planet and ring.
     """
-    changed = said.teeth
+    changed = state.teeth
     return msg.FollowerTeeth(
-        header=_header(said, frame),
+        header=_header(state, frame),
         sequence=sequence,
-        hunting_periods=said.counters.get("hunting_periods", 0),
-        learning=not said.every_z,
+        hunting_periods=state.counters.get("hunting_periods", 0),
+        learning=not state.every_z,
         changed=[f"{one.gear} tooth {one.tooth}" for one in changed],
         loss=[one.loss.value for one in changed],
         loss_low=[one.loss.low for one in changed],
@@ -74,7 +74,7 @@ def teeth_message(
         z=[one.z for one in changed],
         kinds=[" or ".join(one.kinds) for one in changed],
         as_likely=[", ".join(one.candidates[1:]) for one in changed],
-        every_z=list(said.every_z),
+        every_z=list(state.every_z),
         teeth=counts,
     )
 
@@ -91,12 +91,12 @@ def event_message(event: pt.Event, frame: str, sequence: int, number: int) -> ms
     return message
 
 
-def baseline_message(said: Following, frame: str, sequence: int) -> msg.FollowerBaseline:
+def baseline_message(state: Following, frame: str, sequence: int) -> msg.FollowerBaseline:
     """Return the learning state of the baselines as a message in `frame`."""
-    cells = said.cells
+    cells = state.cells
     digest = sha256("".join(cell.digest for cell in cells).encode()).hexdigest()[:16]
     return msg.FollowerBaseline(
-        header=_header(said, frame),
+        header=_header(state, frame),
         sequence=sequence,
         digest=digest if any(cell.digest for cell in cells) else "",
         needed=max((cell.needed for cell in cells), default=0),
@@ -107,8 +107,8 @@ def baseline_message(said: Following, frame: str, sequence: int) -> msg.Follower
     )
 
 
-def _header(said: Following, frame: str) -> Header:
-    return Header(stamp=time_of(said.time), frame_id=frame)
+def _header(state: Following, frame: str) -> Header:
+    return Header(stamp=time_of(state.time), frame_id=frame)
 
 
 def _quantities() -> Iterator[str]:

@@ -38,10 +38,10 @@ class Feed(NamedTuple):
 
 
 def statuses(
-    said: Following, feed: Feed, limits: Limits, hardware: str, namespace: str
+    state: Following, feed: Feed, limits: Limits, hardware: str, namespace: str
 ) -> list[DiagnosticStatus]:
     """Return the four reports of the follower in `namespace` on a gearbox named `hardware`."""
-    parts = _inputs(said, feed), _clock(said, feed), _estimator(said), _condition(said, limits)
+    parts = _inputs(state, feed), _clock(state, feed), _estimator(state), _condition(state, limits)
     return [
         DiagnosticStatus(
             level=level,
@@ -57,23 +57,23 @@ def statuses(
 _Part = tuple[bytes, str, Mapping[str, str]]
 
 
-def _inputs(said: Following, feed: Feed) -> _Part:
-    values = {name: str(count) for name, count in said.counters.items()}
+def _inputs(state: Following, feed: Feed) -> _Part:
+    values = {name: str(count) for name, count in state.counters.items()}
     if feed.refusal:
         return DiagnosticStatus.ERROR, feed.refusal, values
-    if math.isnan(said.time):
+    if math.isnan(state.time):
         return DiagnosticStatus.STALE, "no readings yet", values
     if feed.silent > feed.timeout:
         return DiagnosticStatus.STALE, f"no readings for {feed.silent:.1f} s", values
-    spoilt = {name: said.counters[name] for name in _SPOILT if said.counters.get(name)}
+    spoilt = {name: state.counters[name] for name in _SPOILT if state.counters.get(name)}
     if spoilt:
         words = ", ".join(f"{name} {count}" for name, count in spoilt.items())
         return DiagnosticStatus.OK, f"received; not used: {words}", values
     return DiagnosticStatus.OK, "received", values
 
 
-def _clock(said: Following, feed: Feed) -> _Part:
-    lines = [line for line in said.remarks if line.startswith("clock")]
+def _clock(state: Following, feed: Feed) -> _Part:
+    lines = [line for line in state.remarks if line.startswith("clock")]
     if feed.jumps:
         lines.append(f"stamps have jumped back {feed.jumps} times")
     level = DiagnosticStatus.WARN if lines else DiagnosticStatus.OK
@@ -81,11 +81,11 @@ def _clock(said: Following, feed: Feed) -> _Part:
     return level, "; ".join(lines) or "stamps agree with the times of arrival", values
 
 
-def _estimator(said: Following) -> _Part:
-    values = {one.name: one.status for one in said.estimates}
-    lines = [line for line in said.remarks if not line.startswith("clock")]
+def _estimator(state: Following) -> _Part:
+    values = {one.name: one.status for one in state.estimates}
+    lines = [line for line in state.remarks if not line.startswith("clock")]
     level = DiagnosticStatus.WARN if lines else DiagnosticStatus.OK
-    estimated = sum(one.status == "ESTIMATED" for one in said.estimates)
+    estimated = sum(one.status == "ESTIMATED" for one in state.estimates)
     return (
         level,
         "; ".join(lines) or f"{estimated} of {len(values)} quantities are estimated",
@@ -93,17 +93,17 @@ def _estimator(said: Following) -> _Part:
     )
 
 
-def _condition(said: Following, limits: Limits) -> _Part:
+def _condition(state: Following, limits: Limits) -> _Part:
     """Return WARN for a detected change, ERROR if its whole interval is above the limit."""
-    lines = [f"{event.what}: {event.evidence}" for event in said.events]
+    lines = [f"{event.what}: {event.evidence}" for event in state.events]
     values = {f"event {n}": line for n, line in enumerate(lines, 1)}
-    friction = next(one for one in said.estimates if one.name == "friction_level")
+    friction = next(one for one in state.estimates if one.name == "friction_level")
     worst = [
         f"friction level above {limits.friction:g}: {friction.low:.3g} to {friction.high:.3g}"
     ] * (friction.low > limits.friction)
     worst += [
         f"{tooth.gear} tooth {tooth.tooth}: more than {100 * limits.tooth:g} % of stiffness lost"
-        for tooth in said.teeth
+        for tooth in state.teeth
         if tooth.loss.low > limits.tooth
     ]
     if worst:
