@@ -11,6 +11,7 @@ from ..result import Result
 from ..scene import Scene
 
 ALLOWED = 0.05  # relative deviation of the mean speed
+WHOLE = 0.99  # part of a mesh cycle that counts as one: vibration delays gears by less
 _STANDSTILL = 1e-6  # [Hz] of the mesh
 
 
@@ -37,7 +38,7 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
         return
     speeds = dict(zip(run.bodies, run.mean_speed.tolist(), strict=True))
     found = mesh_frequency(teeth, speeds["sun"], speeds["carrier"])
-    if found * run.duration < 1.0:
+    if found * run.duration < WHOLE:
         yield (
             f"the run covers {found * run.duration:.2g} of a mesh cycle: means depend on where the "
             f"teeth are; a mesh cycle takes {1.0 / wanted:.3g} s"

@@ -212,6 +212,10 @@ def test_stamps_that_jump_back_are_reported(rig: Rig, start: Start, restarts: bo
 def test_a_reset_forgets_all_readings(rig: Rig, start: Start) -> None:
     begin(start, rig)
     rig.send(100.0, 103.0)
+    last = rig.reading(103.0)
+    last.effort = [math.nan, math.nan]
+    rig.joints.publish(last)
+    rig.counters(lambda c: c["missing"] == 2)  # so all readings before it have been taken
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].header.stamp.sec >= BEGIN + 102)
     assert rig.user.call(Trigger, f"{FOLLOWER}/reset", Trigger.Request()).success
     rig.user.until(lambda: rig.estimates[-1].input_torque_status == "LEARNING")

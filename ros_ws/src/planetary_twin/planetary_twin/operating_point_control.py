@@ -22,7 +22,7 @@ class RunningSimulation(Protocol):
 
     @property
     def live(self) -> LiveTwin | None:
-        """The live twin; None unless the node is active."""
+        """Return the live twin, or None unless the node is active."""
 
     @property
     def longest_wait(self) -> float:

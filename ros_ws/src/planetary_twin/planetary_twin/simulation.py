@@ -191,7 +191,7 @@ class Simulation(ManagedNode):
 
     @property
     def live(self) -> LiveTwin | None:
-        """The live twin; None unless the node is active."""
+        """Return the live twin, or None unless the node is active."""
         return self._live
 
     @property
