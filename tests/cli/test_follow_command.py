@@ -62,6 +62,7 @@ def test_a_step_of_friction_is_found(readings, folder):
     assert len(rows) >= 29 and rows[-1]["events"] == "1"
 
 
+@pytest.mark.exhaustive
 def test_a_cracked_tooth_is_found_by_encoders(folder):
     (folder / "crack.yaml").write_text(ONE_WAY)
     (folder / "sensors.yaml").write_text(SENSORS)

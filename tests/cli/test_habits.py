@@ -50,6 +50,7 @@ def printed_on_a_terminal(**environment):
         return terminal.read1(10000)
 
 
+@pytest.mark.exhaustive
 def test_colours_are_used_on_terminals_unless_disabled():
     assert b"\x1b[31m" in printed_on_a_terminal()
     assert b"\x1b[" not in printed_on_a_terminal(NO_COLOR="1")

@@ -111,6 +111,7 @@ def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tm
     assert 900.0 <= places.min() < 905.0 and 1595.0 < places.max() <= 1600.0
 
 
+@pytest.mark.exhaustive
 def test_samples_of_simulate_are_analysed_too(tmp_path):
     npz = tmp_path / "run.npz"
     planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)

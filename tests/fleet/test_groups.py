@@ -67,7 +67,7 @@ def test_a_group_that_cannot_be_read_is_named(table, tmp_path):
         follow_groups(work, gearboxes_of(table), Threads(1))
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_killed_worker_changes_no_bit(table, scheduler):  # noqa: F811
     address, workers = scheduler
     work, names = FollowGroup(table, paper(), COUNT), gearboxes_of(table)
@@ -88,6 +88,7 @@ def test_a_killed_worker_changes_no_bit(table, scheduler):  # noqa: F811
     assert repr(found) == repr(follow_groups(work, names, Threads(1), size=1))
 
 
+@pytest.mark.exhaustive
 def test_the_command_writes_a_row_for_each_gearbox(table, tmp_path):
     said = run(
         "fleet", "paper", "--from", table, "--out", tmp_path / "state.csv",

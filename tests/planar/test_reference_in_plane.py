@@ -76,6 +76,7 @@ def test_steady_running_converges_to_the_reference(flow, changes):
     assert found[1] < 2e-5
 
 
+@pytest.mark.exhaustive
 def test_rattling_with_gaps_and_clearance_converges_to_the_reference():
     scene = planar(
         FLOWS[0],

@@ -115,7 +115,7 @@ def test_forces_and_errors_are_those_of_bodies_that_no_torque_accelerates():
         assert run.power_loss[row].sum() == pytest.approx(loss, rel=1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_mean_power_loss_is_that_of_adaptive_quadrature_over_the_mesh_cycle():
     still = Still(PAPER)
     corners = still.corners()

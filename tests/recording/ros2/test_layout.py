@@ -74,7 +74,7 @@ def assert_same(row, message):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("little_endian", [True, False])
+@pytest.mark.parametrize("little_endian", [True, pytest.param(False, marks=pytest.mark.exhaustive)])
 @settings(max_examples=400, deadline=None)
 @given(data=st.data())
 def test_fields_are_those_that_rosbags_decodes(little_endian, data):

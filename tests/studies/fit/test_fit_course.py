@@ -47,7 +47,7 @@ def manoeuvre(path, kind, slow_error=0.0, seed=0):
     return path
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "reversal")
     found = fit_course(path, SCENE, (FRICTION, DRAG, MOTOR), hold_out=(15.0, 20.0), span=(0, 14.9))
@@ -67,6 +67,7 @@ def test_a_run_up_determines_friction_and_drag(tmp_path):
     assert found.estimate.values[1] == pytest.approx(0.05, rel=0.2)
 
 
+@pytest.mark.exhaustive
 def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
     clean, wrong = (
         fit_course(manoeuvre(tmp_path / "rig.mat", "run-up", error), SCENE, (DRAG,))

@@ -34,6 +34,7 @@ def rig(tmp_path_factory):
     return folder / "recording"
 
 
+@pytest.mark.exhaustive
 def test_predictions_hold_the_points_that_are_held_out(rig):
     search = Search((FRICTION, DRAG), ("output_torque",))
     found = identify(rig, search, begin=0.0, end=2.5, hold_out=(2.5, 5.0))
