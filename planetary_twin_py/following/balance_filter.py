@@ -49,7 +49,7 @@ NOISE_MEMORY = 60.0  # [s] time constant of the estimated noise
 GAP = 2.0  # [s] without a bin after which the torque is unknown
 FAR = 10.0  # standard deviation of an unknown torque over the torque of the scene
 FALL = 600.0  # [s] time constant with which the friction law decays to its prior
-SLOW_FALL = 21_600.0  # [s] likewise of friction level, zero, gain, drag, inertia: see coverage.py
+SLOW_FALL = 21_600.0  # [s] the same of the other parameters, see interval_coverage.py
 CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
 
 

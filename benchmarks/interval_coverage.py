@@ -1,4 +1,4 @@
-"""How often the 95 % intervals of `follow` contain the truth: `python benchmarks/coverage.py`.
+"""How often 95 % intervals of `follow` hold the truth: `python benchmarks/interval_coverage.py`.
 
 Each run takes a law of the plant (the follower's own, another film, another friction, bearings on
 the planets), draws errors of both torque sensors, a drag that the scene lacks and a load, plays
