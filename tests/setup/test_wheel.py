@@ -20,7 +20,7 @@ pytestmark = [pytest.mark.exhaustive, pytest.mark.slow]
 NOT_THE_MODELS = ("ros", "rclpy", "rerun", "mcap", "matplotlib", "pyarrow", "distributed", "sundae")
 
 
-def build(folder, *options):
+def build(folder):
     """Build a source archive of the files that are kept, and a wheel of it, without a network."""
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard"],
@@ -33,7 +33,7 @@ def build(folder, *options):
     uv = [Path(sys.prefix, "bin/uv"), "--offline", "--quiet"]
     subprocess.run(
         [*uv, "build", "--no-build-isolation", "--python", sys.executable,
-         "--out-dir", folder, *options, folder / "source"],
+         "--out-dir", folder, folder / "source"],
         check=True,
     )  # fmt: skip
     return folder
@@ -41,8 +41,8 @@ def build(folder, *options):
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """Folder of both; the core for one level only, which takes a third of the time."""
-    return build(tmp_path_factory.mktemp("wheel"), "--config-setting=cmake.define.LEVELS=v1")
+    """Folder of both; the core is compiled for every level."""
+    return build(tmp_path_factory.mktemp("wheel"))
 
 
 @pytest.fixture(scope="module")
@@ -68,8 +68,8 @@ def test_the_wheel_holds_the_core_and_its_stub_but_no_source(wheel):
     held = zipfile.ZipFile(wheel).namelist()
     core = [name for name in held if name.startswith("planetary_twin_py/_core/")]
     of_fmus = [name for name in core if name.startswith("planetary_twin_py/_core/fmu/")]
-    assert levels_in(set(core) - set(of_fmus)) == {"v1"}
-    assert levels_in(of_fmus) == {"v1", "fmi"}
+    assert levels_in(set(core) - set(of_fmus)) == set(NEEDS)
+    assert levels_in(of_fmus) == {*NEEDS, "fmi"}
     assert "planetary_twin_py/_core/__init__.pyi" in core
     assert not [name for name in held if name.endswith((".hpp", ".cpp", "CMakeLists.txt"))]
     assert "-none-" not in wheel.name
@@ -91,14 +91,11 @@ print(_core.LEVEL, digits.hexdigest())
 """
 
 
-def test_every_level_of_a_wheel_computes_the_same_bits(tmp_path, monkeypatch):
-    (wheel,) = build(tmp_path).glob("*.whl")
-    zipfile.ZipFile(wheel).extractall(tmp_path / "installed")
-    assert levels_in(zipfile.ZipFile(wheel).namelist()) == {*NEEDS, "fmi"}
+def test_every_level_of_a_wheel_computes_the_same_bits(alone, monkeypatch):
     found = {}
     for level in runnable_levels():
         monkeypatch.setenv(CHOICE, level)
-        done = without_extras(tmp_path / "installed", COMPUTE)
+        done = without_extras(alone, COMPUTE)
         assert done.returncode == 0, done.stderr
         loaded, found[level] = done.stdout.split()
         assert loaded == level
