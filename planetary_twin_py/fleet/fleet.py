@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.balance import TELLING
+from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import alarm_memory, interval_memory
 from ..following.estimate import CONFIDENT
 from ..following.sensors import Sensors
@@ -164,7 +164,7 @@ class Fleet:
             raise ValueError(f"{name!r}: must be one of {', '.join(PARAMETERS[:4])}")
         state, wide = PARAMETERS.index(name), self._wide
         sd = np.sqrt(np.maximum(wide.p[:, state, state], 0.0))
-        known = sd < TELLING * wide.sd[state]
+        known = sd < IDENTIFIABLE * wide.sd[state]
         if state == F:
             sd = np.hypot(sd, self.table.error * wide.x[:, F] / CONFIDENT)
         value = np.where(known, wide.x[:, state], math.nan)

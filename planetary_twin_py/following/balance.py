@@ -45,7 +45,7 @@ Array = NDArray[np.float64]
 KEPT = 36_000  # bins whose torque is kept for judging teeth
 TURNING = 3_000  # bins whose speed is kept for vibration
 PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when the load reverses
-TELLING = 0.5  # share of the prior standard deviation below which a parameter is identifiable
+IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
 REFUSED = 1.0  # [s] of successive gated balances that cause an event
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
@@ -339,7 +339,7 @@ class BalanceFollower:
         sd = math.sqrt(max(float(wide.p[state, state]), 0.0))
         prior = float(wide.prior[1][state - F])
         remedy = self._remedy(state)
-        if not sd < TELLING * prior:
+        if not sd < IDENTIFIABLE * prior:
             return not_identifiable(name, sd, UNITS[name], remedy)
         return estimated(name, float(wide.x[state]), sd, UNITS[name], remedy)
 
