@@ -18,7 +18,7 @@ from .course_model import CourseModel
 from .estimate import Estimate, conclude
 from .least_squares import Minimum, differentiate, minimise
 from .parameter import Parameter, read_parameters
-from .runs_test import Runs, count_runs
+from .residual_runs import Runs, count_runs
 
 CONFIDENCE = 0.95
 LEAST = 1e-9  # [N m] smallest noise

@@ -8,7 +8,7 @@ from ...accuracy import course_warnings
 from .identify import Identified
 from .parameter import Parameter
 from .readings import Array
-from .runs_test import count_runs
+from .residual_runs import count_runs
 
 
 def remarks(found: Identified) -> Iterator[str]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.studies.fit.runs_test import count_runs
+from planetary_twin_py.studies.fit.residual_runs import count_runs
 
 
 def test_random_orders_have_the_expected_runs_and_are_rarely_refused():
