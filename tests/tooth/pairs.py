@@ -50,22 +50,7 @@ def planet_ring_pair(
     material: Material,
     contact: ContactLaw,
 ) -> ToothPair:
-    """Tooth pair of the internal mesh.
-
-    Args:
-        teeth: tooth numbers.
-        module: [m].
-        pressure_angle: [rad].
-        addendum: [modules].
-        material: of both gears.
-        contact: law of the contact.
-
-    Returns:
-        The pair.
-
-    Raises:
-        ValueError: the teeth are impossible, see `SpurGear` and `gearset.geometry`.
-    """
+    """Tooth pair of the internal mesh, with the arguments of `sun_planet_pair`."""
     planet = Tooth(SpurGear(teeth.planet, module, pressure_angle, addendum), material, HUB)
     ring = Tooth(SpurGear(teeth.ring, module, pressure_angle, addendum, True), material, RIM)
     return ToothPair(planet, ring, planet_ring_path(teeth, pressure_angle, addendum), contact)

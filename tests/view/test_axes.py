@@ -5,6 +5,7 @@ import pytest
 from planar.moving_scenes import planar
 from power_flows import FLOWS
 from rerun.chunk import RrdReader
+from view.entity_rows import rows
 
 from planetary_twin_py.recording.container.records import records_of
 from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
@@ -33,17 +34,6 @@ def drawn(recording, tmp_path_factory):
     rrd = tmp_path_factory.mktemp("rrd") / "axes.rrd"
     save(recording, scene_of(recording)[0], rrd)
     return rrd
-
-
-def rows(rrd, path, component):
-    """Times [s] and rows of a component of an entity."""
-    found = []
-    for chunk in RrdReader(rrd).stream():
-        batch = chunk.to_record_batch()
-        if chunk.entity_path == path and component in batch.schema.names and not chunk.is_static:
-            times = np.array(batch.column("simulated_time").cast("int64").to_pylist()) * 1e-9
-            found += zip(times, batch.column(component).to_pylist(), strict=True)
-    return found
 
 
 def test_the_sun_is_drawn_displaced_by_the_stated_multiple_and_turns_with_the_carrier(

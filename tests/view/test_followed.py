@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
 from rerun.chunk import RrdReader
+from view.entity_rows import rows
 
 from planetary_twin_py import load_scene
 from planetary_twin_py.recording.ros2.definitions import definition_of
@@ -61,17 +62,6 @@ def drawn(recording, tmp_path_factory):
     rrd = tmp_path_factory.mktemp("rrd") / "followed.rrd"
     save(recording, scene_of(recording)[0], rrd)
     return rrd
-
-
-def rows(rrd, path, component="Scalars:scalars"):
-    """Simulated times [s] and rows of an entity."""
-    found = []
-    for chunk in RrdReader(rrd).stream():
-        batch = chunk.to_record_batch()
-        if chunk.entity_path == path and component in batch.schema.names and not chunk.is_static:
-            times = np.array(batch.column("simulated_time").cast("int64").to_pylist()) * 1e-9
-            found += zip(times, batch.column(component).to_pylist(), strict=True)
-    return found
 
 
 def test_measured_and_simulated_torque_share_a_plot_and_their_difference_has_its_own(
