@@ -4,7 +4,6 @@ import os
 import signal
 from collections.abc import Iterator
 from contextlib import ExitStack
-from itertools import zip_longest
 from pathlib import Path
 
 import pytest
@@ -31,21 +30,21 @@ os.environ["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 
-# Folders whose tests start processes and wait for them.
-WAITING = {"ros", "ros_cli", "cli", "view"}
-
-
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Let files that wait and files that compute take turns, so that none waits alone at the end.
+    """Spread the files of tests/ros, which mostly wait, evenly among those that compute.
 
     With the order of pytest-xdist, by number of tests, the slowest few would come last.
     """
     files: dict[bool, dict[Path, list[pytest.Item]]] = {True: {}, False: {}}
     for item in items:
-        waits = not WAITING.isdisjoint(item.path.relative_to(ROOT).parts)
+        waits = item.path.is_relative_to(ROOT / "tests" / "ros")
         files[waits].setdefault(item.path, []).append(item)
-    turns = zip_longest(files[True].values(), files[False].values(), fillvalue=())
-    items[:] = [item for turn in turns for file in turn for item in file]
+    places = [
+        ((place + 0.5) / len(group), file)
+        for group in files.values()
+        for place, file in enumerate(group.values())
+    ]
+    items[:] = [item for _, file in sorted(places, key=lambda each: each[0]) for item in file]
 
 
 @pytest.fixture
