@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin.shaft_commands import ShaftCommands
 from planetary_twin_msgs.srv import Step
 from rclpy.clock import Clock
@@ -95,14 +96,19 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(
     # The same by topic: the command that arrived last acts in the next step.
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
     peer.until(lambda: publisher.get_subscription_count())
+    diagnostics = peer.listen(DiagnosticArray, "/diagnostics")
     publisher.publish(command((50.0, 120.0)))
     count = len(joints)
-    time.sleep(0.2)  # the subscription has no answer that could be waited for
+    peer.until(lambda: "received" in reports_on_commands(diagnostics))
     answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3))
     shown = twin.step(1e-3, input_torque=50.0, output_torque=120.0)
     assert list(answer.state.velocity) == [shown.input_speed, shown.output_speed]
     assert list(answer.state.effort) == [50.0, 120.0]
     peer.until(lambda: len(joints) > count)
+
+
+def reports_on_commands(arrays: list[DiagnosticArray]) -> set[str]:
+    return {each.message for array in arrays for each in array.status if "commands" in each.name}
 
 
 def test_steps_with_a_command_that_no_port_takes_are_refused(
