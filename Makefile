@@ -58,7 +58,7 @@ sanitize: setup
 # An FMU in FMPy and a joint in MuJoCo, beside .venv: FMPy wants another CMake than the set-up.
 test-cosimulation: setup
 	$(BIN)/uv pip install --quiet --python $(BIN)/python --target build/cosimulation --group cosimulation
-	PYTHONPATH=build/cosimulation $(PYTEST) tests/fmu tests/examples $(ARGS)
+	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) tests/fmu tests/examples $(ARGS)
 
 test-fast: setup
 	$(PYTEST) -m "not slow and not exhaustive" $(ARGS)
