@@ -14,6 +14,7 @@ from rclpy.node import Node
 from .audience import PATIENCE
 
 _NOW = Duration()
+_SILENCE = 20.0  # [s] without a status, after which the recorder may have been killed
 _UNSEEN = 5  # messages of a topic; the queue of a subscription holds 10 in ROS 2 and in rosbag2
 
 
@@ -30,9 +31,9 @@ class Backlog:
     Messages that the node `name`, in the namespace of `node`, has not recorded yet.
 
     A recorder that publishes `RecorderStatus` on `NAME/status` may lag by `room` messages per
-    topic. Other recorders do not report what they have recorded. For them, at most 5 messages per
-    topic are in transit until all reliable subscribers have acknowledged them, or 10 s have
-    passed. If `name` is empty, there is always room.
+    topic. Other recorders, and one whose last status is 20 s old, do not report what they have
+    recorded. For them, at most 5 messages per topic are in transit until all reliable subscribers
+    have acknowledged them, or 10 s have passed. If `name` is empty, there is always room.
 
     `published` returns the number of messages that each publisher has sent, for the publishers
     that send one message per interval.
@@ -54,6 +55,7 @@ class Backlog:
         self._recorded: dict[str, int] = {}  # the rest
         self._acknowledged: dict[LifecyclePublisher, int] = {}
         self._since = time.monotonic()  # time of the last acknowledgement
+        self._heard = self._since  # time of the last status
         self._given_up = False
         self._status = (
             node.create_subscription(
@@ -76,7 +78,9 @@ class Backlog:
         with self._status.handle:
             while taken := self._status.handle.take_message(RecorderStatus, False):
                 self._on_status(taken[0])
-        if self._recorded and self._status.get_publisher_count():
+                self._heard = time.monotonic()
+        silent = time.monotonic() > self._heard + _SILENCE
+        if self._recorded and self._status.get_publisher_count() and not silent:
             return self._is_close()
         return self._is_acknowledged()
 

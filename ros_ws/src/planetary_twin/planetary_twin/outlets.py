@@ -17,6 +17,7 @@ from .qos import publisher_qos
 from .topics import UNKNOWN_NODE, message_class
 
 _POLL = 2e-3  # [s]
+_PATIENCE = 20.0  # [s] for a subscriber that acknowledges nothing; it may have been killed
 _NOW = Duration()
 
 
@@ -31,6 +32,7 @@ class Outlet:
         self.publisher = publisher
         self._depth = depth
         self._sent = 0  # since all messages were acknowledged
+        self._full = 0.0  # time since which there has been no room [s]; 0 if there is
 
     def publish(self, data: bytes) -> None:
         """Publish a serialised message."""
@@ -41,12 +43,18 @@ class Outlet:
         """
         Return whether the next message overwrites no unacknowledged message.
 
-        A subscriber that was killed counts until its lease expires: 20 s in Fast DDS. A publisher
+        After 20 s without, messages that were never acknowledged are overwritten. A publisher
         without reliable subscribers always has room.
         """
-        if self._sent >= self._depth and self.acknowledged():
-            self._sent = 0
-        return self._sent < self._depth
+        if self._sent < self._depth:
+            return True
+        now = time.monotonic()
+        self._full = self._full or now
+        if not self.acknowledged():
+            return now > self._full + _PATIENCE
+        self._sent = 0
+        self._full = 0.0
+        return True
 
     def acknowledged(self) -> bool:
         """Return whether every reliable subscriber has acknowledged every message."""

@@ -27,8 +27,7 @@ from .playing_services import PlayingServices
 # Participants discover each other at once, or, if a packet of the first exchange was lost, at the
 # next announcement: every 3 s. An existing subscriber must not miss the first messages.
 _DISCOVERY = 4.0  # [s]
-# Longest wait for subscribers to acknowledge the last messages: one that was killed counts until
-# its lease of 20 s expires.
+# Longest wait for subscribers to acknowledge the last messages; one that was killed never does.
 _DELIVERY = 30.0  # [s]
 _LONGEST = 1e7  # [s]
 _SHOW_PERIOD = 0.1  # [s]
