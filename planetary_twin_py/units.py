@@ -30,6 +30,20 @@ _CUSTOMARY = {  # by SI unit: customary unit, factor, and offset
     "Pa": ("MPa", 1e-6, 0.0),
 }
 
+_COMMON = {  # factor and offset of units that most scenes use: loading pint takes half a second
+    ("mm", "m"): (1e-3, 0.0),
+    ("um", "m"): (1e-6, 0.0),
+    ("g", "kg"): (1e-3, 0.0),
+    ("ms", "s"): (1e-3, 0.0),
+    ("kHz", "Hz"): (1e3, 0.0),
+    ("kW", "W"): (1e3, 0.0),
+    ("kN m", "N m"): (1e3, 0.0),
+    ("MPa", "Pa"): (1e6, 0.0),
+    ("GPa", "Pa"): (1e9, 0.0),
+    ("rpm", "rad/s"): (math.pi / 30.0, 0.0),
+    ("deg", "rad"): (math.pi / 180.0, 0.0),
+    ("degC", "K"): (1.0, 273.15),
+}
 
 # pint evaluates a unit as an expression, so it would compute every digit of 10**10**10.
 _LONGEST_UNIT = 60  # characters
@@ -56,7 +70,7 @@ def rpm(value: float) -> float:
 
 @cache
 def _registry() -> Any:
-    import pint  # takes 0.2 s, and most values have no unit
+    import pint
 
     registry: Any = pint.UnitRegistry(
         autoconvert_offset_to_baseunit=True,
@@ -150,6 +164,9 @@ def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[
     Raises:
         UnitError: `given` does not match `unit`.
     """
+    if given == unit or (given, unit) in _COMMON:
+        factor, offset = _COMMON.get((given, unit), (1.0, 0.0))
+        return factor * values + offset
     if not _compatible(given, unit):
         raise UnitError(f"[{given}] cannot be converted to {unit or '1'}{_instead(given, unit)}")
     source, target = _unit(given), _unit(unit)

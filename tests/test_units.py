@@ -4,9 +4,10 @@ import math
 import time
 
 import numpy as np
+import pint
 import pytest
 
-from planetary_twin_py.units import UnitError, column_to_si, to_si
+from planetary_twin_py.units import _COMMON, UnitError, column_to_si, to_si
 
 
 @pytest.mark.parametrize(
@@ -24,6 +25,15 @@ from planetary_twin_py.units import UnitError, column_to_si, to_si
 )
 def test_a_number_with_a_unit_is_converted_to_si(written, unit, meant):
     assert to_si(written, unit) == pytest.approx(meant, rel=1e-12)
+
+
+@pytest.mark.parametrize(("given", "unit"), _COMMON, ids=lambda name: name)
+def test_frequent_units_have_the_bits_of_the_library_that_converts_the_others(given, unit):
+    rng = np.random.default_rng(1)
+    values = rng.normal(size=2000) * 10.0 ** rng.uniform(-9.0, 9.0, 2000)
+    library = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    expected = library.Quantity(values, given).to(unit).magnitude
+    assert np.array_equal(column_to_si(values, given, unit), expected)
 
 
 @pytest.mark.parametrize("written", ["1500 rpm", "1500 rev/min", "25 rev/s", "25 turn/s"])

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import ndtr, stdtrit
 
 from .estimate import CONFIDENT, Event, estimated, not_identifiable
 from .tooth_search import ALARM
@@ -118,7 +118,7 @@ class VibrationFollower:
         self._known: dict[tuple[int, int], tuple[int, _Baseline]] = {}
         """Place of the event, and where it was found, by channel and pattern."""
         # As rare as a z of ALARM, for a standard deviation from `learning` hunting periods.
-        self._limit = float(stats.t.isf(stats.norm.sf(ALARM), learning - 1))
+        self._limit = -float(stdtrit(learning - 1, ndtr(-ALARM)))
 
     def add(self, time: Array, values: Array) -> None:
         """Take samples.

@@ -18,15 +18,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from .._core import TOTAL
 from ..gearset.geometry import PathOfContact
 from .stiffness import StiffnessLaw
 from .tooth_pairs import Along, PairTable, along, pair_table, segmented
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
 
 NOTHING = 1e-9  # of a full weight: less is none
 AFTER = 0.25  # added to the shift of the part of a pair after the pitch point
@@ -168,6 +170,8 @@ class FaceMean:
 
     def _integral(self, coefficient: np.ndarray) -> PPoly:
         """Integral of polynomials (SEGMENTS, PAIRS, terms) of the slices over their position."""
+        from scipy.interpolate import PPoly  # takes 0.3 s to load, and spur gears do not need it
+
         slices = self._slices
         pieces = []
         for j, p in zip(*np.nonzero(slices.present), strict=True):
