@@ -55,7 +55,7 @@ class Backlog:
         self._recorded: dict[str, int] = {}  # the rest
         self._acknowledged: dict[LifecyclePublisher, int] = {}
         self._since = time.monotonic()  # time of the last acknowledgement
-        self._heard = self._since  # time of the last status
+        self._reported = self._since  # time of the last status
         self._given_up = False
         self._status = (
             node.create_subscription(
@@ -78,8 +78,8 @@ class Backlog:
         with self._status.handle:
             while taken := self._status.handle.take_message(RecorderStatus, False):
                 self._on_status(taken[0])
-                self._heard = time.monotonic()
-        silent = time.monotonic() > self._heard + _SILENCE
+                self._reported = time.monotonic()
+        silent = time.monotonic() > self._reported + _SILENCE
         if self._recorded and self._status.get_publisher_count() and not silent:
             return self._is_close()
         return self._is_acknowledged()
