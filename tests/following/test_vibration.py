@@ -56,14 +56,14 @@ def followed(duration, grown=lambda time: {}, gain=1.0, cuts=50, wander=0.0, see
     return follower.estimate()
 
 
-def vibration_events(said):
-    return {event.what: event for event in said.events if event.what.startswith("vibration")}
+def vibration_events(estimate):
+    return {event.what: event for event in estimate.events if event.what.startswith("vibration")}
 
 
 @pytest.mark.parametrize("name", ["sun", "planet", "ring"])
 def test_grown_sidebands_name_their_gear_alone(name):
-    said = followed(20.0, lambda time: {name: (2.0, time > 12.0)})
-    events = vibration_events(said)
+    estimate = followed(20.0, lambda time: {name: (2.0, time > 12.0)})
+    events = vibration_events(estimate)
     assert set(events) == {f"vibration grew: sidebands of the {name}"}
     (event,) = events.values()
     assert event.since < 12.0 < event.found < 16.0
@@ -71,8 +71,8 @@ def test_grown_sidebands_name_their_gear_alone(name):
 
 
 def test_a_grown_harmonic_is_reported_with_its_size():
-    said = followed(20.0, lambda time: {"mesh 2": (0.3, time > 12.0)})
-    events = vibration_events(said)
+    estimate = followed(20.0, lambda time: {"mesh 2": (0.3, time > 12.0)})
+    events = vibration_events(estimate)
     assert set(events) == {"vibration grew: mesh harmonic 2"}
     size = events["vibration grew: mesh harmonic 2"].size
     assert size.low < 0.3 < size.high and size.high - size.low < 0.1
@@ -80,21 +80,21 @@ def test_a_grown_harmonic_is_reported_with_its_size():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_healthy_vibration_under_a_wandering_load_raises_nothing(seed):
-    said = followed(40.0, wander=0.03, seed=seed)
-    assert vibration_events(said) == {}
-    assert said.counters["vibration_periods"] > 40
+    estimate = followed(40.0, wander=0.03, seed=seed)
+    assert vibration_events(estimate) == {}
+    assert estimate.counters["vibration_periods"] > 40
 
 
 def test_a_gain_of_the_speed_sensor_does_not_hide_lines():
-    said = followed(20.0, lambda time: {"sun": (2.0, time > 12.0)}, gain=1.001)
-    assert set(vibration_events(said)) == {"vibration grew: sidebands of the sun"}
+    estimate = followed(20.0, lambda time: {"sun": (2.0, time > 12.0)}, gain=1.001)
+    assert set(vibration_events(estimate)) == {"vibration grew: sidebands of the sun"}
 
 
 def test_no_size_of_a_fault_is_claimed():
-    said = followed(20.0, lambda time: {"sun": (2.0, time > 12.0)})
-    (event,) = vibration_events(said).values()
+    estimate = followed(20.0, lambda time: {"sun": (2.0, time > 12.0)})
+    (event,) = vibration_events(estimate).values()
     assert "size of the fault: NOT IDENTIFIABLE" in event.evidence
-    assert all("vibration" not in one.name for one in said.estimates) and said.teeth == ()
+    assert all("vibration" not in one.name for one in estimate.estimates) and estimate.teeth == ()
 
 
 def test_samples_without_a_speed_tell_nothing():

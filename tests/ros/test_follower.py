@@ -168,8 +168,8 @@ def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing: Played) -> 
     fresh = estimates(changing)
     stamps = [stamp_of(one) for one in fresh]
     assert stamps == sorted(set(stamps))
-    said = changing.messages["estimate"]
-    for before, one in itertools.pairwise(said):  # silence changes statuses, not the stamp
+    published = changing.messages["estimate"]
+    for before, one in itertools.pairwise(published):  # silence changes statuses, not the stamp
         assert one in fresh or stamp_of(one) == stamp_of(before)
 
 
@@ -184,14 +184,14 @@ def test_an_estimate_follows_every_tenth_of_a_second_however_busy_the_machine_is
 
 def test_the_recording_followed_again_gives_the_same_bits(changing: Played) -> None:
     again = following(changing)
-    said = {round(one.time * 1e9): one for one in again}
+    repeated = {round(one.time * 1e9): one for one in again}
     live = estimates(changing)
     names = [name for name in live[0].get_fields_and_field_types() if name.endswith("_status")]
     for name in (name.removesuffix("_status") for name in names):
         whole = name.startswith(("compliance", "play"))  # by hunting periods, not by time
         for message in live[-1:] if whole else live:
             stamp = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
-            expected = said[stamp][name]
+            expected = repeated[stamp][name]
             for part in ("value", "sd", "low", "high"):
                 field = name if part == "value" else f"{name}_{part}"
                 found, wanted = getattr(message, field), getattr(expected, part)
@@ -203,24 +203,24 @@ def test_the_recording_followed_again_gives_the_same_bits(changing: Played) -> N
 
 
 def estimates(played: Played) -> list[Any]:
-    """Those that were said because of readings, not because of silence."""
-    said = played.messages["estimate"]
-    return [one for one in said if one.input_torque_status != "STALE"]
+    """Those that were made because of readings, not because of silence."""
+    published = played.messages["estimate"]
+    return [one for one in published if one.input_torque_status != "STALE"]
 
 
 def following(played: Played) -> list[Any]:
     """What a follower says of the recording, message by message."""
     sensors = read_sensors(played.place / "sensors.yaml")
     follower, reader = Follower(pt.load_scene("paper"), sensors), MessageReader(sensors.joints)
-    said = []
+    found = []
     for message in measured(played.recording):
         before = follower.time, follower.hunting_periods
         for block in reader.read([message]):
             follower.add(block)
         if (follower.time, follower.hunting_periods) != before and follower.time > 0.0:
-            said.append(follower.estimate())
+            found.append(follower.estimate())
     follower.finish()
-    return [*said, follower.estimate()]
+    return [*found, follower.estimate()]
 
 
 def measured(folder: Path) -> Iterator[Arrived]:

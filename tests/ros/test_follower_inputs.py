@@ -65,7 +65,7 @@ class Rig:
         for n in range(round(begin * RATE), round(end * RATE)):
             self.joints.publish(self.reading(n / RATE, scale))
 
-    def said(self, report: str, level: bytes, words: str = "") -> DiagnosticStatus:
+    def reported(self, report: str, level: bytes, words: str = "") -> DiagnosticStatus:
         """The first report of this level with these words."""
 
         def found() -> list[DiagnosticStatus]:
@@ -147,7 +147,7 @@ def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(
 ) -> None:
     begin(start, rig)
     rig.send(0.0, 6.0, **scale)
-    found = rig.said("inputs", DiagnosticStatus.ERROR, words)
+    found = rig.reported("inputs", DiagnosticStatus.ERROR, words)
     assert "\n" not in found.message
     name = "output_speed" if "output_speed" in scale else "output_torque"
     factor = 1.0 / next(iter(scale.values()))
@@ -170,7 +170,7 @@ def test_both_speeds_in_rpm_are_recognised_by_the_positions(rig: Rig, start: Sta
         message.position = [angle % math.tau, RATIO * angle % math.tau]
         message.velocity = [30 / math.pi * speed for speed in message.velocity]
         rig.joints.publish(message)
-    rig.said("inputs", DiagnosticStatus.ERROR, "probably in rpm: scale input_speed by 0.10472")
+    rig.reported("inputs", DiagnosticStatus.ERROR, "probably in rpm: scale input_speed by 0.10472")
 
 
 def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start) -> None:
@@ -179,7 +179,7 @@ def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start)
     stamp(warm, BEGIN)
     rig.oil.publish(warm)
     rig.send(0.0, 2.0)
-    rig.said("inputs", DiagnosticStatus.ERROR, "probably uses kelvin")
+    rig.reported("inputs", DiagnosticStatus.ERROR, "probably uses kelvin")
 
 
 def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:
@@ -189,7 +189,7 @@ def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:
         lambda: [one for one in rig.estimates if one.input_torque_status == "STALE"]
     )
     assert stale[0].input_torque == pytest.approx(63.0, abs=0.2)
-    rig.said("inputs", DiagnosticStatus.STALE, "no readings for")
+    rig.reported("inputs", DiagnosticStatus.STALE, "no readings for")
     rig.estimates.clear()
     rig.send(3.0, 5.0)
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].input_torque_status == "ESTIMATED")
@@ -201,7 +201,7 @@ def test_stamps_that_jump_back_are_reported(rig: Rig, start: Start, restarts: bo
     rig.send(100.0, 103.0)
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].header.stamp.sec >= BEGIN + 102)
     rig.send(0.0, 3.0)
-    rig.said("clock", DiagnosticStatus.WARN, "stamps have jumped back 1 times")
+    rig.reported("clock", DiagnosticStatus.WARN, "stamps have jumped back 1 times")
     if restarts:
         rig.user.until(lambda: rig.estimates[-1].header.stamp.sec < BEGIN + 100)
     else:
@@ -251,7 +251,9 @@ def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> No
         )  # fmt: skip
         stamp(block, BEGIN)
         rig.encoders.publish(block)
-    rig.said("inputs", DiagnosticStatus.ERROR, "must be 1048576, 1048576, 5e-05 s as in the blocks")
+    rig.reported(
+        "inputs", DiagnosticStatus.ERROR, "must be 1048576, 1048576, 5e-05 s as in the blocks"
+    )
 
 
 def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, start: Start) -> None:
@@ -272,19 +274,19 @@ def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, sta
     counts = rig.counters(lambda c: c.get("vibration_periods", 0) >= 3)
     assert counts["vibration_used"] > 3 * 0.8 * 4000 and counts["vibration_dropped_periods"] == 0
     send(6, ["housing", "bearing"])
-    rig.said("inputs", DiagnosticStatus.ERROR, "must be housing, 0.00025 s as in the blocks")
+    rig.reported("inputs", DiagnosticStatus.ERROR, "must be housing, 0.00025 s as in the blocks")
 
 
 def test_parameters_are_refused_in_one_line(rig: Rig, start: Start) -> None:
     start("planetary_twin.follower", "--ros-args", "-p", "autostart:=false")
-    for name, value, said in (
+    for name, value, words in (
         ("period", 0.001, "within 0.01 and 60"),
         ("publish_rate", 1e4, "within 0.1 and 100"),
         ("tooth_limit", 2.0, "within 0 and 1"),
     ):
         refused = rig.user.set(FOLLOWER, **{name: value})
         assert not refused.successful and refused.reason.startswith(f"{name} = {value!r}")
-        assert said in refused.reason
+        assert words in refused.reason
     assert rig.user.set(FOLLOWER, sensors="none.yaml").successful
     process = start("planetary_twin.follower", "--ros-args", "-p", "sensors:=none.yaml",
                     "-r", "__ns:=/other")  # fmt: skip

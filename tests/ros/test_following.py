@@ -40,7 +40,7 @@ class Taken:
 
 
 class Received:
-    """Keeps what is said."""
+    """Keeps what is reported."""
 
     def __init__(self) -> None:
         self.followings: list[Following] = []
@@ -49,7 +49,7 @@ class Received:
     def started(self) -> None:
         self.followings.clear()
 
-    def said(self, following: Following) -> None:
+    def estimated(self, following: Following) -> None:
         self.followings.append(following)
 
     def refused(self, reason: str) -> None:
@@ -82,8 +82,8 @@ def arrived(sender: str, kind: str, message: JointState | Temperature, time: flo
     return Arrived(sender, kind, BEGIN + time, message)
 
 
-def said(portions: list[list[Arrived]]) -> list[Following]:
-    """What is said of these portions."""
+def estimates_of(portions: list[list[Arrived]]) -> list[Following]:
+    """Estimates from these portions."""
     joints = JointNames()
     options = FollowerOptions(
         pt.load_scene("paper"), pt.Sensors(), joints, {}, 0.1, 10.0, 3600.0, False, "", "", ""
@@ -98,10 +98,10 @@ def said(portions: list[list[Arrived]]) -> list[Following]:
 
 @pytest.fixture(scope="module")
 def at_once() -> list[Following]:
-    return said([messages()])
+    return estimates_of([messages()])
 
 
-def test_an_estimate_is_said_for_each_tenth_of_a_second_though_all_is_taken_at_once(
+def test_there_is_an_estimate_for_each_tenth_of_a_second_though_all_is_taken_at_once(
     at_once: list[Following],
 ) -> None:
     times = [one.time - BEGIN for one in at_once]
@@ -110,22 +110,24 @@ def test_an_estimate_is_said_for_each_tenth_of_a_second_though_all_is_taken_at_o
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_the_same_is_said_however_messages_are_taken(at_once: list[Following], seed: int) -> None:
+def test_estimates_are_the_same_however_messages_are_taken(
+    at_once: list[Following], seed: int
+) -> None:
     every = messages()
     cuts = np.sort(np.random.default_rng(seed).choice(len(every), 12, replace=False))
     ends = [0, *cuts.tolist(), len(every)]
-    found = said([every[a:b] for a, b in itertools.pairwise(ends)])
+    found = estimates_of([every[a:b] for a, b in itertools.pairwise(ends)])
     assert repr(found) == repr(at_once)
 
 
 @pytest.mark.parametrize("late", ["joints", "oil"])
-def test_the_same_is_said_if_a_topic_arrives_half_a_second_after_the_other(
+def test_estimates_are_the_same_if_a_topic_arrives_half_a_second_after_the_other(
     at_once: list[Following], late: str
 ) -> None:
     def place(one: Arrived) -> float:
         return one.time + 0.5 * (one.sender == late)
 
-    found = said([sorted(messages(), key=place)])
+    found = estimates_of([sorted(messages(), key=place)])
     assert repr(estimated(found)) == repr(estimated(at_once))
 
 

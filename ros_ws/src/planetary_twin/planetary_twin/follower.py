@@ -127,7 +127,7 @@ class Follower(ManagedNode):
         """Count events and hunting periods from one again."""
         self._events, self._periods, self._learned = {}, 0, ""
 
-    def said(self, following: Following) -> None:
+    def estimated(self, following: Following) -> None:
         """Publish a new estimate."""
         frame = self._options.frame
         self._send("estimate", estimate_message(following, frame, self._next("estimate")))
@@ -192,7 +192,7 @@ class Follower(ManagedNode):
             self._live.stop()
 
     def _deliver(self) -> None:
-        """Wait until subscribers have what was said: a logger may end at once after this node."""
+        """Wait until subscribers have received all: a logger may end at once after this node."""
         deadline = time.monotonic() + _LAST
         for publisher in self._outlets.values():
             left = max(deadline - time.monotonic(), 0.0)

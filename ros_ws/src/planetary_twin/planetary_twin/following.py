@@ -43,7 +43,7 @@ class Audience(Protocol):
     def started(self) -> None:
         """Discard earlier results: the follower restarts."""
 
-    def said(self, following: Following) -> None:
+    def estimated(self, following: Following) -> None:
         """Publish a new estimate."""
 
     def refused(self, reason: str) -> None:
@@ -146,7 +146,7 @@ class LiveFollower:
         """The last reported estimate."""
         self._reader = MessageReader(self._options.joints, self._options.scale)
         self._portions = Portions(self._options.period)
-        self._newest = -math.inf  # stamp of the newest estimate, said or not [s]
+        self._newest = -math.inf  # stamp of the newest estimate, reported or not [s]
         self._due = -math.inf  # stamp of the next one to say [s]
         self._jumps = JumpWatch()
         self._refusal = ""
@@ -167,12 +167,12 @@ class LiveFollower:
             if self._restart.is_set():
                 self._restart.clear()
                 self._begin()
-                self._say(self.latest)
+                self._report(self.latest)
             self._use(self._source.take())
         self._use(self._source.take())
         if not self._refusal:
             self._checked(self._follower.finish)
-            self._say(self._follower.estimate())
+            self._report(self._follower.estimate())
 
     def _use(self, arrived: Sequence[Arrived]) -> None:
         """Process the messages, and report a new estimate."""
@@ -194,14 +194,14 @@ class LiveFollower:
         self._advanced = min(self._advanced + now - started, now)  # computing is no silence
         if not self._stale and now > self._advanced + self._options.sensor_timeout:
             self._stale = True
-            self._say(self._follower.estimate(now=math.inf))
+            self._report(self._follower.estimate(now=math.inf))
 
     def _feed(self, arrived: Sequence[Arrived]) -> None:
         def feed() -> None:
             for portion in self._portions.divide(arrived):
                 for block in self._reader.read(portion):
                     self._follower.add(block)
-                self._say_what_is_new()
+                self._report_what_is_new()
 
         self._checked(feed)
 
@@ -213,7 +213,7 @@ class LiveFollower:
             self._refusal = str(fault)
             self._audience.refused(self._refusal)
 
-    def _say_what_is_new(self) -> None:
+    def _report_what_is_new(self) -> None:
         """Say an estimate whenever stamps have grown by the period of publishing."""
         now = self._follower.time
         if not now > self._newest:
@@ -222,8 +222,8 @@ class LiveFollower:
         self._advanced, self._stale = time.monotonic(), False
         if now >= self._due:
             self._due = now + 1.0 / self._options.publish_rate - 0.5 * self._options.period
-            self._say(self._follower.estimate())
+            self._report(self._follower.estimate())
 
-    def _say(self, said: Following) -> None:
-        self.latest = said
-        self._audience.said(said)
+    def _report(self, estimate: Following) -> None:
+        self.latest = estimate
+        self._audience.estimated(estimate)
