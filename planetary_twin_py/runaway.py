@@ -47,16 +47,14 @@ class Limit(NamedTuple):
         Raises:
             ArithmeticError: a value exceeds its limit, or is NaN.
         """
-        peak = np.abs(values).max(axis=0, initial=0.0)  # NaN if there is one
-        if (peak <= self.largest).all():
+        if (np.abs(values) <= self.largest).all():  # False if one is NaN
             return
-        passed = np.flatnonzero(~(peak <= self.largest))
-        if passed.size:
-            k = int(passed[0])
-            raise ArithmeticError(
-                f"{self.quantity} of {self.names[k]} = {peak[k]:.4g} {self.unit}: must be at most "
-                f"{self.largest[k]:.4g} {self.unit}, {self.reason}"
-            )
+        peak = np.abs(values).max(axis=0)
+        k = int(np.flatnonzero(~(peak <= self.largest))[0])
+        raise ArithmeticError(
+            f"{self.quantity} of {self.names[k]} = {peak[k]:.4g} {self.unit}: must be at most "
+            f"{self.largest[k]:.4g} {self.unit}, {self.reason}"
+        )
 
 
 class Limits:

@@ -42,6 +42,8 @@ class Section(BaseModel):
     @field_validator("*", mode="before")
     @classmethod
     def _units_at_the_edge(cls, value: object, info: ValidationInfo) -> object:
+        if type(value) is float:  # in SI, the most frequent case
+            return value
         field = cls.__pydantic_fields__[info.field_name or ""]
         if isinstance(value, bool) and field.annotation is not bool:
             raise ValueError("must not be true or false")  # Python would convert them to 1 and 0
