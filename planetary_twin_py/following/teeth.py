@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Scene, SceneError
 from .baseline import Baseline, LearnedCell
 from .compliance import Compliance
+from .encoder_check import EncoderCheck
 from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
 from .signatures import signatures
@@ -92,6 +93,7 @@ class TeethFollower:
                 f"counts_per_turn = {first}, {second}, period = {self.period!r} s: must be above 0"
             )
         self.train = followed_train(self.scene)
+        self._check = EncoderCheck(self.train, self.counts_per_turn)
         self._hunting = HuntingBlocks(self.train, self.counts_per_turn, self.period)
         self._pending: deque[HuntingBlock] = deque()
         self._banks: dict[tuple[float, float], Bank] = {}  # by torque and speed
@@ -121,7 +123,11 @@ class TeethFollower:
         Args:
             sample: numbers of the samples, (n,): times in sample periods.
             counts: counts of both encoders, (n, 2).
+
+        Raises:
+            InputError: the encoders do not turn in the ratio of the teeth.
         """
+        self._check.add(counts)
         self._pending.extend(self._hunting.add(sample, counts))
 
     def finish(self) -> None:

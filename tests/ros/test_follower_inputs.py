@@ -209,6 +209,21 @@ def test_stamps_that_jump_back_are_reported(rig: Rig, start: Start, restarts: bo
         assert rig.estimates[-1].header.stamp.sec >= BEGIN + 100
 
 
+def test_several_publishers_of_one_sensor_are_a_warning(start: Start, rig: Rig) -> None:
+    """Those of joints are none: each may publish other joints."""
+    begin(start, rig)
+    second = rig.user.node.create_publisher(EncoderBlock, f"{TWIN}/measured/encoders", 100)
+    another = rig.user.node.create_publisher(JointState, JOINTS, 100)
+    rig.send(0.0, 3.0)
+    words = f"several publishers, must be one sensor: {TWIN}/measured/encoders"
+    report = rig.reported("inputs", DiagnosticStatus.WARN, words)
+    assert JOINTS not in report.message
+    rig.user.node.destroy_publisher(second)
+    rig.reports.clear()
+    rig.reported("inputs", DiagnosticStatus.STALE, "no readings for")
+    rig.user.node.destroy_publisher(another)
+
+
 def test_a_reset_forgets_all_readings(rig: Rig, start: Start) -> None:
     begin(start, rig)
     rig.send(100.0, 103.0)

@@ -207,12 +207,11 @@ class Follower(ManagedNode):
         return response
 
     def _diagnose(self) -> None:
-        live = self._live
-        if live is None:
+        live, intake = self._live, self._intake
+        if live is None or intake is None:
             return
-        feed = Feed(
-            live.silent, self._options.sensor_timeout, live.refusal, self._jumps, live.behind
-        )
+        timeout = self._options.sensor_timeout
+        feed = Feed(live.silent, timeout, live.refusal, self._jumps, live.behind, intake.shared)
         limits = Limits(*(self.get_parameter(f"{n}_limit").value for n in ("friction", "tooth")))
         message = DiagnosticArray()
         message.status = statuses(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -35,6 +35,8 @@ class Feed(NamedTuple):
     """Number of times that stamps have jumped back."""
     behind: float
     """Time that the last messages waited to be processed [s]."""
+    shared: Sequence[str]
+    """Topics of one sensor that have several publishers."""
 
 
 def statuses(
@@ -61,6 +63,9 @@ def _inputs(state: Following, feed: Feed) -> _Part:
     values = {name: str(count) for name, count in state.counters.items()}
     if feed.refusal:
         return DiagnosticStatus.ERROR, feed.refusal, values
+    if feed.shared:
+        words = ", ".join(feed.shared)
+        return DiagnosticStatus.WARN, f"several publishers, must be one sensor: {words}", values
     if math.isnan(state.time):
         return DiagnosticStatus.STALE, "no readings yet", values
     if feed.silent > feed.timeout:

@@ -46,11 +46,12 @@ class _Inlet:
         self.name, self.kind = node.resolve_topic_name(topic), kind
         self._node, self._class, self._group = node, message_class(kind), group
         self._subscription = self._subscribed(_ANY)
+        self.publishers = 0
         self._matched = 0  # publishers whose offers are known
 
     def follow_publishers(self) -> list[tuple[int, Any]]:
         """Renew the subscription if publishers offer another reliability; returns what waited."""
-        matched = self._node.count_publishers(self.name)
+        self.publishers = matched = self._node.count_publishers(self.name)
         if matched == self._matched:
             return []
         publishers = self._node.get_publishers_info_by_topic(self.name)
@@ -114,6 +115,19 @@ class Intake:
         """Renew the subscriptions to topics whose publishers offer another reliability."""
         for inlet in self._inlets:
             self._waited += [(at, inlet, message) for at, message in inlet.follow_publishers()]
+
+    @property
+    def shared(self) -> list[str]:
+        """
+        Names of the topics of one sensor that have several publishers.
+
+        Messages do not tell them apart. Joints have names, and may come from several.
+        """
+        return [
+            inlet.name
+            for inlet in self._inlets
+            if inlet.publishers > 1 and inlet.kind not in JOINTS
+        ]
 
     def take(self) -> list[Arrived]:
         """Return the messages that have arrived since the last call, in order."""

@@ -1,0 +1,85 @@
+"""Recognises wrong counts per turn, a reversed encoder and exchanged encoders.
+
+The ratio of the turns of both encoders must be that of the teeth, apart from the twist of the
+train, which is small against a turn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .checks import InputError
+from .train import FollowedTrain
+from .transmission_error import Counts
+
+STRETCH = 1.0  # turn of the slower member over which a ratio is measured
+STRETCHES = 3  # whose median counts, because packets may be missing and turns may be lost
+NEAR = 0.01  # relative deviation within which two ratios agree
+
+
+@dataclass
+class EncoderCheck:
+    """Compares the first turns of both encoders with the teeth.
+
+    Args:
+        train: gear train of the scene.
+        counts_per_turn: counts per turn of the encoders on the input and the output member.
+    """
+
+    train: FollowedTrain
+    counts_per_turn: tuple[int, int]
+    _begin: tuple[int, int] | None = None  # counts at the begin of the stretch
+    _ratios: list[float] = field(default_factory=list)
+
+    def add(self, counts: Counts) -> None:
+        """Add samples.
+
+        Args:
+            counts: counts of both encoders, (n, 2).
+
+        Raises:
+            InputError: the ratio of the turns is not that of the teeth.
+        """
+        while len(counts) and len(self._ratios) < STRETCHES:
+            if self._begin is None:
+                self._begin = int(counts[0, 0]), int(counts[0, 1])
+            first, second = self.counts_per_turn
+            turned = (counts[:, 0] - self._begin[0]) / first
+            enough = np.abs(turned) * min(1.0, abs(self.train.ratio)) >= STRETCH
+            if not enough.any():
+                return
+            k = int(np.argmax(enough))
+            other = (int(counts[k, 1]) - self._begin[1]) / second
+            self._ratios.append(other / float(turned[k]))
+            self._begin, counts = None, counts[k:]
+            if len(self._ratios) == STRETCHES:
+                self._judge(float(np.median(self._ratios)))
+
+    def _judge(self, ratio: float) -> None:
+        expected, (first, second) = self.train.ratio, self.counts_per_turn
+        factor = ratio / expected
+        if abs(factor - 1.0) < NEAR:
+            return
+        found = (
+            f"encoders: turns of the output/turns of the input = {ratio:.4g}: must be "
+            f"{expected:.4g} by the teeth"
+        )
+        if abs(ratio * expected - 1.0) < NEAR:
+            raise InputError(f"{found}; both encoders are exchanged")
+        if abs(factor + 1.0) < NEAR:
+            raise InputError(f"{found}; one encoder counts backwards: negate its counts")
+        if ratio == 0.0:
+            raise InputError(f"{found}; the counts of the output do not change")
+        backwards = " and one counts backwards" if factor < 0.0 else ""
+        raise InputError(
+            f"{found}; the counts per turn are probably {_whole(first / abs(factor))} (input) "
+            f"or {_whole(second * abs(factor))} (output) instead of {first} and {second}{backwards}"
+        )
+
+
+def _whole(counts: float) -> str:
+    """Counts per turn as far as the check knows them, as a power of two if one is near."""
+    power = 2 ** round(np.log2(counts)) if counts >= 1.0 else 0
+    return f"{power}" if abs(power - counts) < NEAR * counts else f"about {counts:.3g}"
