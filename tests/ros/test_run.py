@@ -20,12 +20,12 @@ from mcap.reader import make_reader
 from planetary_twin.running.session import SILENCE
 from planetary_twin.running.tour import LENGTH, tour_of
 from planetary_twin.telemetry import STALL
-from planetary_twin_msgs.msg import GearboxState
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py.scene import load_scene, parse_scene
 
-from .peer import LONG, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 from .processes import holding, working_in
 from .recordings import counts, disorder, unfinished_states
 
@@ -201,6 +201,22 @@ def test_ctrl_c_during_the_start_leaves_nothing_running(
     assert working_in(tmp_path) == []
     # Either there is a recording of a twin that ran, or no recording.
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
+
+
+def test_ctrl_c_before_the_first_state_leaves_no_recording(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
+) -> None:
+    """The first state of a slow twin follows its operating point after a second."""
+    process = run("--duration", "600", "--rate-factor", "0.01")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: points)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 0, errors
+    assert working_in(tmp_path) == []
+    ran = [counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*")]
+    assert all(ran)
+    assert ran or "interrupted before the recording started" in errors
 
 
 @pytest.mark.parametrize(

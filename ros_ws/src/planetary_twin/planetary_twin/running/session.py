@@ -47,7 +47,8 @@ def run_session(plan: Plan, console: Console) -> Outcome:
     """
     Run `plan` to its end, or until interrupted; in both cases, the recording is finished.
 
-    The progress is shown on `console`. Raises `RunError` if a node fails.
+    The progress is shown on `console`. Raises `RunError` if a node fails. An interrupt before the
+    first state leaves no recording and raises `KeyboardInterrupt`.
     """
     stay_on_this_machine()
     with alone(plan.namespace):
@@ -70,8 +71,12 @@ def _run(plan: Plan, console: Console) -> Outcome:
         ):
             with _removed_on_failure(logger, plan.folder):
                 _begin(operator, simulation)
-            with contextlib.suppress(KeyboardInterrupt), _named_on_failure(plan.folder):
-                _drive(operator, plan, show)
+            interrupted = False
+            with _named_on_failure(plan.folder):
+                try:
+                    _drive(operator, plan, show)
+                except KeyboardInterrupt:
+                    interrupted = True
             with undisturbed():
                 _finish(operator)
         if logger.stop() != 0:
@@ -79,7 +84,11 @@ def _run(plan: Plan, console: Console) -> Outcome:
     names = dict.fromkeys([plan.folder.name, *operator.recordings])
     folders = [plan.folder.with_name(name) for name in names]
     stopped = len(names) > 1 or not operator.recorder.file
-    return read_outcome(folders, operator.published(), operator.figures, stopped)
+    outcome = read_outcome(folders, operator.published(), operator.figures, stopped)
+    if interrupted and outcome.duration == 0.0:
+        shutil.rmtree(plan.folder, ignore_errors=True)
+        raise KeyboardInterrupt
+    return outcome
 
 
 def _logger_parameters(plan: Plan) -> dict[str, object]:
