@@ -100,15 +100,17 @@ class Scene(Section):
 
     def _ports(self) -> Iterator[str]:
         """Errors of ports at which torque or motion is given."""
-        for side in ("input", "second_input", "output"):
-            machine = getattr(self.drive, side)
-            if machine is None or machine.port == "machine":
-                continue
-            field = f"drive.{side}.port = {machine.port!r}"
-            if self.drive.second_input is not None:
-                yield f"{field}: must be machine in a differential (gearset.held = 'none')"
-            elif self.dynamics not in ("torsional", "auto"):
-                yield f"{field}: requires dynamics = torsional, not {self.dynamics!r}"
+        second, ports = self.drive.second_input, self.drive.ports
+        if second is not None and second.port != "machine":
+            yield f"drive.second_input.port = {second.port!r}: must be machine"
+        if second is not None and ports.given and ports.output == "machine":
+            yield (
+                f"drive.input.port = {ports.input!r}: requires drive.output.port = torque or "
+                "motion in a differential (gearset.held = 'none')"
+            )
+        for side, port in ports._asdict().items():
+            if port != "machine" and self.dynamics == "quasi_static":
+                yield f"drive.{side}.port = {port!r}: requires dynamics other than 'quasi_static'"
 
     def _limits(self) -> Iterator[str]:
         """Errors of the operating point: values outside the limits of the drive."""
