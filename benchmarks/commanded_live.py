@@ -2,8 +2,8 @@
 
 Usage: python benchmarks/commanded_live.py [SECONDS [RATE]]. A client in this process sends a torque
 for the motor RATE times a second (1000 by default), each time another one, and receives
-`joint_states` at the same rate from the simulation in a process of its own. The latency of a command
-is the time from its publication to the arrival of the first state with this torque.
+`joint_states` at the same rate from the simulation in a process of its own. The latency of a
+command is the time from its publication to the arrival of the first state with this torque.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
@@ -43,15 +44,15 @@ class Loop(Client):
 
     def __init__(self) -> None:
         super().__init__("loop", NAMESPACE)
-        self.arrived: list[tuple[int, int, float]] = []  # time and stamp [ns], torque [N m]
+        # Times of arrival and of publication [ns], torque [N m].
+        self.arrived: list[tuple[int, int, float]] = []
         self.figures: dict[str, str] = {}
         self.publisher = self.node.create_publisher(JointState, "simulation/command", 10)
         self.node.create_subscription(JointState, "joint_states", self._on_joints, 10_000)
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_report, 10)
 
-    def _on_joints(self, message: JointState) -> None:
-        stamp = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
-        self.arrived.append((time.monotonic_ns(), stamp, message.effort[0]))
+    def _on_joints(self, message: JointState, info: dict[str, Any]) -> None:
+        self.arrived.append((time.monotonic_ns(), info["source_timestamp"], message.effort[0]))
 
     def _on_report(self, message: DiagnosticArray) -> None:
         self.figures.update(real_time_figures(message, NAMESPACE))
@@ -106,12 +107,12 @@ def main() -> None:
             after = resource.getrusage(resource.RUSAGE_SELF)
             arrived = list(loop.arrived)
             time.sleep(1.5)  # for a last report
-    came, stamps, torques = (np.array(column) for column in zip(*arrived, strict=True))
+    came, published, torques = (np.array(column) for column in zip(*arrived, strict=True))
     latency, period = _latencies(np.array(sent), came, torques), 1.0 / rate
     client = after.ru_utime + after.ru_stime - own.ru_utime - own.ru_stime
     print(f"{passed:.1f} s at {rate:g} Hz, {len(sent)} commands, {len(arrived)} states")
     print(_line("command to state", Quantiles.of(latency)) + f", {len(latency)} commands acted")
-    print(_line("jitter of stamps", Quantiles.of(np.abs(1e-9 * np.diff(stamps) - period))))
+    print(_line("jitter of publication", Quantiles.of(np.abs(1e-9 * np.diff(published) - period))))
     print(_line("jitter of arrival", Quantiles.of(np.abs(1e-9 * np.diff(came) - period))))
     print(f"simulation              {100.0 * share:.1f} % of a core")
     print(f"client                  {100.0 * client / passed:.1f} % of a core")

@@ -81,7 +81,6 @@ class Command(NamedTuple):
                     f"from drive.{quantity}_limit"
                 )
 
-
     def check_positions(self, states: PortStates, duration: float, ranges: PortRanges) -> None:
         """Check that the shafts can reach the positions of this command.
 

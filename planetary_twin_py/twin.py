@@ -280,7 +280,9 @@ class Twin:
     def _driven(self) -> DrivenEngine:
         """The engine, if its ports can be given."""
         if not isinstance(self._engine, DrivenEngine):
-            raise SceneError(f"dynamics = {self.scene.dynamics!r}: does not allow commands at ports")
+            raise SceneError(
+                f"dynamics = {self.scene.dynamics!r}: does not allow commands at ports"
+            )
         return self._engine
 
     def _end_steps(self) -> None:

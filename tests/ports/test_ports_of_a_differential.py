@@ -9,10 +9,7 @@ import planetary_twin_py as pt
 
 DIFFERENTIAL = pt.load_scene("differential")
 TEETH = DIFFERENTIAL.gearset.teeth
-PORTS = [
-    pair
-    for pair in itertools.product(("machine", "torque", "motion"), ("torque", "motion"))
-]
+PORTS = list(itertools.product(("machine", "torque", "motion"), ("torque", "motion")))
 NAMES = {"torque": "torque", "motion": "speed"}
 
 
@@ -67,7 +64,7 @@ def test_the_input_follows_from_the_output_and_the_second_motor():
     carrier = pt.rpm(-500)
     sun = ((TEETH.sun + TEETH.ring) * carrier - TEETH.ring * (begin + 5.0)) / TEETH.sun
     speeds = dict(zip(twin.bodies, window.mean_speed, strict=True))
-    assert speeds["ring"] == pytest.approx(begin + 5.0, rel=1e-6)
+    assert speeds["ring"] == pytest.approx(begin + 5.0, rel=1e-5)
     assert speeds["carrier"] == pytest.approx(carrier, rel=1e-3)
     assert speeds["sun"] == pytest.approx(sun, rel=1e-3)
     # Torques are as the numbers of teeth: Ts : Tr = Zs : Zr.

@@ -33,11 +33,10 @@ def test_positions_along_a_steady_motion_have_the_torques_of_that_speed():
     speed, begin = -44.0, by_position.port_states.output_angle
     for n in range(1, 101):
         expected = by_speed.step(1e-3, input_torque=63.0, output_speed=speed)
-        shown = by_position.step(
-            1e-3, input_torque=63.0, output_position=begin + n * 1e-3 * speed
-        )
+        shown = by_position.step(1e-3, input_torque=63.0, output_position=begin + n * 1e-3 * speed)
+        # Steps of the integrator end with each new position, so they are not the same.
         assert shown.output_torque == pytest.approx(expected.output_torque, rel=1e-6)
-        assert shown.input_speed == pytest.approx(expected.input_speed, rel=1e-8)
+        assert shown.input_speed == pytest.approx(expected.input_speed, rel=1e-6)
 
 
 def test_a_speed_beside_a_position_acts_once_the_position_is_reached():
@@ -171,7 +170,7 @@ def test_positions_that_a_shaft_cannot_reach_are_refused_and_change_nothing(comm
 
 def test_a_course_of_positions_that_cannot_be_reached_is_refused():
     scene = driven("torque", "motion", **NO_FRICTION)
-    with pytest.raises(ValueError, match="output_position = 0.0 rad at time 0: must be NaN"):
+    with pytest.raises(ValueError, match=r"output_position = 0.0 rad at time 0: must be NaN"):
         pt.Commands(np.array([0.0, 1.0]), output_position=np.array([0.0, 1.0]))
     jump = pt.Commands(np.array([1e-3, 2e-3]), output_position=np.array([0.0, 9.0]))
     with pytest.raises(ValueError, match=r"output_position = 9.0 rad: must be within"):

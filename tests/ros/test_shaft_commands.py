@@ -12,6 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin import shaft_commands
 from planetary_twin.shaft_commands import ShaftCommands
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
@@ -242,43 +243,52 @@ def test_commands_act_after_the_clock_was_set_back() -> None:
     assert not commands.ignored
 
 
-def test_each_joint_may_have_a_client_of_its_own() -> None:
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The steady time of commands [s], which a test sets."""
+    now = [0.0]
+    monkeypatch.setattr(shaft_commands, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    return now
+
+
+def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:
     """Stamps and silence of one joint say nothing of the other."""
     sun, ring = JointState(name=[SUN], effort=[5.0]), JointState(name=[RING], effort=[7.0])
     sun.header.stamp.nanosec, ring.header.stamp.nanosec = 20, 10
     commands = received(sun, ring)
     assert torques(commands) == {"input_torque": 5.0, "output_torque": 7.0}
     assert not commands.ignored
-    watched = received(command((5.0, 7.0)), timeout=0.05, silence="zero")
+    watched = received(command((5.0, 7.0)), timeout=0.5, silence="zero")
     torques(watched)
-    time.sleep(0.1)
+    clock[0] = 0.6
     watched.receive(JointState(name=[SUN], effort=[6.0]))
     assert torques(watched) == {"input_torque": 6.0, "output_torque": 0.0}
     assert f"no command for {RING} for" in watched.status("/twin").message
 
 
-def test_a_brake_lasts_while_one_joint_has_no_command() -> None:
-    commands, braked = received(command((63.0, 147.0)), timeout=0.05, silence="brake"), twin()
+def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> None:
+    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
     assert commands.given(braked, 0.01) == {"input_torque": 63.0, "output_torque": 147.0}
-    time.sleep(0.1)
+    clock[0] = 0.6
     commands.receive(JointState(name=[SUN], effort=[60.0]))
-    assert commands.given(braked, 0.01) == {"input_speed": pytest.approx(99.7), "output_torque": 0.0}
+    slower = pytest.approx(pt.rpm(1000) - 0.01 * PAPER.drive.speed_control.slew_rate)
+    assert commands.given(braked, 0.01) == {"input_speed": slower, "output_torque": 0.0}
     assert braked.ports == ("motion", "torque")
     commands.receive(command((61.0, 140.0)))
     assert commands.given(braked, 0.01) == {"input_torque": 61.0, "output_torque": 140.0}
     assert braked.ports == ("torque", "torque")
 
 
-def test_the_end_of_a_brake_names_what_acts_at_both_ports() -> None:
+def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) -> None:
     """A recording then has the ports, also where the next command is for one of them."""
     braked = twin("torque", "motion")
     commands = received(
         JointState(name=[SUN, RING], effort=[63.0, math.nan], velocity=[math.nan, -44.88]),
-        timeout=0.05,
+        timeout=0.5,
         silence="brake",
     )
     commands.given(braked, 0.01)
-    time.sleep(0.1)
+    clock[0] = 0.6
     braked.advance(0.01, **commands.given(braked, 0.01))
     assert braked.ports == ("motion", "torque")
     speed = braked.port_states.output_speed

@@ -28,14 +28,14 @@ struct alignas(64) PointLaws {
     Load constant;  // what depends on nothing
     double play;  // half the backlash along the line of action per backlash, or all of it where the
                   // force grows from zero [-]
-    bool from_zero;           // whether the force grows from a DTE of zero
-    double torque[MACHINES];  // of each machine per torque of the first motor [-]
+    bool from_zero;                // whether the force grows from a DTE of zero
+    double torque[MACHINES];       // of each machine per torque of the first motor [-]
     double ratio[MACHINES][AXES];  // speed of the shafts of motor and load per speed of a motor [-]
-    bool starts_elsewhere;    // whether a run starts at another speed
-    double start_speed;       // that speed [rad/s]
-    double force_share[2];    // teeth of the sun and of the first motor's member: mesh force
-    double force_lever;       // per torque is their quotient over this lever [m]
-    double stiffness;         // of the softest tooth pair [N/m]
+    bool starts_elsewhere;         // whether a run starts at another speed
+    double start_speed;            // that speed [rad/s]
+    double force_share[2];         // teeth of the sun and of the first motor's member: mesh force
+    double force_lever;            // per torque is their quotient over this lever [m]
+    double stiffness;              // of the softest tooth pair [N/m]
 };
 
 constexpr double LIGHTEST_MESH_LOAD = 1.0;  // [N] smaller ones do not tighten tolerances further

@@ -19,7 +19,7 @@ def joint_names(scene: Scene) -> tuple[str, str]:
 
 
 def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
-    """Efforts, velocities and positions of both shafts in a message, by the arguments of `Twin.advance`.
+    """Efforts, velocities and positions of both shafts, by the arguments of `Twin.advance`.
 
     Other joints, missing values and NaN are ignored, as ros2_control does with interfaces that no
     controller claims.

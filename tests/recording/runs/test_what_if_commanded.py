@@ -56,9 +56,7 @@ def test_commands_are_recorded_and_verified(machine, driven):
     assert verify(driven, NAMESPACE).identical
 
 
-def test_one_shaft_has_other_commands_and_the_other_one_those_that_were_recorded(
-    driven, tmp_path
-):
+def test_one_shaft_has_other_commands_and_the_other_one_those_that_were_recorded(driven, tmp_path):
     branch = Branch({}, 0.05, commands=pt.Commands(np.array([0.0, 0.123]), output_torque=[140, 99]))
     made = resimulate(driven, NAMESPACE, branch, tmp_path / "bag")
     recording = read_recording(made.file)
@@ -138,7 +136,10 @@ def test_a_table_has_units_and_empty_cells(tmp_path):
         ("time\n1\n", "has no column of commands; possible: input_torque"),
         ("time,output_torque\n1,1\n0,2\n", "commands.time: must be finite numbers in increasing"),
         ("time,output_torque [rpm]\n1,1\n", "column 'output_torque'"),
-        ("time,output_position\n0,1\n", "commands.output_position = 1.0 rad at time 0: must be NaN"),
+        (
+            "time,output_position\n0,1\n",
+            "output_position = 1.0 rad at time 0: must be NaN",
+        ),
     ],
 )
 def test_a_table_that_makes_no_sense_is_refused_in_one_line(tmp_path, text, message):

@@ -59,9 +59,9 @@ class ShaftCommands:
     Receives commands and hands the newest one of each joint to the thread of the twin.
 
     Joints are independent of one another, so each can have a client of its own. A stamped command
-    has no effect if it is not newer than the last one of its joint, older than the timeout, or more
-    than a second ahead. One without a stamp acts in the order of arrival. `now` returns the time of
-    the stamps [ns].
+    has no effect if it is not newer than the last one of its joint, older than the timeout, or
+    more than a second ahead. One without a stamp acts in the order of arrival. `now` returns the
+    time of the stamps [ns].
     """
 
     def __init__(self, given: Given, now: Callable[[], int]) -> None:
@@ -154,8 +154,8 @@ class ShaftCommands:
         values = {name: value for own in received.values() for name, value in own.items()}
         given = self._taken(values, twin)
         if silent and self._silence == "zero":
-            zeros = {f"{side}_{quantity}": 0.0 for side in silent for quantity in ("torque", "speed")}
-            given |= for_ports(zeros, twin)
+            names = (f"{side}_{quantity}" for side in silent for quantity in ("torque", "speed"))
+            given |= for_ports(dict.fromkeys(names, 0.0), twin)
         return given | _present(twin, given) if released else given
 
     def _taken(self, values: dict[str, float], twin: Twin) -> dict[str, float]:

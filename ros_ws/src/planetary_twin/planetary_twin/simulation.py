@@ -218,8 +218,7 @@ class Simulation(ManagedNode):
         values = values_of(message, joints)
         if not values:
             raise ValueError(
-                "command: must have an effort, velocity or position of "
-                f"{' or '.join(joints)}"
+                f"command: must have an effort, velocity or position of {' or '.join(joints)}"
             )
         return values
 

@@ -69,7 +69,9 @@ class TimeServices:
             response.stamp, response.simulated_time = response.state.header.stamp, twin.time
 
         def step() -> Future[float]:
-            each = [self._control.command(every) for every in request.commands or [request.command]]
+            each = [
+                self._control.command(every) for every in request.commands or [request.command]
+            ]
             return self._control.running().step(request.duration, each, show)
 
         answer(response, step, lambda instant: "")
