@@ -89,6 +89,12 @@ def test_creeping_gears_vibrate_and_are_warned_of_where_friction_falls_with_the_
     assert (planet.std() > 0.05 * abs(planet.mean())) == vibrates
 
 
+def test_a_differential_that_turns_as_a_block_is_not_warned_of():
+    speed = pt.rpm(1000.0)
+    scene = pt.load_scene("differential").replace(input_speed=speed, second_input_speed=speed)
+    assert pt.simulate(scene, 0.02).stats.reversals == 0
+
+
 def test_steps_in_which_both_flanks_touch_are_warned_of_and_no_others():
     assert "both flanks" in next(course_warnings(Course(both_flanks=1)))
     assert not list(course_warnings(Course()))

@@ -1,5 +1,7 @@
 #include "integrators/creep.hpp"
 
+#include <cmath>
+
 #include "integrators/step_control.hpp"
 #include "train/equations.hpp"
 #include "tribology/bristles.hpp"
@@ -13,6 +15,7 @@ constexpr double STICKING = 0.5;
 // The same of gears that creep. Friction that falls with the speed feeds their vibration, which
 // grows from errors however small, until it stops them.
 constexpr double SWINGING = 0.2;
+constexpr double ROUNDING = 1e-9;  // of the speeds of two motors, in their difference
 
 // Whether vibration slows a gear against the carrier by more than a part of its rigid speed.
 bool vibration_slows(const Train& train, const double* v, const double* rigid, double part) {
@@ -33,7 +36,13 @@ bool vibration_slows(const Train& train, const double* v, const double* rigid, d
 // shall reach: where they pass through standstill, any vibration exceeds that of the moment.
 bool creep_swings(const Model& model, const March& march) {
     const Train& train = model.train;
-    double rigid[BODIES];
+    double rigid[BODIES], rate = 0.0, size = 0.0;
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        double share = train.cycles[a] * model.load.target_speed[a];
+        rate += share;
+        size += std::fabs(share);
+    }
+    if (!(std::fabs(rate) > ROUNDING * size)) return false;  // they shall not turn
     for (int j = 0; j < BODIES; ++j) {
         rigid[j] = 0.0;
         for (std::int64_t a = 0; a < train.axes; ++a)
