@@ -2,9 +2,11 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
+from scipy.io import savemat
 
 from planetary_twin_py.fleet.tables import read_fleet
 from planetary_twin_py.following.measured_tables import read_encoders, read_readings
@@ -76,6 +78,33 @@ def test_a_table_of_too_many_columns_is_refused(write, tmp_path):
     for table in (write(",".join(names), ",".join(["0"] * 3000)), file):
         with pytest.raises(ValueError, match=r"rig\..*: has 3000 columns: must be at most 2000"):
             read_readings(table, {})
+
+
+def test_true_is_no_torque(write, tmp_path):
+    with pytest.raises(ValueError, match="input_torque: must be numbers, not true or false"):
+        read_readings(write("time,input_torque", "0,true", "1,false"), {})
+
+
+@pytest.mark.parametrize(
+    ("torque", "line"),
+    [
+        (np.full(30, 1j), "input_torque: must be a vector of real numbers"),
+        (np.full(30, 1e300), r"input_torque: magnitudes must be at most 9e\+15"),
+    ],
+)
+def test_a_mat_file_has_real_numbers_that_a_sensor_can_have(tmp_path, torque, line):
+    savemat(file := tmp_path / "rig.mat", {"time": np.arange(30.0), "input_torque": torque})
+    with pytest.raises(ValueError, match=line):
+        read_course(file, SimpleNamespace(oil_temperature=343.0))
+
+
+def test_times_of_a_fleet_are_finite_and_common(write):
+    with pytest.raises(ValueError, match="time: must be a finite number in every row"):
+        read_fleet(write(HEADING, "A,0,60,-140,100", "A,inf,60,-140,100"), ("A",))
+    names = tuple(f"g{n}" for n in range(4000))
+    rows = [f"{name},{n},60,-140,100" for n, name in enumerate(names)]
+    with pytest.raises(ValueError, match="4000 rows have 4000 times of 4000 gearboxes: round"):
+        read_fleet(write(HEADING, *rows), names)
 
 
 def test_a_table_may_end_its_lines_with_carriage_returns(write):

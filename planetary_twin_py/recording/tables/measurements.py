@@ -217,6 +217,8 @@ def _seconds(dates: pa.ChunkedArray) -> Array:
 
 def _numbers(name: str, column: pa.ChunkedArray) -> Array:
     """Values (rows,) of a column, NaN where it is empty."""
+    if pa.types.is_boolean(column.type):
+        raise ValueError(f"{name}: must be numbers, not true or false")
     try:
         return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row
