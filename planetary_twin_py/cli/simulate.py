@@ -165,7 +165,7 @@ def _train(scene: Scene, result: Result) -> dict[str, float]:
         "mean_mesh_force_N": seen.mesh_force_mean,
         "mesh_force_peak_N": seen.mesh_force_peak,
         "mesh_frequency_Hz": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
-        "energy_residual": energy.residual / energy.put_in if energy.put_in > 0.0 else 0.0,
+        "energy_residual": energy.residual / energy.put_in if energy.driven else 0.0,
         "real_time_factor": result.stats.real_time_factor,
     }
 

@@ -16,6 +16,7 @@ from ..quantities import (
     MEMBERS,
     MESH,
     SIDES,
+    SPEED_SHARE,
     STUDIED,
     STUDIED_OF_AXES,
 )
@@ -24,6 +25,7 @@ from ..scene import Scene
 from ..twin import Twin
 from ..window import Window
 from .plan import Settings
+from .turning import speed_share
 
 Row = dict[str, float]
 
@@ -78,6 +80,7 @@ def row(scene: Scene, window: Window) -> Row:
     shares = clipped_friction(scene, window)
     figures |= {f"{side}_{CLIPPED}": share for side, share in shares.items()}
     figures |= {name: float(getattr(window.course, name)) for name in COURSE}
+    figures[SPEED_SHARE] = speed_share(scene, window.mesh_frequency)
     figures[EXCESS] = balance_of_window(window).excess
     return figures if window.axes is None else figures | axes_row(window.axes)
 
