@@ -141,7 +141,10 @@ def _taken(free: list[str], lack: str) -> str:
 
 
 def _first_measure(known: dict[str, Column]) -> str:
-    return next(name for name in known if name in STUDY_RESULTS)
+    for name in known:
+        if name in STUDY_RESULTS:
+            return name
+    raise ValueError("y: no column is a result of a study, name columns")
 
 
 def _fill_a_map(x: Column, by: Column | None) -> bool:

@@ -15,7 +15,7 @@ from pyarrow import csv, parquet
 
 from ...printable import one_line
 from ...scene.names import did_you_mean
-from ...units import column_to_si
+from ...units import LARGEST, column_to_si
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that an import ignores, because it numbers its own messages."""
 _LONGEST_REASON = 200  # characters
-LARGEST = 2.0**53  # magnitude in SI, up to which counts are exact and sums of squares are finite
+_MOST_COLUMNS = 2000
 UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
@@ -122,6 +122,8 @@ def read_columns(path: Path) -> dict[str, Column]:
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
             raise
         raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
+    except ValueError as reason:
+        raise ValueError(f"{path}: {reason}") from None
     found: dict[str, Column] = {}
     for heading, values in zip(table.column_names, table.columns, strict=True):
         name, unit = name_and_unit(heading)
@@ -146,8 +148,9 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
     """Read CSV separated by commas, semicolons or tabs; decimal commas unless commas separate."""
     text = stream.read().decode()
     stream.seek(0)
-    heading, _, body = text.partition("\n")
+    heading, body = re.split(r"[\r\n]|$", text, maxsplit=1)
     separator = max(";\t,", key=heading.count)
+    _check_columns(heading.count(separator) + 1)
     commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
     decimal = "," if commas else "."
     return csv.read_csv(
@@ -157,9 +160,21 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
     )
 
 
+def _read_parquet(stream: BinaryIO) -> pa.Table:
+    file = parquet.ParquetFile(stream)
+    _check_columns(file.metadata.num_columns)
+    return file.read()
+
+
+def _check_columns(number: int) -> None:
+    """Refuse a table before its columns take memory: 10 kB each, whatever they hold."""
+    if number > _MOST_COLUMNS:
+        raise ValueError(f"has {number} columns: must be at most {_MOST_COLUMNS}")
+
+
 _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
     ".csv": _read_csv,
-    ".parquet": parquet.read_table,
+    ".parquet": _read_parquet,
 }
 
 
@@ -202,6 +217,8 @@ def _seconds(dates: pa.ChunkedArray) -> Array:
 
 def _numbers(name: str, column: pa.ChunkedArray) -> Array:
     """Values (rows,) of a column, NaN where it is empty."""
+    if pa.types.is_boolean(column.type):
+        raise ValueError(f"{name}: must be numbers, not true or false")
     try:
         return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...printable import one_line
 from .measurements import TIME, Array, in_si, name_and_unit, read_columns, time_step
 
 
@@ -63,6 +64,6 @@ def _chosen(path: Path, column: str | None, names: list[str]) -> str:
         return own
     if column is None and len(names) == 1:
         return names[0]
-    listed = ", ".join(names) or "none besides the time"
+    listed = one_line(", ".join(names), 400) or "none besides the time"
     given = "choose one with --column" if column is None else f"column = {column!r}: no such column"
     raise ValueError(f"{path}: {given}; columns: {listed}")

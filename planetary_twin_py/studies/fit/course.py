@@ -12,6 +12,7 @@ from ...following.bins import CHANNELS
 from ...following.measured_tables import read_readings
 from ...following.train import FollowedTrain
 from ...printable import one_line
+from ...units import LARGEST
 
 Array = NDArray[np.float64]
 
@@ -91,10 +92,10 @@ def _read_mat(path: Path) -> tuple[Array, dict[str, Array]]:
     if path.exists() and not path.is_file():
         raise ValueError(f"{path}: must be a file")
     try:
-        found = loadmat(path, squeeze_me=True)
-    except OSError:
-        raise
+        found = loadmat(path, squeeze_me=True, variable_names=(TIME, *CHANNELS))
     except Exception as reason:  # of many kinds, if the file is damaged
+        if isinstance(reason, OSError) and reason.errno is not None:  # of the system
+            raise
         line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
         raise ValueError(f"{path}: not a MAT file of version 4 to 7.2: {line}") from None
     if TIME not in found:
@@ -102,10 +103,12 @@ def _read_mat(path: Path) -> tuple[Array, dict[str, Array]]:
     vectors = {}
     for name in (TIME, *CHANNELS):
         if name in found:
-            try:
-                values = np.asarray(found[name], dtype=float)
-            except (TypeError, ValueError):
-                raise ValueError(f"{path}: {name}: must be a vector of numbers") from None
+            values = np.asarray(found[name])
+            if values.dtype.kind not in "iuf":
+                raise ValueError(f"{path}: {name}: must be a vector of real numbers")
+            values = values.astype(float)
+            if (np.abs(values[np.isfinite(values)]) > LARGEST).any():
+                raise ValueError(f"{path}: {name}: magnitudes must be at most {LARGEST:.0e}")
             if values.ndim != 1 or len(values) != np.size(found[TIME]):
                 raise ValueError(f"{path}: {name}: must be a vector as long as {TIME}")
             vectors[name] = values
