@@ -72,9 +72,7 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
     return MeasuredTable(Readings(stamps, columns, arrival), tuple(ignored), begin)
 
 
-def read_encoders(
-    path: Path, period: float, begin: np.datetime64 | None = None
-) -> EncoderSamples:
+def read_encoders(path: Path, period: float, begin: np.datetime64 | None = None) -> EncoderSamples:
     """Read a table of the counts of two encoders.
 
     Args:
@@ -161,7 +159,9 @@ def _later(path: Path, time: Column, begin: np.datetime64 | None) -> float:
     if time.begin is None:
         return 0.0
     if begin is None:
-        raise ValueError(f"{path}: time: has dates, but the readings have seconds: use one of these in both")
+        raise ValueError(
+            f"{path}: time: has dates, but the readings have seconds: use one of these in both"
+        )
     return float((time.begin - begin) / np.timedelta64(1, "s"))
 
 

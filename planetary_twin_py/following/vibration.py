@@ -212,9 +212,7 @@ class VibrationFollower:
         self._recent.append((span[0], found))
         self._decide(cell, span[1])
 
-    def _amplitudes(
-        self, time: Array, values: Array, course: Turning, highest: float
-    ) -> Array:
+    def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
         """Root mean square of the amplitudes of every pattern below an order of the mesh.
 
         Returns (channels, patterns), NaN for a pattern without such lines.
@@ -285,8 +283,8 @@ class VibrationFollower:
         if counted.dropped_periods > counted.periods:
             yield (
                 f"vibration: {counted.dropped_periods} of "
-                f"{counted.dropped_periods + counted.periods} hunting periods are not used: samples "
-                "are missing, the speed changes, or the torque is too low"
+                f"{counted.dropped_periods + counted.periods} hunting periods are not used: "
+                "samples are missing, the speed changes, or the torque is too low"
             )
         if self._cell is not None and self._cell.highest < HARMONICS + 1:
             yield (
