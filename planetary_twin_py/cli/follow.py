@@ -24,15 +24,16 @@ if TYPE_CHECKING:
     from ..following.vibration import VibrationSamples
 
 
-def follow(
+def follow(  # noqa: PLR0913 - an argument for each option
     scene: SceneArgument,
     from_: Annotated[
         Path,
         typer.Option(
             "--from",
             metavar="FILE",
-            help="Readings: a .csv, .parquet or .mat table, or a recording (.mcap or its folder) with "
-            "JointState, DynamicJointState, Temperature, EncoderBlock and SampledBlock messages.",
+            help="Readings: a .csv, .parquet or .mat table, or a recording (.mcap or its folder) "
+            "with JointState, DynamicJointState, Temperature, EncoderBlock and SampledBlock "
+            "messages.",
         ),
     ],
     encoders: Annotated[

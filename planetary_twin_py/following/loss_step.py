@@ -26,7 +26,7 @@ LONGEST = 300.0  # [s] from the detection of a step in which balances are compar
 FEWEST = 20  # bins before a cause is excluded
 BETTER = 6.0  # units of log-likelihood by which one cause must be better than the others
 FLAT = 1e-12  # information on a cause before the step, in its own units
-BEFORE = 0.025  # probability with which a step has started earlier than stated
+BEFORE = 0.005  # probability with which a step has started earlier than stated
 
 
 class StepSize(NamedTuple):

@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...following.bins import CHANNELS
 from ...following.measured_tables import read_readings
 from ...following.train import FollowedTrain
 
@@ -78,4 +77,3 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     acceleration = np.gradient(means[2], middles)
     slope = np.asarray(acceleration, dtype=float)
     return Course(middles, means[0], means[1], means[2], slope, means[3])
-
