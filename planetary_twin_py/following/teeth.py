@@ -42,7 +42,7 @@ class ToothState(NamedTuple):
     """Number of the tooth; tooth 0 meets planet 1 first after the encoders start."""
     loss: Estimate
     """Loss of stiffness of a pair with this tooth, if the change is a crack; its status is LEARNING
-    until a hunting period has begun after the change."""
+    until a whole hunting period follows the change."""
     z: float
     """Amount of its signature in standard deviations."""
     kinds: tuple[str, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 import pyarrow as pa
@@ -32,8 +32,9 @@ def read_mat(stream: BinaryIO) -> pa.Table:
     """
     from scipy.io import loadmat
 
+    file: Any = stream  # the types of SciPy allow paths only
     try:
-        found = loadmat(stream, squeeze_me=True)
+        found = loadmat(file, squeeze_me=True)
     except Exception as reason:  # of many kinds, if the file is damaged
         line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
         raise MatError(f"not a MAT file of version 4 to 7.2 (save -v7): {line}") from None
