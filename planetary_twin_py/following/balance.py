@@ -36,7 +36,7 @@ from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
 from .merging import Merge
-from .sensors import Sensors, torque_noise
+from .sensors import Sensors, torque_gain, torque_noise, torque_zero
 from .train import followed_train
 from .vibration import Turning
 
@@ -117,7 +117,12 @@ class BalanceFollower:
         self._slow = BalanceFilter(self.train, losses, self.sensors, alarm_memory(self.train))
         noise = torque_noise(self.sensors, self.train)
         self._bins = Merge(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(self.train, self.period)
+        self._checks = Checks(
+            self.train,
+            self.period,
+            torque_zero(self.sensors, self.train),
+            torque_gain(self.sensors),
+        )
         self._cusum, self._refusals = Cusum(), _Refusals()
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
@@ -342,6 +347,12 @@ class BalanceFollower:
             yield (
                 f"successive innovations correlate by {self._cusum.correlation:.2f}: steps of the "
                 "loss are not reported"
+            )
+        level = self._parameter(F)
+        if level.high < 0.0:
+            yield (
+                f"friction_level is below {level.high:.2g}, which is impossible: the signs of both "
+                "torques or of both speeds may be reversed, or a torque has a wrong gain"
             )
         if self.gated:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"
