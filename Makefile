@@ -85,6 +85,10 @@ picture: setup
 	$(BIN)/planetary-twin run --record picture
 	$(BIN)/planetary-twin view recordings/picture --screenshot docs/recording.png --at 5.3
 	$(BIN)/python benchmarks/glance.py docs/speed-against-error.png
+	$(BIN)/planetary-twin plant paper --hidden docs/examples/crack.yaml --duration 40 \
+		--out build/readings.parquet --encoders build/encoders.parquet
+	$(BIN)/planetary-twin follow paper --from build/readings.parquet --encoders build/encoders.parquet \
+		--picture docs/crack-found.png
 
 # The recording that is kept in git, for trying things on.
 sample: setup

@@ -63,10 +63,13 @@ def _lines(state: Following) -> Iterator[str]:
         yield f"{event.what}: {event.evidence}; {since}{causes}"
     for tooth in state.teeth:
         loss = tooth.loss
-        yield (
-            f"{tooth.gear} tooth {tooth.tooth}: {' or '.join(tooth.kinds)}, as a crack "
-            f"{100 * loss.low:.2g} to {100 * loss.high:.2g} % of stiffness lost, z = {tooth.z:.1f}"
+        size = (
+            f"as a crack {100 * loss.low:.2g} to {100 * loss.high:.2g} % of stiffness lost"
+            if loss.status == "ESTIMATED"
+            else f"its size follows from {loss.remedy}"
         )
+        kinds = " or ".join(tooth.kinds)
+        yield f"{tooth.gear} tooth {tooth.tooth}: {kinds}, {size}, z = {tooth.z:.1f}"
 
 
 def state_figures(state: Following) -> dict[str, Any]:
@@ -99,9 +102,9 @@ def state_figures(state: Following) -> dict[str, Any]:
             {
                 "gear": tooth.gear,
                 "tooth": tooth.tooth,
-                "stiffness_loss": tooth.loss.value,
-                "low": tooth.loss.low,
-                "high": tooth.loss.high,
+                "stiffness_loss": _finite(tooth.loss.value),
+                "low": _finite(tooth.loss.low),
+                "high": _finite(tooth.loss.high),
                 "z": tooth.z,
                 "kinds": tooth.kinds,
                 "candidates": tooth.candidates,

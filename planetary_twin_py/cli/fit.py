@@ -83,7 +83,7 @@ def fit(  # noqa: PLR0913 - an argument for each option
     if report is not None:
         need("plots", "matplotlib")
 
-    from ..studies.fit.course import SUFFIXES
+    from ..recording.tables.measurements import SUFFIXES
     from ..studies.fit.identify import Search, identify
     from ..studies.fit.remarks import remarks
 

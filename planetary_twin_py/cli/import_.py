@@ -22,7 +22,7 @@ def import_(
     table: Annotated[
         Path,
         typer.Argument(
-            metavar="TABLE", help="CSV or Parquet file; headings: time [s], power_loss [kW]."
+            metavar="TABLE", help="CSV, Parquet or MAT file; headings: time [s], power_loss [kW]."
         ),
     ],
     out: Annotated[Path, typer.Option(help="Folder of the new recording, or one file NAME.mcap.")],

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from ..analysis.signals import Signal
 
 LINES = 12
-_TABLES = (".csv", ".parquet")
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class Options:
         typer.Argument(
             metavar="FILE",
             help="Recording, .npz file from `simulate --out`, or table of a sensor (.csv, "
-            ".parquet).",
+            ".parquet, .mat).",
             autocompletion=complete_recording,
         ),
     ]
@@ -89,7 +88,9 @@ class Options:
     @property
     def is_table(self) -> bool:
         """Whether the file is a table of a sensor."""
-        return self.file.suffix in _TABLES
+        from ..recording.tables.measurements import SUFFIXES
+
+        return self.file.suffix in SUFFIXES
 
 
 def spectrum(**given: Any) -> None:
@@ -196,8 +197,9 @@ def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest settled part at one operating point, or all of it if there is none."""
     from ..recording.runs.steadiness import steady_span
+    from ..recording.tables.measurements import SUFFIXES
 
-    if file.suffix in (".npz", *_TABLES):
+    if file.suffix in (".npz", *SUFFIXES):
         return signal.within(None, None)
     if span := steady_span(file):
         return signal.within(*span)

@@ -88,6 +88,27 @@ def test_a_wrong_unit_is_named_and_mended(readings, folder):
     assert "ESTIMATED" in cli("follow", "paper", "--from", wrong, "--scale", "output_speed=0.10472")
 
 
+def test_vibration_in_the_table_of_the_readings_is_learned_and_drawn(readings, folder):
+    rows = list(csv.reader(readings.open()))
+    both = folder / "both.csv"
+    with both.open("w", newline="") as file:
+        csv.writer(file).writerows(
+            [[*rows[0], "housing [g]"], *([*row, "0.1"] for row in rows[1:])]
+        )
+    picture = folder / "picture.svg"
+    done = run_here(
+        "follow", "paper", "--from", both, "--vibration", both, "--picture", picture, COLUMNS="200"
+    )
+    assert done.returncode == 0, done.stderr
+    assert "columns that are not used" not in done.stderr
+    assert "100 samples per second show lines up to" in done.stderr
+    assert "loss torque stepped" in picture.read_text()
+    assert (
+        "columns that are not used: housing [g]"
+        in run_here("follow", "paper", "--from", both).stderr
+    )
+
+
 def test_headings_may_be_others(readings, folder):
     text = readings.read_text().replace("input_torque", "T1 [Nm]", 1)
     other = folder / "other.csv"

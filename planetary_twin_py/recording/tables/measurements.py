@@ -16,6 +16,7 @@ from pyarrow import csv, parquet
 from ...printable import one_line
 from ...scene.names import did_you_mean
 from ...units import LARGEST, column_to_si
+from .mat_file import MatError, read_mat
 
 Array = NDArray[np.float64]
 
@@ -46,6 +47,12 @@ class Column(NamedTuple):
         """Values in the SI unit `unit`, see `in_si`; `name` is for messages."""
         return in_si(name, self.values, self.unit, unit)
 
+    @property
+    def begin(self) -> np.datetime64 | None:
+        """The first date, from which `in_si` counts; None if the values are no dates."""
+        dates = pa.types.is_timestamp(self.values.type) and len(self.values)
+        return _stamps(self.values)[0] if dates else None
+
 
 class Measurements(NamedTuple):
     """Contents of a table."""
@@ -64,10 +71,10 @@ class Measurements(NamedTuple):
 
 
 def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
-    """Read a CSV or Parquet file whose headings are names, or names with units: `speed [rpm]`.
+    """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
-        path: of the file.
+        path: of the .csv, .parquet or .mat file.
         units: SI unit of every allowed column, by name.
 
     Returns:
@@ -97,10 +104,11 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 
 
 def read_columns(path: Path) -> dict[str, Column]:
-    """Read a CSV or Parquet file whose headings are names, or names with units: `speed [rpm]`.
+    """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
-        path: of the file. CSV is separated by commas, semicolons or tabs.
+        path: of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or tabs. The
+            columns of a MAT file are its vectors.
 
     Returns:
         The columns by name, in order.
@@ -110,7 +118,7 @@ def read_columns(path: Path) -> dict[str, Column]:
         OSError: the file cannot be read.
     """
     if path.suffix not in _READERS:
-        raise ValueError(f"{path}: must end in {' or '.join(_READERS)}")
+        raise ValueError(f"{path}: must end in {' or '.join(SUFFIXES)}")
     if path.exists() and not path.is_file():
         raise ValueError(f"{path}: must be a file")
     try:
@@ -118,6 +126,8 @@ def read_columns(path: Path) -> dict[str, Column]:
             table = _READERS[path.suffix](stream)
     except UnicodeDecodeError as reason:
         raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
+    except MatError as reason:
+        raise ValueError(f"{path}: {reason}") from None
     except (pa.ArrowException, OSError) as reason:
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
             raise
@@ -175,7 +185,10 @@ def _check_columns(number: int) -> None:
 _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
     ".csv": _read_csv,
     ".parquet": _read_parquet,
+    ".mat": read_mat,
 }
+SUFFIXES = tuple(_READERS)
+"""Of the tables that can be read."""
 
 
 def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
@@ -211,8 +224,12 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
 
 def _seconds(dates: pa.ChunkedArray) -> Array:
     """Since the first of `dates` (rows,)."""
-    stamps = dates.to_numpy().astype("datetime64[ns]")
+    stamps = _stamps(dates)
     return np.asarray((stamps - stamps[:1]) / np.timedelta64(1, "s"), dtype=float)
+
+
+def _stamps(dates: pa.ChunkedArray) -> NDArray[np.datetime64]:
+    return np.asarray(dates.to_numpy().astype("datetime64[ns]"))
 
 
 def _numbers(name: str, column: pa.ChunkedArray) -> Array:

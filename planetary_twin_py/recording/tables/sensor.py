@@ -24,7 +24,7 @@ class Sensor(NamedTuple):
 
 
 def read_sensor(path: Path, column: str | None, sample_rate: float | None) -> Sensor:
-    """Read a column of a CSV or Parquet file whose headings are names, or names with units.
+    """Read a column of a CSV, Parquet or MAT file whose headings are names, or names with units.
 
     Args:
         path: of the file.
