@@ -46,8 +46,8 @@ class Scene(Section):
         "in the plane, too, on the bearings of `supports`; spatial: they move along themselves and "
         "tilt as well; quasi_static: the train turns rigidly and its loads are in static "
         "equilibrium at every time, its axes are held; quasi_static_planar and "
-        "quasi_static_spatial: the same with axes that move; auto: the least of torsional, planar, "
-        "spatial and quasi_static that keeps to `dynamics_error` at the operating point",
+        "quasi_static_spatial: the same with axes that move; auto: the least of these, "
+        "quasi_static_spatial apart, that keeps to `dynamics_error` at the operating point",
     )  # fmt: skip
     dynamics_error: float = quantity(
         "", "largest relative error of forces, DTE and loss that dynamics: auto may make", 0.02,

@@ -86,7 +86,7 @@ class Support(Section):
         if self.rolling is not None:
             for name in ("bearing", "damping"):
                 if getattr(self, name) is not None:
-                    raise ValueError(f"{name}: must not be given together with rolling")
+                    raise ValueError(f"{name}: must be null, as rolling has its own law")
         return self
 
     def diametral(self, rim_mass: float) -> float:

@@ -4,11 +4,10 @@
 //
 // The motors keep their speeds, so along each rigid motion the load (and the second motor of a
 // differential) gives what friction, drag and the inertia of a changing speed leave to be given.
-// Tooth forces are those of bodies at rest in the frame that turns with the motors; where axes move,
-// forces of bearings, too. Friction
-// depends on them and they on friction, by some hundredths: a few passes bring both together. All
-// laws are those of the dynamic model, applied to a state whose x squeezes every mesh by its static
-// force.
+// Tooth forces are those of bodies at rest in the frame that turns with the motors; where axes
+// move, forces of bearings, too. Friction depends on them and they on friction, by some hundredths:
+// a few passes bring both together. All laws are those of the dynamic model, applied to a state
+// whose x squeezes every mesh by its static force.
 
 #include <algorithm>
 #include <iterator>

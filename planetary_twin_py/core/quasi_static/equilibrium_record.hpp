@@ -19,9 +19,9 @@ struct alignas(64) Equilibrium {
     alignas(64) double stiffness[MESHES];   // [N/m]
     // From the middle to the flank that carries, on both sides [m].
     alignas(64) double play[MESHES][2];
-    alignas(64) double force[MESHES];  // signed [N]
-    double torque[3];                // [N m]
-    double balance[2];               // torques to be balanced along each rigid motion [N m]
+    alignas(64) double force[MESHES];     // signed [N]
+    double torque[3];                     // [N m]
+    double balance[2];                    // torques to be balanced along each rigid motion [N m]
     alignas(64) double external[BODIES];  // all forces but those of the meshes [N]
     Springs springs;
     std::int64_t both_flanks;  // equilibria so far in which both flanks of a mesh touch

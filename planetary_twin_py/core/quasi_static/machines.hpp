@@ -1,6 +1,7 @@
 #pragma once
 
-// Torques of the machines in static equilibrium: they balance what else acts along the rigid motions.
+// Torques of the machines in static equilibrium: they balance what else acts along the rigid
+// motions.
 
 #include <cstdint>
 #include <numbers>

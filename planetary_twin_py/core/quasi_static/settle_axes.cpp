@@ -78,8 +78,7 @@ bool touch_flanks(const Model& model, Equilibrium& run) {
         const std::int64_t only = only_side(train, i);
         const auto side = static_cast<double>(only);
         const double error = form_error(train, i, side, run.step.line_angle, 0.0, 0.0).length;
-        const bool touches =
-            side * (mesh_motion(train, i, state.x) - error) > model.load.offset;
+        const bool touches = side * (mesh_motion(train, i, state.x) - error) > model.load.offset;
         changes |= touches != (state.side[i] != OPEN);
         state.side[i] = touches ? only : OPEN;
     }
@@ -94,8 +93,7 @@ double rub(const Model& model, Equilibrium& run, bool midway) {
     std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
     double push[MESHES];  // negative in the first guess, from which flanks have yet to close
     std::copy_n(evaluation.now.push, MESHES, push);
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        evaluation.now.push[i] = std::max(push[i], 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) evaluation.now.push[i] = std::max(push[i], 0.0);
     apply_friction(model, run.state, run.step, run.state.v, evaluation);
     std::copy_n(push, MESHES, evaluation.now.push);
     double change = 0.0;
@@ -118,8 +116,8 @@ void find_forces(const Model& model, Equilibrium& run, double* force) {
     balance_torques(model, run);
     std::copy_n(run.external, BODIES, force);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const double push = train.copies[i] * static_cast<double>(state.side[i]) *
-                            evaluation.now.push[i];
+        const double push =
+            train.copies[i] * static_cast<double>(state.side[i]) * evaluation.now.push[i];
         for (int j = 0; j < entries_of(train); ++j)
             force[train.body[i][j]] -= push * train.sign[i][j];
     }

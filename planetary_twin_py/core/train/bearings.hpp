@@ -3,11 +3,11 @@
 // Forces of bearings, and of a frame that turns, on the displacements of the axes.
 //
 // A bearing pulls with k (r - c) along the displacement r beyond its clearance c, or as the law of
-// rolling bearings has it, and is damped; it never pushes the other way. Bearings of sun, ring and carrier are at rest in the housing, so
-// their damping sees the motion against the housing. Coriolis and centripetal terms are those of
-// Lin and Parker 1999, eq. (9), but that the centripetal force of a planet across its radius acts
-// on its displacement against the pin: with that on eta itself a wound-up carrier would be pushed
-// on, and torques would not balance.
+// rolling bearings has it, and is damped; it never pushes the other way. Bearings of sun, ring and
+// carrier are at rest in the housing, so their damping sees the motion against the housing.
+// Coriolis and centripetal terms are those of Lin and Parker 1999, eq. (9), but that the
+// centripetal force of a planet across its radius acts on its displacement against the pin: with
+// that on eta itself a wound-up carrier would be pushed on, and torques would not balance.
 
 #include <cmath>
 

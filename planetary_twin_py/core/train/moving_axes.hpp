@@ -52,10 +52,10 @@ struct alignas(64) MovingAxes {
     double damping[BEARINGS];         // [N s/m]
     double clearance[BEARINGS];       // radial [m]
     RollingBearing rolling[BEARINGS];
-    double centre[BEARINGS][2];       // displacement at which a bearing is centred [m]
-    double arm;                       // radius of the planet centres [m]
-    double gravity;                   // [m/s^2], 0 without weight
-    double downwards;                 // its direction from x of the housing [rad]
+    double centre[BEARINGS][2];         // displacement at which a bearing is centred [m]
+    double arm;                         // radius of the planet centres [m]
+    double gravity;                     // [m/s^2], 0 without weight
+    double downwards;                   // its direction from x of the housing [rad]
     std::int64_t turn_numerator[AXES];  // turns of the frame per turn of each motor, as a fraction
     std::int64_t turn_denominator[AXES];
     alignas(64) double line[MESHES][ENTRIES];  // turn of the line of action per displacement [1/m]

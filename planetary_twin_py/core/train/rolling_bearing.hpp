@@ -22,10 +22,10 @@ namespace gearbox {
 constexpr int LOAD_ZONE_TERMS = 14;
 
 struct RollingBearing {
-    double strength;                   // Z K [N/m^n], 0 if the bearing is another one
-    double exponent;                   // n
-    double load_zone[LOAD_ZONE_TERMS]; // coefficients of E, the lowest first
-    double damping_time;               // damping over stiffness [s]
+    double strength;                    // Z K [N/m^n], 0 if the bearing is another one
+    double exponent;                    // n
+    double load_zone[LOAD_ZONE_TERMS];  // coefficients of E, the lowest first
+    double damping_time;                // damping over stiffness [s]
 };
 
 // What a bearing does along its eccentricity.
