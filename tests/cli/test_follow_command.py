@@ -4,7 +4,7 @@ import csv
 import json
 
 import pytest
-from command_line import run
+from command_line import run_here
 
 HIDDEN = """
 duty: {kind: reversing}
@@ -24,14 +24,14 @@ SENSORS = "learning: 8\n"
 
 def cli(*arguments):
     """What a command prints that succeeds."""
-    done = run(*arguments, COLUMNS="200")
+    done = run_here(*arguments, COLUMNS="200")
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def fails(*arguments):
     """The one line of a command that fails."""
-    done = run(*arguments)
+    done = run_here(*arguments)
     assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
     return done.stderr
 
