@@ -156,7 +156,7 @@ class Settling:
 
     def __init__(self, scene: Scene) -> None:
         gearset, friction = scene.gearset, scene.lubrication
-        self._remembers = scene.dynamics != "quasi_static" and friction.friction
+        self._remembers = not scene.quasi_static and friction.friction
         self._distance = SETTLED * friction.presliding_displacement
         angle = min(mesh.pressure_angle for mesh in gearset.geometry.meshes)
         lever = gearset.geometry.sun.base_radius * math.tan(angle)

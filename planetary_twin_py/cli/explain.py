@@ -152,7 +152,8 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
         caption=f"Within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}, because "
-        f"{found.reason}.\nOnly planar and spatial have bearing forces and orbits.",
+        f"{found.reason}.\nBearing forces and orbits need axes that move: planar, spatial, "
+        "quasi_static_planar.",
     )
     table.add_column("dynamics")
     for name in (*FIGURES, "computing time per second"):

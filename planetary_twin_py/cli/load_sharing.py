@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from ..planar.load_sharing import LoadSharing
     from ..scene import Scene
+    from ..scene.supports import Support
 
 
 def load_sharing(
@@ -71,6 +72,8 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     import numpy as np
     from rich.table import Table
 
+    from ..planar.rows import CENTRAL
+
     planets = scene.gearset.planets
     largest = found.mesh_force.max(axis=0)
     pins = np.linalg.norm(found.planet_bearing, axis=2)
@@ -83,11 +86,14 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
         r"pin, largest \[N]",
     ):  # fmt: skip
         table.add_column(heading, justify="right")
+    if not np.isnan(found.element_load[:, len(CENTRAL) :]).all():
+        table.add_column(r"rolling element, largest \[N]", justify="right")
     for i in range(planets):
-        share = found.share[:, i]
+        share, element = found.share[:, i], found.element_load[:, len(CENTRAL) + i].max()
         figures = (f"{value:.4f}" for value in (share.mean(), share.min(), share.max()))
         forces = (f"{v:.4g}" for v in (largest[0, i], largest[1, i], pins[:, i].max()))
-        table.add_row(str(i + 1), *figures, *forces)
+        elements = [] if np.isnan(element) else [f"{element:.4g}"]
+        table.add_row(str(i + 1), *figures, *forces, *elements)
     return table
 
 
@@ -105,15 +111,22 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     for k, body in enumerate(CENTRAL):
         moved, force = found.displacement[:, k], np.linalg.norm(found.bearing[:, k], axis=1)
         support = getattr(scene.supports, body, None)
-        bearing = "held" if support is None else f"{support.bearing:g} N/m"
         table.add_row(
             body,
-            bearing if support is None or support.bearing else "none: floats",
+            _bearing_text(support),
             f"{np.linalg.norm(moved, axis=1).max():.4g}",
             f"{np.linalg.norm(moved - moved.mean(axis=0), axis=1).max():.4g}",
             f"{force.max():.4g}",
         )
     return table
+
+
+def _bearing_text(support: Support | None) -> str:
+    if support is None:
+        return "held"
+    if support.rolling is not None:
+        return support.rolling.text
+    return f"{support.bearing:g} N/m" if support.bearing else "none: floats"
 
 
 def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
@@ -131,6 +144,9 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
 
 
 def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
+    import numpy as np
+
+    from ..planar.motion import axes_names
     from ..planar.rows import CENTRAL
 
     return {
@@ -141,6 +157,11 @@ def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
         "share": found.share.tolist(),
         "mesh_force": found.mesh_force.tolist(),
         "planet_bearing": found.planet_bearing.tolist(),
+        "element_load": {
+            body: found.element_load[:, k].tolist()
+            for k, body in enumerate(axes_names(scene.gearset.planets))
+            if not np.isnan(found.element_load[:, k]).all()
+        },
         "bearing": {body: found.bearing[:, k].tolist() for k, body in enumerate(CENTRAL)},
         "displacement": {body: found.displacement[:, k].tolist() for k, body in enumerate(CENTRAL)},
     }

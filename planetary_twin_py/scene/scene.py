@@ -37,14 +37,18 @@ class Scene(Section):
 
     name: str = Field(description="name in recordings and pictures")
     description: str = Field("", description="description in words")
-    dynamics: Literal["torsional", "planar", "spatial", "quasi_static", "auto"] = Field(
+    dynamics: Literal[
+        "torsional", "planar", "spatial", "quasi_static", "quasi_static_planar",
+        "quasi_static_spatial", "auto",
+    ] = Field(
         "torsional",
         description="torsional: all bodies vibrate about axes that are held; planar: the axes move "
         "in the plane, too, on the bearings of `supports`; spatial: they move along themselves and "
         "tilt as well; quasi_static: the train turns rigidly and its loads are in static "
-        "equilibrium at every time; auto: the least of these that keeps to `dynamics_error` at the "
-        "operating point",
-    )
+        "equilibrium at every time, its axes are held; quasi_static_planar and "
+        "quasi_static_spatial: the same with axes that move; auto: the least of these, "
+        "quasi_static_spatial apart, that keeps to `dynamics_error` at the operating point",
+    )  # fmt: skip
     dynamics_error: float = quantity(
         "", "largest relative error of forces, DTE and loss that dynamics: auto may make", 0.02,
         gt=0.0, le=1.0,
@@ -212,12 +216,17 @@ class Scene(Section):
     @property
     def moving_axes(self) -> bool:
         """Whether the axes move in a simulation."""
-        return self.dynamics in ("planar", "spatial")
+        return self.dynamics.endswith(("planar", "spatial"))
 
     @property
     def tilting_axes(self) -> bool:
         """Whether the axes tilt and move along themselves in a simulation."""
-        return self.dynamics == "spatial"
+        return self.dynamics.endswith("spatial")
+
+    @property
+    def quasi_static(self) -> bool:
+        """Whether loads are in static equilibrium at every time of a simulation."""
+        return self.dynamics.startswith("quasi_static")
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""
