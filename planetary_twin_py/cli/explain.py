@@ -130,6 +130,8 @@ _MESH_ROWS = (
 def _shown(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
         return "/".join(_shown(part, unit) for part in value)
+    if value is None:
+        return "out of range"
     return figure(value, unit) if isinstance(value, float) else str(value)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
     from ..planar.load_sharing import LoadSharing
     from ..scene import Scene
+
+ROUNDING = 1e-11  # relative error of sums of forces in 64-bit numbers
 
 
 def load_sharing(
@@ -76,17 +79,17 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     pins = np.linalg.norm(found.planet_bearing, axis=2)
     table = Table(
         title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
-        caption="Share: torque of a planet over the mean of all planets",
+        caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
+        "and coast flanks of the sun mesh, and on the pin",
     )
     for heading in (
-        "planet", "share, mean", "smallest", "largest", r"sun mesh, drive \[N]", r"coast \[N]",
-        r"pin, largest \[N]",
+        "planet", "share, mean", "smallest", "largest", "drive flank", "coast flank", "pin"
     ):  # fmt: skip
-        table.add_column(heading, justify="right")
+        table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
     for i in range(planets):
         share = found.share[:, i]
         figures = (f"{value:.4f}" for value in (share.mean(), share.min(), share.max()))
-        forces = (f"{v:.4g}" for v in (largest[0, i], largest[1, i], pins[:, i].max()))
+        forces = (figure(v, "N") for v in (largest[0, i], largest[1, i], pins[:, i].max()))
         table.add_row(str(i + 1), *figures, *forces)
     return table
 
@@ -99,21 +102,30 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     from ..planar.rows import CENTRAL
 
     table = Table(title="Axes", caption="Orbit: largest distance of the axis from its mean place")
-    for heading in ("member", "bearing", r"displacement, largest \[m]", r"orbit \[m]",
-                    r"bearing force, largest \[N]"):  # fmt: skip
+    for heading in ("member", "bearing", "largest displacement", "orbit", "largest bearing force"):
         table.add_column(heading, justify="right")
+    largest_force = float(found.mesh_force.max())
+    largest_move = float(np.linalg.norm(found.displacement, axis=2).max())
     for k, body in enumerate(CENTRAL):
-        moved, force = found.displacement[:, k], np.linalg.norm(found.bearing[:, k], axis=1)
+        moved = found.displacement[:, k]
+        displaced = float(np.linalg.norm(moved, axis=1).max())
+        orbit = float(np.linalg.norm(moved - moved.mean(axis=0), axis=1).max())
+        force = float(np.linalg.norm(found.bearing[:, k], axis=1).max())
         support = getattr(scene.supports, body, None)
-        bearing = "held" if support is None else f"{support.bearing:g} N/m"
+        bearing = "held" if support is None else figure(support.bearing, "N/m")
         table.add_row(
             body,
             bearing if support is None or support.bearing else "none: floats",
-            f"{np.linalg.norm(moved, axis=1).max():.4g}",
-            f"{np.linalg.norm(moved - moved.mean(axis=0), axis=1).max():.4g}",
-            f"{force.max():.4g}",
+            figure(_without_rounding(displaced, largest_move), "m"),
+            figure(_without_rounding(orbit, largest_move), "m"),
+            figure(_without_rounding(force, largest_force), "N"),
         )
     return table
+
+
+def _without_rounding(value: float, scale: float) -> float:
+    """The value, or 0 where only rounding errors of terms of size `scale` are left."""
+    return value if value > ROUNDING * scale else 0.0
 
 
 def _remarks(scene: Scene, found: LoadSharing) -> list[str]:

@@ -116,7 +116,7 @@ class Scene(Section):
             value = getattr(self.operating_point, name)
             reach = getattr(self.drive, _LIMITS[name]) if name in _LIMITS else math.inf
             if abs(value) > reach or not tunable.minimum <= value <= tunable.maximum:
-                why = f", drive.{_LIMITS[name]}" if name in _LIMITS else ""
+                why = f" (drive.{_LIMITS[name]})" if name in _LIMITS else ""
                 yield f"{name} = {value!r}: {self.tunables[name].range}{why}"
 
     def _faulty_teeth(self) -> Iterator[str]:
