@@ -24,26 +24,26 @@ def sensor_signal(sensor: Sensor, scene: Scene | None) -> Signal:
         The signal. Its angle is that of the sun relative to the carrier; without a scene that of
         the shaft whose speed is measured, or zero.
     """
-    given = sensor.speed
+    speed = np.zeros(len(sensor.time))
+    if sensor.speed is not None:
+        speed = sensor.speed
+    elif scene is not None:
+        speed += scene.operating_point.input_speed
     if scene is not None:
-        given = _relative_sun_speed(
-            scene, scene.operating_point.input_speed if given is None else given
-        )
-    speed = np.zeros_like(sensor.time)
-    speed += 0.0 if given is None else given
-    angle = np.asarray(cumulative_trapezoid(speed, sensor.time, initial=0.0), dtype=float)
+        speed = _relative_sun_speed(scene, speed)
+    angle = cumulative_trapezoid(speed, sensor.time, initial=0).astype(np.float64)
     text = None if scene is None else scene.model_dump_json()
     return Signal(sensor.samples, sensor.time, angle, text)
 
 
-def _relative_sun_speed(scene: Scene, input_speed: Array | float) -> Array | float:
-    """Speed of the sun relative to the carrier [rad/s].
+def _relative_sun_speed(scene: Scene, input_speed: Array) -> Array:
+    """Speed of the sun relative to the carrier [rad/s], (n,).
 
     Args:
         scene: gears, and the speed of a second input.
-        input_speed: of the input shaft [rad/s].
+        input_speed: of the input shaft [rad/s], (n,).
     """
     ratios, second = rigid_ratios(scene), scene.operating_point.second_input_speed
     pairs = zip(ratios["sun"], ratios["carrier"], strict=True)
     of_input, *of_second = (float(sun - carrier) for sun, carrier in pairs)
-    return of_input * input_speed + sum(ratio * second for ratio in of_second)
+    return of_input * input_speed + sum(of_second) * second
