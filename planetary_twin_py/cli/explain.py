@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..engineering_units import figure
-from ..terminal.arguments import JsonOption, SceneArgument
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.console import print_list
 from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, remark
+from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 def explain(
     scene: SceneArgument = "paper",
     duration: Annotated[float, typer.Option(help="Simulated time of each run.", **SECONDS)] = 0.1,
+    set_: SetOption = None,
     json_: JsonOption = None,
 ) -> None:
     """List the terms that SCENE models, and simulate it without each of them.
@@ -39,14 +41,13 @@ def explain(
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
     from ..ledger_check import LedgerWarning
-    from ..scene import load_scene
     from ..scene.summary import gears
 
     console = console_beside(json_)
     for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
         warnings.simplefilter("ignore", kind)
     try:
-        loaded = load_scene(scene)
+        loaded = changed_scene(scene, settings(set_ or []))
         meshes = describe_meshes(loaded)
         with console.status("simulating the scene") as status:
             found = interruptible(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..engineering_units import figure
+from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from ..planar.load_sharing import LoadSharing
     from ..scene import Scene
-
-ROUNDING = 1e-11  # relative error of sums of forces in 64-bit numbers
 
 
 def load_sharing(
@@ -116,16 +114,11 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
         table.add_row(
             body,
             bearing if support is None or support.bearing else "none: floats",
-            figure(_without_rounding(displaced, largest_move), "m"),
-            figure(_without_rounding(orbit, largest_move), "m"),
-            figure(_without_rounding(force, largest_force), "N"),
+            figure(without_rounding(displaced, largest_move), "m"),
+            figure(without_rounding(orbit, largest_move), "m"),
+            figure(without_rounding(force, largest_force), "N"),
         )
     return table
-
-
-def _without_rounding(value: float, scale: float) -> float:
-    """The value, or 0 where only rounding errors of terms of size `scale` are left."""
-    return value if value > ROUNDING * scale else 0.0
 
 
 def _remarks(scene: Scene, found: LoadSharing) -> list[str]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..engineering_units import figure
+from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import (
     DurationOption,
     JsonOption,
@@ -255,7 +255,9 @@ def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
         table.add_column(body, justify="right")
     rows = _AXES if motion.tilting is None else _AXES | _TILTING
     for key, (text, unit) in rows.items():
-        table.add_row(text, *(figure(value, unit) for value in found[key].values()))
+        values = [*found[key].values()]
+        scale = max(map(abs, values))
+        table.add_row(text, *(figure(without_rounding(value, scale), unit) for value in values))
     share = found.get("load_share", {})
     shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
     table.add_row("share of the load, mean", *shares)
