@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..explanation.measure import Explanation
     from ..explanation.meshes import Meshes
     from ..scene import Scene
-    from ..studies.measures import Glance
+    from ..studies.measures import RunSummary
 
 
 def explain(
@@ -96,7 +96,7 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     for (label, unit), *values in zip(
         _MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True
     ):
-        table.add_row(label, *(_shown(value, unit) for value in values))
+        table.add_row(label, *(_text(value, unit) for value in values))
     return table
 
 
@@ -108,7 +108,7 @@ _MESH_ROWS = (
     ("overlap ratio", ""),
     ("length of approach in base pitches", ""),
     ("length of recess in base pitches", ""),
-    ("play of the teeth by profile shift and centre distance", "m"),
+    ("backlash by profile shift and centre distance", "m"),
     ("clearance of both tips from the mating root", "m"),
     ("stiffness of one pair", "N/m"),
     ("stiffness, mean over the mesh cycle", "N/m"),
@@ -128,9 +128,9 @@ _MESH_ROWS = (
 )
 
 
-def _shown(value: Any, unit: str) -> str:
+def _text(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
-        return "/".join(_shown(part, unit) for part in value)
+        return "/".join(_text(part, unit) for part in value)
     if value is None:
         return "out of range"
     return figure(value, unit) if isinstance(value, float) else str(value)
@@ -192,7 +192,7 @@ def _table(scene: Scene, found: Explanation) -> Table:
     return table
 
 
-# Fields of a glance: name and SI unit. Means and rms are over all meshes, peaks are the largest of
+# Fields of a summary: name and SI unit. Means and rms are over all meshes, peaks are the largest of
 # any mesh.
 _JUDGED = {
     "dte_mean": ("DTE mean", "m"),
@@ -203,7 +203,7 @@ _JUDGED = {
 }
 
 
-def _change(with_: Glance, without: Glance, name: str) -> str:
+def _change(with_: RunSummary, without: RunSummary, name: str) -> str:
     before, after = getattr(with_, name), getattr(without, name)
     return f"{100 * (after / before - 1.0):+.2f}" if before != 0.0 else "-"
 

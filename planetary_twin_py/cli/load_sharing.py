@@ -125,7 +125,7 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
     lines = []
     if found.both_flanks:
         lines.append(
-            "warning: both flanks of a mesh touch at some positions: the play is used up, "
+            "warning: both flanks of a mesh touch at some positions: the backlash is used up, "
             "and planets are wedged between sun and ring"
         )
     if scene.faults:

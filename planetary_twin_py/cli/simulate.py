@@ -150,9 +150,9 @@ _TRAIN = {
 def _train(scene: Scene, result: Result) -> dict[str, float]:
     """Results of the whole train, and means over all its meshes, by JSON name."""
     from ..gearset.kinematics import mesh_frequency
-    from ..studies.measures import glance
+    from ..studies.measures import summary_of
 
-    energy, seen = result.energy, glance(result)
+    energy, seen = result.energy, summary_of(result)
     sun, carrier = (
         float(result.mean_speed[result.bodies.index(member)]) for member in ("sun", "carrier")
     )

@@ -84,7 +84,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             ),
             approach=paths[kind].approach,
             recess=paths[kind].recess,
-            tooth_play=found[kind].play,
+            tooth_play=found[kind].backlash,
             tip_clearances=found[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
             mean_stiffness=float(mean[kind]),

@@ -196,7 +196,7 @@ class Mesh(Section):
         """Transmission errors at which flanks meet, and from which the force grows [m].
 
         Args:
-            backlash: total play, along what `motion` says [m].
+            backlash: total backlash, along what `motion` says [m].
             pressure_angle: of the gearset [rad].
         """
         along = math.cos(pressure_angle) if self.motion == "pitch_arc" else 1.0
