@@ -157,7 +157,7 @@ def _check(asked: Options) -> None:
 
 
 class _Subject(NamedTuple):
-    """Names of what is analysed."""
+    """Names of the analysed signal."""
 
     mesh: str | None
     """None for a sensor."""
