@@ -19,7 +19,7 @@ from .lubrication import Lubrication
 from .mesh import Mesh, TipReliefs
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
-from .paths import NoSuchPath, paths, put
+from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, Section, listed, quantity
 from .supports import Supports
 
@@ -83,7 +83,7 @@ class Scene(Section):
         yield from self._ports()
         yield from self._limits()
         yield from self._faulty_teeth()
-        yield from self._play()
+        yield from self._closed_backlash()
         yield from self._relief()
         yield from self._errors_of_planets()
         yield from self._moving_axes()
@@ -120,7 +120,7 @@ class Scene(Section):
             value = getattr(self.operating_point, name)
             reach = getattr(self.drive, _LIMITS[name]) if name in _LIMITS else math.inf
             if abs(value) > reach or not tunable.minimum <= value <= tunable.maximum:
-                why = f", drive.{_LIMITS[name]}" if name in _LIMITS else ""
+                why = f" (drive.{_LIMITS[name]})" if name in _LIMITS else ""
                 yield f"{name} = {value!r}: {self.tunables[name].range}{why}"
 
     def _faulty_teeth(self) -> Iterator[str]:
@@ -137,7 +137,7 @@ class Scene(Section):
                     "otherwise give stiffness_loss"
                 )
 
-    def _play(self) -> Iterator[str]:
+    def _closed_backlash(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
         if self.moving_axes or self.dynamics == "auto":
             return  # there both flanks have their forces, or dynamics without them is refused later
@@ -152,7 +152,7 @@ class Scene(Section):
             least = 1.005 * (closed + half) / self.mesh.flanks(1.0, angle)[0]  # rounded upwards
             yield (
                 f"backlash = {backlash!r}: must be at least {least:.3g} m, as mesh.runout closes "
-                f"the play by {2.0 * closed:.3g} m more than there is, of which the load opens "
+                f"the backlash by {2.0 * closed:.3g} m more than there is, of which the load opens "
                 f"{0.5 * opened:.3g} m: both flanks of a tooth would touch at once"
             )
 
@@ -278,7 +278,7 @@ class Scene(Section):
             if given.setdefault(path, name) != name:
                 errors.append(f"{path[-1]}: given twice, as {given[path]} and as {name}")
             try:
-                data = put(data, [Scene], path, value)
+                data = with_value(data, [Scene], path, value)
             except NoSuchPath as error:
                 reason = f"{error}"
                 errors.append(

@@ -162,7 +162,10 @@ def test_a_mat_file_has_the_counts_of_the_same_csv_table(write, tmp_path):
     ("contents", "message"),
     [
         ({"time": [0.0, 1.0], "input_torque": [1.0, 2.0, 3.0]}, "must be a vector as long as time"),
-        ({"time": [0.0, 1.0], "input_torque": [1j, 2.0]}, "input_torque: must be a vector of real numbers"),
+        (
+            {"time": [0.0, 1.0], "input_torque": [1j, 2.0]},
+            "input_torque: must be a vector of real numbers",
+        ),
         ({"notes": "rig 3"}, "has no vector of numbers"),
     ],
 )
