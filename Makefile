@@ -16,7 +16,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-cosimulation test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
+.PHONY: setup run test test-features test-all test-exhaustive test-model test-nodes test-cosimulation test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 
@@ -26,11 +26,14 @@ run: setup
 # Nodes wait for one another most of the time: five workers keep two cores busy. Each file is one
 # worker's, so that what its tests share is made once. Workers, and the hundreds of programs that
 # they start, compile each module once, not each time.
-PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=5 --dist=loadfile --no-loadscope-reorder
+PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=5 --dist=loadfile --no-loadscope-reorder
 
 test:
-	@echo "lint, then tests of every feature: about 6 minutes on 2 idle cores"
-	@$(MAKE) --no-print-directory lint
+	@echo "tests of every feature, and lint beside them: about 6 minutes on 2 idle cores"
+	@$(MAKE) --no-print-directory setup
+	@$(MAKE) --no-print-directory --jobs=2 lint test-features
+
+test-features: setup
 	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
 
 # What CI runs beyond `make test`: documentation that is executed, searches by chance, every further
@@ -82,6 +85,10 @@ picture: setup
 	$(BIN)/planetary-twin run --record picture
 	$(BIN)/planetary-twin view recordings/picture --screenshot docs/recording.png --at 5.3
 	$(BIN)/python benchmarks/glance.py docs/speed-against-error.png
+	$(BIN)/planetary-twin plant paper --hidden docs/examples/crack.yaml --duration 40 \
+		--out build/readings.parquet --encoders build/encoders.parquet
+	$(BIN)/planetary-twin follow paper --from build/readings.parquet --encoders build/encoders.parquet \
+		--picture docs/crack-found.png
 
 # The recording that is kept in git, for trying things on.
 sample: setup

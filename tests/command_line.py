@@ -1,8 +1,12 @@
-"""Runs `planetary-twin` as a user does."""
+"""Runs `planetary-twin`: as a user does, or in this process, which has its imports already."""
 
 import os
 import subprocess
 import sys
+
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
 
 COMMAND = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
 
@@ -17,3 +21,11 @@ def run(*arguments, prelude="", **environment):
         timeout=600,
         env=os.environ | environment,
     )
+
+
+def run_here(*arguments, **environment):
+    """The same in this process, for commands that a test only wants to have run."""
+    done = CliRunner(env=environment).invoke(build_app(), [*map(str, arguments)])
+    if done.exception and not isinstance(done.exception, SystemExit):
+        raise done.exception
+    return subprocess.CompletedProcess(arguments, done.exit_code, done.stdout, done.stderr)

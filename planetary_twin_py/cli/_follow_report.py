@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..following.follower import Following
 
 EPOCH = 1e8  # [s] above this, stamps count from 1970
+_YEAR_10000 = 253402300800.0  # [s] from 1970
 REMEDY = "improved by"
 """Heading of the column with readings that would determine a quantity, or determine it better."""
 
@@ -46,8 +47,8 @@ def print_state(console: Console, name: str, state: Following) -> None:
 
 
 def _instant(time: float) -> str:
-    """Format a stamp: as a date in UTC if it counts from 1970."""
-    if not time > EPOCH:
+    """Format a stamp: as a date in UTC if it counts from 1970 and has a year of four digits."""
+    if not EPOCH < time < _YEAR_10000:
         return f"{time:.1f} s"
     return datetime.fromtimestamp(time, UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-5]
 
@@ -62,10 +63,13 @@ def _lines(state: Following) -> Iterator[str]:
         yield f"{event.what}: {event.evidence}; {since}{causes}"
     for tooth in state.teeth:
         loss = tooth.loss
-        yield (
-            f"{tooth.gear} tooth {tooth.tooth}: {' or '.join(tooth.kinds)}, as a crack "
-            f"{100 * loss.low:.2g} to {100 * loss.high:.2g} % of stiffness lost, z = {tooth.z:.1f}"
+        size = (
+            f"as a crack {100 * loss.low:.2g} to {100 * loss.high:.2g} % of stiffness lost"
+            if loss.status == "ESTIMATED"
+            else f"its size follows from {loss.remedy}"
         )
+        kinds = " or ".join(tooth.kinds)
+        yield f"{tooth.gear} tooth {tooth.tooth}: {kinds}, {size}, z = {tooth.z:.1f}"
 
 
 def state_figures(state: Following) -> dict[str, Any]:
@@ -98,9 +102,9 @@ def state_figures(state: Following) -> dict[str, Any]:
             {
                 "gear": tooth.gear,
                 "tooth": tooth.tooth,
-                "stiffness_loss": tooth.loss.value,
-                "low": tooth.loss.low,
-                "high": tooth.loss.high,
+                "stiffness_loss": _finite(tooth.loss.value),
+                "low": _finite(tooth.loss.low),
+                "high": _finite(tooth.loss.high),
                 "z": tooth.z,
                 "kinds": tooth.kinds,
                 "candidates": tooth.candidates,

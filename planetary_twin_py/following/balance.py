@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections import deque
 from collections.abc import Iterator, Mapping
@@ -12,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene
-from .attribution import Attribution
 from .balance_filter import (
     F_T,
     F_W,
+    PARAMETERS,
     STANDSTILL,
     STATES,
     B,
@@ -35,8 +34,9 @@ from .checks import Checks
 from .cusum import Cusum, Step
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .loss_map import loss_map
+from .loss_step import LONGEST, StepCause, size_of
 from .merging import Merge
-from .sensors import Sensors, torque_noise
+from .sensors import Sensors, torque_gain, torque_noise, torque_zero
 from .train import followed_train
 from .vibration import Turning
 
@@ -44,6 +44,8 @@ Array = NDArray[np.float64]
 
 KEPT = 36_000  # bins whose torque is kept for judging teeth
 TURNING = 3_000  # bins whose speed is kept for vibration
+RECENT = 1_200  # bins from which the size of a step is estimated at most
+MARGIN = 5.0  # [s] by which a step may start before the sum of the CUSUM leaves zero
 PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when the load reverses
 IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
@@ -115,9 +117,16 @@ class BalanceFollower:
         self._slow = BalanceFilter(self.train, losses, self.sensors, alarm_memory(self.train))
         noise = torque_noise(self.sensors, self.train)
         self._bins = Merge(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(self.train, self.period)
+        self._checks = Checks(
+            self.train,
+            self.period,
+            torque_zero(self.sensors, self.train),
+            torque_gain(self.sensors),
+        )
         self._cusum, self._refusals = Cusum(), _Refusals()
-        self._before: tuple[BalanceFilter, Attribution, int] | None = None
+        self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
+        """Last bins, and the filter for intervals as it was before each of them."""
+        self._before: tuple[BalanceFilter, StepCause, int] | None = None
         self._last: tuple[float, float] | None = None  # time and speed
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
@@ -166,10 +175,12 @@ class BalanceFollower:
         if math.isfinite(read.speed):
             self._turning.append((read.time, read.speed, read.input_torque))
             self.operating = read.speed, read.oil_temperature
+        before = self._wide.kept()
         innovation = self._wide.update(read)
         slow = self._slow.update(read)
         if innovation is None or slow is None:
             return
+        self._recent.append((read, before))
         self.innovation = innovation
         self.gated += innovation.gated
         began = self._refusals.add(read.time, innovation.gated)
@@ -183,7 +194,7 @@ class BalanceFollower:
                 Event("readings do not fit the gearbox", began, read.time, size, (),
                       f"balance off by {innovation.value:.3g} N m")
             )  # fmt: skip
-        self._attribute(read)
+        self._compare_causes(read)
 
     def _measured(self, found: Bin) -> Measured:
         means, nan = found.means, math.nan
@@ -229,33 +240,39 @@ class BalanceFollower:
         return slope, 0.3 * abs(slope)  # it belongs to half a bin earlier
 
     def _alarm(self, step: Step) -> None:
+        reads, filters = zip(*self._recent, strict=True)
+        times = np.array([read.time for read in reads])
+        place = min(int(np.searchsorted(times, step.since - MARGIN)), len(times) - 1)
+        before, reads, times = filters[place], reads[place:], times[place:]
+        balances = [before.balance(read) for read in reads]
+        covariance = before.p[PARAMETERS, PARAMETERS]
+        found = size_of(balances, covariance)
+        cause = StepCause(step.found, covariance)
+        for one in balances[found.likely :]:
+            cause.add(one)
         sense = math.copysign(1.0, self.operating[0])
-        size = estimated("loss_torque_step", sense * step.size, step.sd, "N m")
+        size = estimated("loss_torque_step", sense * found.size, found.sd, "N m")
         loss = self._losses(float(self._slow.x[T]), *self.operating).teeth
         share = f", {100.0 * size.value / loss:.3g} % of the scene's tooth friction" if loss else ""
         evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m{share}"
-        attribution = Attribution(step.found)
-        self._before = copy.deepcopy(self._slow), attribution, len(self.events)
+        since = float(times[found.first]) - 0.5 * self.period
+        self._before = before, cause, len(self.events)
         self.events.append(
-            Event("loss torque stepped", step.since, step.found, size, attribution.causes, evidence)
+            Event("loss torque stepped", since, step.found, size, cause.causes, evidence)
         )
         self._slow.restart()
         self._wide.reopen()
 
-    def _attribute(self, read: Measured) -> None:
+    def _compare_causes(self, read: Measured) -> None:
         """Update the causes of the last step."""
         if self._before is None:
             return
-        frozen, attribution, place = self._before
-        if not read.time > attribution.begin:
+        before, cause, place = self._before
+        if not cause.begin < read.time <= cause.begin + LONGEST:
             return
-        frozen.x[T] = self._wide.x[T]
-        innovation = frozen.innovation(read)
-        loss = self._losses(float(frozen.x[T]), read.speed, read.oil_temperature).teeth
-        sign = math.copysign(1.0, read.speed)
-        attribution.add(read.time, innovation.value, innovation.sd, loss, sign)
-        if self.events[place].causes != attribution.causes:
-            self.events[place] = replace(self.events[place], causes=attribution.causes)
+        cause.add(before.balance(read))
+        if (causes := cause.causes) != self.events[place].causes:
+            self.events[place] = replace(self.events[place], causes=causes)
 
     @property
     def scatter(self) -> float:
@@ -330,6 +347,12 @@ class BalanceFollower:
             yield (
                 f"successive innovations correlate by {self._cusum.correlation:.2f}: steps of the "
                 "loss are not reported"
+            )
+        level = self._parameter(F)
+        if level.high < 0.0:
+            yield (
+                f"friction_level is below {level.high:.2g}, which is impossible: the signs of both "
+                "torques or of both speeds may be reversed, or a torque has a wrong gain"
             )
         if self.gated:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"

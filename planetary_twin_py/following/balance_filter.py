@@ -18,6 +18,7 @@ The parameters are Gauss-Markov processes, which decay to their priors, or rando
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -83,6 +84,21 @@ class Innovation(NamedTuple):
     """Its expected standard deviation [N m]."""
     gated: bool
     """Whether the gate rejects it."""
+
+
+class Balance(NamedTuple):
+    """Measured minus expected sum of both torques of one bin, without an estimate of the torque."""
+
+    value: float
+    """[N m]."""
+    sd: float
+    """Standard deviation of the readings in it [N m]."""
+    slope: Array
+    """Derivatives of the expected balance over the parameters, (7,)."""
+    friction: float
+    """Expected loss torque of tooth friction, with the sign of the rotation [N m]."""
+    sign: float
+    """Sign of the rotation."""
 
 
 @dataclass(frozen=True)
@@ -191,19 +207,36 @@ class BalanceFilter:
             return None
         return self._balance(read, step)
 
-    def innovation(self, read: Measured) -> Innovation:
-        """Innovation of the balance with the present state, without an update.
+    def kept(self) -> BalanceFilter:
+        """A copy with the present state, which later updates do not change."""
+        other = copy.copy(self)
+        other.x, other.p = self.x.copy(), self.p.copy()
+        return other
+
+    def balance(self, read: Measured) -> Balance:
+        """Balance of the readings of one bin alone with the present parameters.
 
         Args:
             read: means of a bin with both torques and the speed.
 
         Returns:
-            The innovation.
+            The balance. Its noise is independent of that of other bins.
         """
-        expected, _ = self._expected(read.speed, read.oil_temperature)
+        inertia = float(self.x[J])
+        self.x[T] = read.input_torque - inertia * read.acceleration
+        expected, slope = self._expected(read.speed, read.oil_temperature)
+        slope[J] = read.acceleration
         noise = self._noise[1] / read.counts[1] + self._noise[0] / read.counts[0]
-        value = self.train.ratio * read.output_torque - expected
-        return Innovation(value, math.sqrt(self.excess * noise), False)
+        noise = self.excess * noise + (inertia * read.acceleration_noise) ** 2
+        parameters = slope[PARAMETERS]
+        law = np.array([F, F_T, F_W])
+        return Balance(
+            self.train.ratio * read.output_torque - expected,
+            math.sqrt(noise),
+            parameters,
+            float(slope[law] @ self.x[law]),
+            math.copysign(1.0, read.speed),
+        )
 
     def loss_torque(self, speed: float, temperature: float) -> tuple[float, float]:
         """Estimate the loss torque at the input.

@@ -19,6 +19,7 @@ LOADED = 0.2  # share of the torque of the scene below which torques are not com
 SMALL = 0.05  # share of the torque of the scene below which a unit may be 1000 times too large
 MOVING = 0.05  # share of the speed of the scene below which speeds are not compared
 CELSIUS = 200.0  # below this, a temperature is not in kelvin
+GAINED = 4.0  # standard deviations by which a loss may be negative
 HOTTEST = 475.0  # [K]; above this, the message had kelvin in place of degrees Celsius
 
 
@@ -33,10 +34,14 @@ class Checks:
     Args:
         train: gear train of the scene.
         length: length of a bin [s].
+        zero: standard deviation of the zeros of both torque sensors, at the input [N m].
+        gain: standard deviation of the difference of their gains.
     """
 
     train: FollowedTrain
     length: float
+    zero: float
+    gain: float
     _read: dict[str, list[float]] = field(default_factory=dict)
     _begin: int | None = None
     _done: bool = False
@@ -107,6 +112,27 @@ class Checks:
         if loaded.any():
             ratio = float(np.median(second[loaded] / first[loaded]))
             yield from self._torques(ratio, float(np.median(np.abs(first[loaded]))))
+        yield from self._gained(first, second, speed_in, speed_out)
+
+    def _gained(
+        self, first: np.ndarray, second: np.ndarray, speed_in: np.ndarray, speed_out: np.ndarray
+    ) -> Iterator[str]:
+        """A negative loss beyond the errors of the sensors: no ratio shows two reversed signs."""
+        train = self.train
+        speed = np.where(np.isfinite(speed_in), speed_in, speed_out / train.ratio)
+        there = (np.abs(speed) > MOVING * train.speed) & np.isfinite(first + second)
+        if not there.any():
+            return
+        speed, first, second = speed[there], first[there], second[there]
+        sign = np.sign(speed)
+        loss = float(np.mean(sign * (first + train.ratio * second)))
+        stored = train.inertia * float(np.ptp(np.abs(speed))) / (len(speed) * self.length)
+        sd = math.hypot(self.zero, self.gain * float(np.mean(sign * first)), stored)
+        if loss < -GAINED * sd:
+            yield (
+                f"loss torque = {loss:.3g} N m: must be positive: the signs of both torques or of "
+                "both speeds are probably reversed: scale input_torque and output_torque by -1"
+            )
 
     def _speeds(self, ratio: float) -> Iterator[str]:
         """Fault of a measured speed ratio."""

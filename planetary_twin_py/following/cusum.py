@@ -23,10 +23,6 @@ class Step(NamedTuple):
     """Time at which the sum left zero [s]."""
     found: float
     """[s]."""
-    size: float
-    """Mean of the innovations since then [N m]."""
-    sd: float
-    """Standard deviation of this mean [N m]."""
 
 
 @dataclass
@@ -35,17 +31,11 @@ class _Sum:
     value: float = 0.0
     since: float = math.nan
     held: bool = False
-    total: float = 0.0
-    weight: float = 0.0
 
-    def add(self, term: float, time: float, weighted: tuple[float, float], held: bool) -> None:
+    def add(self, term: float, time: float, held: bool) -> None:
         self.value += self.sign * term - KAPPA
         if self.value <= 0.0:
-            self.value, self.total, self.weight = 0.0, 0.0, 0.0
-            self.since, self.held = time, held
-            return
-        self.total += weighted[0]
-        self.weight += weighted[1]
+            self.value, self.since, self.held = 0.0, time, held
 
 
 @dataclass
@@ -55,7 +45,7 @@ class Cusum:
     correlation: float = 0.0
     """Correlation of successive innovations over the last minute."""
     _sums: tuple[_Sum, _Sum] = field(default_factory=lambda: (_Sum(1.0), _Sum(-1.0)))
-    _term: list[tuple[float, float, float]] = field(default_factory=list)  # score, value, sd
+    _term: list[float] = field(default_factory=list)  # scores
     _begin: float | None = None
     _last: tuple[float, float] | None = None  # time and score
     _known: float = 0.0
@@ -81,7 +71,7 @@ class Cusum:
         if time >= self._begin + TERM:
             found = self._end_term(time)
             self._begin = time
-        self._term.append((score, value, sd))
+        self._term.append(score)
         return found
 
     @property
@@ -93,15 +83,13 @@ class Cusum:
         return self._known >= TRUSTED and self.correlation > CORRELATED
 
     def _end_term(self, time: float) -> Step | None:
-        term = sum(score for score, _, _ in self._term) / math.sqrt(len(self._term))
-        weights = [1.0 / sd**2 for _, _, sd in self._term]
-        total = sum(w * value for w, (_, value, _) in zip(weights, self._term, strict=True))
+        term = sum(self._term) / math.sqrt(len(self._term))
         self._term.clear()
         for one in self._sums:
-            one.add(term, time, (total, sum(weights)), self.held)
+            one.add(term, time, self.held)
         for one in self._sums:
             if one.value > LIMIT and not one.held:
-                step = Step(one.since, time, one.total / one.weight, 1.0 / math.sqrt(one.weight))
+                step = Step(one.since, time)
                 self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
                 return step
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+import numpy as np
 from mcap.records import Channel, Message, Schema
 from rosbags.typesys.store import Typestore
 
@@ -15,6 +16,7 @@ from .follower import Readings
 from .measured_messages import JOINTS, KINDS, Arrived, Block, MessageReader
 from .sensors import JointNames
 
+BEGIN = np.datetime64(0, "s")  # second 0 of stamps of ROS 2
 PART = 0.5  # [s] of messages that are converted together
 
 

@@ -1,4 +1,4 @@
-"""Reads measured readings and encoder samples from tables: CSV or Parquet."""
+"""Reads readings, encoder samples and vibration from tables: CSV, Parquet or MAT files."""
 
 from __future__ import annotations
 
@@ -8,9 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..recording.tables.measurements import TIME, Column, read_columns
+from ..printable import one_line
+from ..recording.tables.measurements import TIME, Column, in_si, read_columns
+from ..units import LARGEST
 from .bins import CHANNELS
 from .follower import EncoderSamples, Readings
+from .vibration import VibrationSamples
 
 ARRIVAL = "arrival"
 SAMPLE, COUNTS = "sample", ("input_counts", "output_counts")
@@ -23,14 +26,16 @@ class MeasuredTable(NamedTuple):
     """Readings in the order of the rows, which is the order of arrival."""
     ignored: tuple[str, ...]
     """Headings of columns that are not used."""
+    begin: np.datetime64 | None
+    """Date of second 0 of the stamps; None if the table has no dates."""
 
 
 def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
     """Read a table of torques and speeds; stamps need not be equally spaced.
 
     Args:
-        path: path of a CSV or Parquet file. Headings are names of channels, with units unless these
-            are SI: `input_speed [rpm]`; `time` and, if known, `arrival` [s].
+        path: path of a .csv, .parquet or .mat file. Headings are names of channels, with units
+            unless these are SI: `input_speed [rpm]`; `time` and, if known, `arrival` [s].
         names: headings of channels whose columns have other names.
 
     Returns:
@@ -45,11 +50,11 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
     channel = {heading: name for name, heading in _headings(path, names, found).items()}
     units = CHANNELS | {ARRIVAL: "s"}
     columns: dict[str, np.ndarray] = {}
-    ignored, stamps = [], None
+    ignored, stamps, begin = [], None, None
     for own, column in found.items():
         name = channel.get(column.heading, own)
         if name == TIME[0]:
-            stamps = column.in_si(name, "s")
+            stamps, begin = column.in_si(name, "s"), column.begin
         elif name in columns:
             raise ValueError(f"{path}: column {column.heading!r}: {name} is given twice")
         elif name in units:
@@ -66,23 +71,25 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
         )
     if not any((np.isfinite(stamps) & np.isfinite(values)).any() for values in columns.values()):
         raise ValueError(f"{path}: has no row with a time and a reading")
-    return MeasuredTable(Readings(stamps, columns, arrival), tuple(ignored))
+    return MeasuredTable(Readings(stamps, columns, arrival), tuple(ignored), begin)
 
 
-def read_encoders(path: Path, period: float) -> EncoderSamples:
+def read_encoders(path: Path, period: float, begin: np.datetime64 | None = None) -> EncoderSamples:
     """Read a table of the counts of two encoders.
 
     Args:
-        path: path of a CSV or Parquet file with the columns input_counts and output_counts, and
-            either the number `sample` or the `time` [s].
+        path: path of a .csv, .parquet or .mat file with the columns input_counts and output_counts,
+            and either the number `sample` or the `time`, in seconds of the stamps of the readings
+            or in dates.
         period: sample period [s].
+        begin: date of second 0 of the stamps of the readings; None if they have no dates.
 
     Returns:
         The samples, in the order of the rows.
 
     Raises:
-        ValueError: a column is missing or has values other than whole numbers, or the times are
-            not multiples of the period.
+        ValueError: a column is missing or has values other than whole numbers, the times are
+            not multiples of the period, or they are dates and those of the readings are not.
         OSError: the file cannot be read.
     """
     found = read_columns(path)
@@ -94,16 +101,70 @@ def read_encoders(path: Path, period: float) -> EncoderSamples:
         sample = _whole(path, SAMPLE, found[SAMPLE].in_si(SAMPLE, ""))
     elif TIME[0] in found:
         number = found[TIME[0]].in_si(TIME[0], "s") / period
-        if not np.all(np.abs(number - np.round(number)) < 0.2):
+        if not np.all((np.abs(number - np.round(number)) < 0.2) & (np.abs(number) <= LARGEST)):
             raise ValueError(
                 f"{path}: time: must be multiples of {period:g} s; is the sample rate right?"
             )
-        sample = np.round(number).astype(np.int64)
+        shift = round(_later(path, found[TIME[0]], begin) / period)
+        sample = np.round(number).astype(np.int64) + shift
     else:
         raise ValueError(f"{path}: column {SAMPLE!r} or {TIME[0]!r}: missing")
     if not len(sample):
         raise ValueError(f"{path}: has no rows")
     return EncoderSamples(sample, counts)
+
+
+def read_vibration(
+    path: Path, names: Mapping[str, str], begin: np.datetime64 | None = None
+) -> VibrationSamples:
+    """Read a table of accelerations or other vibration.
+
+    Args:
+        path: path of a .csv, .parquet or .mat file with `time`, in seconds of the stamps of the
+            readings or in dates, and a column for each sensor, in any unit. It may be the table of
+            the readings: their columns, and those of encoders, are no vibration.
+        names: headings of the channels of readings that have other names.
+        begin: date of second 0 of the stamps of the readings; None if they have no dates.
+
+    Returns:
+        The samples, in the order of the rows. The sample period is the median step of the time.
+
+    Raises:
+        ValueError: the file is not such a table, a column is missing, or times are dates and those
+            of the readings are not.
+        OSError: the file cannot be read.
+    """
+    found = read_columns(path)
+    if TIME[0] not in found:
+        raise ValueError(f"{path}: column {TIME[0]!r}: missing")
+    others = {*TIME, ARRIVAL, SAMPLE, *COUNTS, *CHANNELS, *names.values()}
+    sensors = {
+        column.heading: in_si(column.heading, column.values, None, "")
+        for name, column in found.items()
+        if not others & {name, column.heading}
+    }
+    if not sensors:
+        raise ValueError(f"{path}: has no column of vibration besides the time and the readings")
+    time = found[TIME[0]].in_si(TIME[0], "s")
+    steps = np.diff(time[np.isfinite(time)])
+    period = float(np.median(steps)) if len(steps) else 0.0
+    if not 0.0 < period < 1.0:
+        raise ValueError(f"{path}: time: its median step is {period:g} s: must be within 0 and 1 s")
+    shift = _later(path, found[TIME[0]], begin)
+    return VibrationSamples(
+        time + shift, np.stack([*sensors.values()], axis=1), tuple(sensors), period
+    )
+
+
+def _later(path: Path, time: Column, begin: np.datetime64 | None) -> float:
+    """Seconds from the second 0 of the readings to that of another table."""
+    if time.begin is None:
+        return 0.0
+    if begin is None:
+        raise ValueError(
+            f"{path}: time: has dates, but the readings have seconds: use one of these in both"
+        )
+    return float((time.begin - begin) / np.timedelta64(1, "s"))
 
 
 def _headings(path: Path, names: Mapping[str, str], found: Mapping[str, Column]) -> dict[str, str]:
@@ -114,13 +175,13 @@ def _headings(path: Path, names: Mapping[str, str], found: Mapping[str, Column])
             raise ValueError(f"columns.{name}: must be one of {', '.join((*CHANNELS, ARRIVAL))}")
         headings = [c.heading for own, c in found.items() if wanted in (c.heading, own)]
         if len(headings) != 1:
-            listed = ", ".join(column.heading for column in found.values())
+            listed = one_line(", ".join(column.heading for column in found.values()), 400)
             raise ValueError(f"{path}: column {wanted!r}: no such column; has {listed}")
         chosen[TIME[0] if name in TIME else name] = headings[0]
     return chosen
 
 
 def _whole(path: Path, name: str, values: np.ndarray) -> np.ndarray:
-    for row in np.flatnonzero(~(values == np.round(values)))[:1]:  # NaN, too
+    for row in np.flatnonzero(~(np.isfinite(values) & (values == np.round(values))))[:1]:
         raise ValueError(f"{path}: row {row + 1}: {name} = {values[row]:g}: must be a whole number")
     return values.astype(np.int64)

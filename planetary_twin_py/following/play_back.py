@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
+from .follower import EncoderSamples, Follower, Following, Readings
 from .measured_messages import Block
+from .vibration import VibrationSamples
 
 EVERY = 1.0  # [s] between two estimated states
 
@@ -16,15 +19,14 @@ EVERY = 1.0  # [s] between two estimated states
 def play_back(
     follower: Follower,
     blocks: Sequence[Block],
-    samples: EncoderSamples | None,
+    samples: Sequence[EncoderSamples | VibrationSamples] = (),
 ) -> Iterator[Following]:
     """Pass readings to a follower second by second.
 
     Args:
-        follower: follower without readings.
+        follower: follower without readings, with the format of encoder samples.
         blocks: readings in the order of their arrival.
-        samples: encoder samples, which are merged with the readings by time; None: there are none,
-            or they are among the blocks.
+        samples: samples of other files, which are merged with the readings by time.
 
     Returns:
         The estimated state after each second, and after the last reading.
@@ -32,7 +34,8 @@ def play_back(
     Raises:
         InputError: readings contradict the scene.
     """
-    place, noted = 0, -math.inf
+    sources = [_Source(one, _stamps_of(one, follower)) for one in samples]
+    noted = -math.inf
     for block in blocks:
         if not isinstance(block, Readings):
             follower.add(block)
@@ -41,15 +44,47 @@ def play_back(
             columns = {name: values[rows] for name, values in block.columns.items()}
             arrival = None if block.arrival is None else block.arrival[rows]
             follower.add(Readings(block.time[rows], columns, arrival, block.sender))
-            if samples is not None and follower.encoders is not None:
-                place = _feed(follower, follower.encoders, samples, (place, until))
+            for source in sources:
+                source.feed(follower, until)
             if follower.time > noted + EVERY - 0.5 * follower.period:
                 noted = follower.time
                 yield follower.estimate()
-    if samples is not None:
-        follower.add(EncoderSamples(samples.sample[place:], samples.counts[place:]))
+    for source in sources:
+        source.feed(follower, math.inf)
     follower.finish()
     yield follower.estimate()
+
+
+@dataclass
+class _Source:
+    """Samples of a file, of which those before `place` have been passed on."""
+
+    samples: EncoderSamples | VibrationSamples
+    time: NDArray[np.float64]  # latest stamp up to each sample [s], (n,)
+    place: int = 0
+
+    def feed(self, follower: Follower, until: float) -> None:
+        """Pass the samples on up to a time [s]."""
+        end = self.place + int(np.searchsorted(self.time[self.place :], until))
+        rows, self.place = slice(self.place, end), end
+        one = self.samples
+        if isinstance(one, EncoderSamples):
+            follower.add(one._replace(sample=one.sample[rows], counts=one.counts[rows]))
+        else:
+            follower.add(one._replace(time=one.time[rows], values=one.values[rows]))
+
+
+def _stamps_of(
+    samples: EncoderSamples | VibrationSamples, follower: Follower
+) -> NDArray[np.float64]:
+    if isinstance(samples, EncoderSamples):
+        shape = samples.format or follower.encoders
+        if shape is None:
+            raise ValueError("encoders: their counts per turn and their period are missing")
+        stamps = samples.sample * shape.period
+    else:
+        stamps = np.where(np.isfinite(samples.time), samples.time, -np.inf)
+    return np.asarray(np.maximum.accumulate(stamps), dtype=float)
 
 
 def _seconds(part: Readings) -> Iterator[tuple[slice, float]]:
@@ -62,13 +97,3 @@ def _seconds(part: Readings) -> Iterator[tuple[slice, float]]:
         end = max(int(np.searchsorted(time, until)), begin + 1)
         yield slice(begin, end), until
         begin = end
-
-
-def _feed(
-    follower: Follower, encoders: EncoderFormat, samples: EncoderSamples, at: tuple[int, float]
-) -> int:
-    """Add samples up to a time; return the index of the first one after it."""
-    begin, until = at
-    end = begin + int(np.searchsorted(samples.sample[begin:], until / encoders.period))
-    follower.add(EncoderSamples(samples.sample[begin:end], samples.counts[begin:end]))
-    return end

@@ -17,6 +17,7 @@ from .compliance import Compliance
 from .encoder_check import EncoderCheck
 from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
+from .onset import onset_of
 from .signatures import signatures
 from .tooth_kind import ToothKind
 from .tooth_scores import Bank
@@ -40,7 +41,8 @@ class ToothState(NamedTuple):
     tooth: int
     """Number of the tooth; tooth 0 meets planet 1 first after the encoders start."""
     loss: Estimate
-    """Loss of stiffness of a pair with this tooth, if the change is a crack."""
+    """Loss of stiffness of a pair with this tooth, if the change is a crack; its status is LEARNING
+    until a whole hunting period follows the change."""
     z: float
     """Amount of its signature in standard deviations."""
     kinds: tuple[str, ...]
@@ -57,6 +59,8 @@ class _Judged(NamedTuple):
     products: Array
     squares: Array
     torque: float
+    begin: float  # [s]
+    end: float  # [s]
 
 
 @dataclass
@@ -103,6 +107,7 @@ class TeethFollower:
         self._kinds: dict[int, ToothKind] = {}
         self._amounts: dict[int, float] = {}
         self._place: dict[int, int] = {}  # of the event of a tooth
+        self._changed_by: dict[int, float] = {}  # time before which a tooth has changed [s]
         self._unmeasured = False
         self.compliance = Compliance(self.learning)
         self._estimates: tuple[Estimate, ...] | None = None  # since the last hunting period
@@ -168,7 +173,9 @@ class TeethFollower:
         assert cell.bank is not None  # set with the cell
         residual, measured = cell.residual(block, torque)
         products, squares = cell.bank.score(residual, measured)
-        self._recent.append(_Judged(residual, measured, products, squares, torque))
+        self._recent.append(
+            _Judged(residual, measured, products, squares, torque, block.begin, block.end)
+        )
         self._note_amounts(residual, measured, (cell, place), torque)
         self._decide(block, cell)
 
@@ -219,50 +226,93 @@ class TeethFollower:
         sd = own * cell.noise(torques[-window:])
         found = find_teeth(cell.bank, Residual(total, blocks, sd))
         if found:
-            self._name(found, cell, block, float(np.mean(torques[-window:])))
+            self._name(found, cell, block, cell.noise(torques[-window:]))
         else:
             self._forget()
 
-    def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, torque: float) -> None:
-        """Use the teeth of a search as the state; a new tooth is an event."""
+    def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, noise: float) -> None:
+        """Use the teeth of a search as the state; a new tooth is an event.
+
+        `noise` is the standard deviation in the window of the search over that of one block.
+        """
         bank = cell.bank
         assert bank is not None  # set with the cell
-        scale, uncertain = self._scale(bank, torque)
-        if cell.taken_off:
-            uncertain = UNSCALED
         states = []
-        before = dict(self._amounts)
-        self._amounts = {}
-        for one in found:
+        before, self._amounts = dict(self._amounts), {}
+        amounts = self._amounts_of([one.tooth for one in found], bank)
+        for one, every in zip(found, amounts.T, strict=True):
             named = next((t for t in before if t in one.candidates), one.tooth)
             tooth = bank.teeth[named]
-            self._amounts[named] = one.amount
-            loss = one.amount / scale
-            sd = math.hypot(one.sd / scale, uncertain * loss)
+            since, after = self._onset(named, every, one.sd / noise)
+            self._amounts[named] = float(np.mean(every[after])) if after.any() else one.amount
             kind = self._kinds.setdefault(named, ToothKind(self.learning))
             state = ToothState(
                 tooth.gear,
                 tooth.number,
-                estimated("stiffness_loss", loss, sd, ""),
+                self._loss(cell, every, after, one.sd / noise),
                 one.z,
                 kind.kinds,
                 _names(bank, (named, *(other for other in one.candidates if other != named))),
             )
             states.append(state)
-            self._tell(named, state, block)
+            self._tell(named, state, (since, block.end))
         self.teeth = tuple(states)
 
-    def _tell(self, tooth: int, state: ToothState, block: HuntingBlock) -> None:
+    def _amounts_of(self, teeth: list[int], bank: Bank) -> Array:
+        """Amounts of some teeth in every recent block by joint least squares, (blocks, teeth)."""
+        found = []
+        for one in self._recent:
+            rows = np.array([bank.deviation(t, len(one.residual)).ravel() for t in teeth])
+            square = (rows * one.measured.ravel()) @ rows.T
+            inverse = np.linalg.pinv(square, hermitian=True)  # two may have the same best tooth
+            found.append(inverse @ (rows @ one.residual.ravel()))
+        return np.array(found)
+
+    def _onset(self, tooth: int, amounts: Array, sd: float) -> tuple[float, NDArray[np.bool_]]:
+        """Earliest start of a change [s], and which recent blocks surely follow it."""
+        begins = np.array([one.begin for one in self._recent])
+        known = self._changed_by.get(tooth, math.inf)
+        if begins[0] >= known:
+            return known, np.ones(len(begins), dtype=bool)
+        onset = onset_of(amounts, sd)
+        first, last = self._recent[onset.first], self._recent[onset.last]
+        self._changed_by[tooth] = last.end
+        # A step later than half of a block belongs to the next one.
+        return first.begin - 0.5 * (first.end - first.begin), begins >= last.end
+
+    def _loss(
+        self, cell: Baseline, amounts: Array, after: NDArray[np.bool_], sd: float
+    ) -> Estimate:
+        """Loss of stiffness from the blocks after a change."""
+        if not after.any():
+            remedy = "the next hunting period"
+            return not_identifiable("stiffness_loss", math.nan, "", remedy, "LEARNING")
+        assert cell.bank is not None  # set with the cell
+        torques = np.array([one.torque for one in self._recent])[after]
+        scale, uncertain = self._scale(cell.bank, float(np.mean(torques)))
+        if cell.taken_off:
+            uncertain = UNSCALED
+        loss = float(np.mean(amounts[after])) / scale
+        spread = math.hypot(sd * cell.noise(torques) / scale, uncertain * loss)
+        return estimated("stiffness_loss", loss, spread, "")
+
+    def _tell(self, tooth: int, state: ToothState, times: tuple[float, float]) -> None:
+        """Add an event, with its earliest start and its detection [s], or update it."""
         size = state.loss
         reach = CONFIDENT * size.sd
+        shown = (
+            f"loss {100 * size.value:.2g} +- {100 * reach:.2g} %"
+            if size.status == "ESTIMATED"
+            else f"its size follows from {size.remedy}"
+        )
         others = (
             f"; as likely: {', '.join(state.candidates[1:])}" if len(state.candidates) > 1 else ""
         )
-        evidence = f"z = {state.z:.1f}, loss {100 * size.value:.2g} +- {100 * reach:.2g} %{others}"
+        evidence = f"z = {state.z:.1f}, {shown}{others}"
         what = f"{state.gear} tooth {state.tooth} changed"
         if tooth not in self._place:
             self._place[tooth] = len(self.events)
-            self.events.append(Event(what, block.begin, block.end, size, state.kinds, evidence))
+            self.events.append(Event(what, *times, size, state.kinds, evidence))
             return
         place = self._place[tooth]
         self.events[place] = replace(

@@ -36,6 +36,7 @@ CELL = 0.1  # relative distance of torque and speed within which a baseline hold
 WINDOWS = 4, 16  # hunting periods that are judged together
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
 STEADY = 0.02  # relative standard deviation of the speed in a hunting period, likewise
+RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
 SLOWEST = 0.05  # of the speed of the scene, below which there is no hunting period
 UNKNOWN = "; size of the fault: NOT IDENTIFIABLE, as the path to the sensor is unknown"
 
@@ -83,6 +84,8 @@ class _Baseline:
 
     torque: float
     speed: float
+    highest: float
+    """Order of the mesh below which the sample rate resolves a line."""
     learned: list[Array] = field(default_factory=list)
 
     def covers(self, torque: float, speed: float) -> bool:
@@ -194,11 +197,12 @@ class VibrationFollower:
             self.counters.dropped_periods += 1
             return
         self.counters.periods += 1
-        found = self._amplitudes(time, values, course) / abs(torque)
         cell = next((one for one in self._baselines if one.covers(torque, speed)), None)
         if cell is None:
-            cell = _Baseline(torque, speed)
+            mesh = abs(float(self._train.cycles) * speed) * (1.0 + CELL) / (2.0 * math.pi)  # [Hz]
+            cell = _Baseline(torque, speed, RESOLVED / (self.period * mesh))
             self._baselines.append(cell)
+        found = self._amplitudes(time, values, course, cell.highest) / abs(torque)
         if cell is not self._cell:
             self._cell = cell
             self._recent.clear()
@@ -208,8 +212,11 @@ class VibrationFollower:
         self._recent.append((span[0], found))
         self._decide(cell, span[1])
 
-    def _amplitudes(self, time: Array, values: Array, course: Turning) -> Array:
-        """Root mean square of the amplitudes of every pattern, (channels, patterns)."""
+    def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
+        """Root mean square of the amplitudes of every pattern below an order of the mesh.
+
+        Returns (channels, patterns), NaN for a pattern without such lines.
+        """
         middle = np.interp(time, course.time, course.speed)
         angle = np.concatenate([[0.0], np.cumsum(0.5 * (middle[1:] + middle[:-1]) * np.diff(time))])
         mesh = angle * abs(float(self._train.cycles))
@@ -221,10 +228,10 @@ class VibrationFollower:
 
         stretches = 1.0 + np.linspace(-STRETCH, STRETCH, STEPS)
         best = max(stretches, key=lambda one: float(np.sum(at(1.0, one))))
-        squares = [
-            np.mean([at(order, best) ** 2 for order in orders], axis=0)
-            for _, orders, _ in self._patterns
-        ]
+        squares = []
+        for _, orders, _ in self._patterns:
+            lines = [at(order, best) ** 2 for order in orders if order < highest]
+            squares.append(np.mean(lines, axis=0) if lines else np.full(len(self.names), np.nan))
         return np.sqrt(np.stack(squares, axis=1))
 
     def _decide(self, cell: _Baseline, now: float) -> None:
@@ -271,6 +278,18 @@ class VibrationFollower:
             yield (
                 f"vibration: {len(self._cell.learned)} of {self._learning} hunting periods of a "
                 "baseline are learned"
+            )
+        counted = self.counters
+        if counted.dropped_periods > counted.periods:
+            yield (
+                f"vibration: {counted.dropped_periods} of "
+                f"{counted.dropped_periods + counted.periods} hunting periods are not used: "
+                "samples are missing, the speed changes, or the torque is too low"
+            )
+        if self._cell is not None and self._cell.highest < HARMONICS + 1:
+            yield (
+                f"vibration: {1.0 / self.period:.4g} samples per second show lines up to "
+                f"{self._cell.highest:.2g} times the mesh frequency only"
             )
 
 

@@ -4,7 +4,7 @@ import csv
 import json
 
 import pytest
-from command_line import run
+from command_line import run_here
 
 HIDDEN = """
 duty: {kind: reversing}
@@ -24,14 +24,14 @@ SENSORS = "learning: 8\n"
 
 def cli(*arguments):
     """What a command prints that succeeds."""
-    done = run(*arguments, COLUMNS="200")
+    done = run_here(*arguments, COLUMNS="200")
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def fails(*arguments):
     """The one line of a command that fails."""
-    done = run(*arguments)
+    done = run_here(*arguments)
     assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
     return done.stderr
 
@@ -88,6 +88,27 @@ def test_a_wrong_unit_is_named_and_mended(readings, folder):
     assert "ESTIMATED" in cli("follow", "paper", "--from", wrong, "--scale", "output_speed=0.10472")
 
 
+def test_vibration_in_the_table_of_the_readings_is_learned_and_drawn(readings, folder):
+    rows = list(csv.reader(readings.open()))
+    both = folder / "both.csv"
+    with both.open("w", newline="") as file:
+        csv.writer(file).writerows(
+            [[*rows[0], "housing [g]"], *([*row, "0.1"] for row in rows[1:])]
+        )
+    picture = folder / "picture.svg"
+    done = run_here(
+        "follow", "paper", "--from", both, "--vibration", both, "--picture", picture, COLUMNS="200"
+    )
+    assert done.returncode == 0, done.stderr
+    assert "columns that are not used" not in done.stderr
+    assert "100 samples per second show lines up to" in done.stderr
+    assert "loss torque stepped" in picture.read_text()
+    assert (
+        "columns that are not used: housing [g]"
+        in run_here("follow", "paper", "--from", both).stderr
+    )
+
+
 def test_headings_may_be_others(readings, folder):
     text = readings.read_text().replace("input_torque", "T1 [Nm]", 1)
     other = folder / "other.csv"
@@ -115,3 +136,10 @@ def test_a_table_without_readings_is_refused(folder):
     table = folder / "empty.csv"
     table.write_text("time,load\n0,1\n1,2\n")
     assert "has none of the columns input_speed" in fails("follow", "paper", "--from", table)
+
+
+def test_a_stamp_after_the_year_9999_is_shown_in_seconds(folder):
+    table = folder / "late.csv"
+    rows = [f"{1e15 + n / 8},63,145,104.7" for n in range(40)]
+    table.write_text("\n".join(["time,input_torque,output_torque,input_speed", *rows]) + "\n")
+    assert "10000000000000" in cli("follow", "paper", "--from", table)

@@ -1,12 +1,11 @@
 """The command `spectrum` as typed."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import run_here
 from PIL import Image
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, write_recording
 from twin_recording import TwinRecording
@@ -20,12 +19,7 @@ from planetary_twin_py.scene import load_scene
 
 pytestmark = pytest.mark.slow
 
-RUN = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
 PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
-
-
-def planetary_twin(*arguments):
-    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +31,7 @@ def file(tmp_path_factory):
 @pytest.mark.parametrize(("options", "axis"), [([], "frequency_hz"), (["--order"], "order")])
 def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
     """The synthetic DTE repeats with the meshing: 500 Hz at 1000 rpm, order 30 of the sun."""
-    done = planetary_twin("spectrum", file, *options, "--to", 0.24, "--json", "-")
+    done = run_here("spectrum", file, *options, "--to", 0.24, "--json", "-")
     assert done.returncode == 0, done.stderr
     figures = json.loads(done.stdout)
     first = {"frequency_hz": 500.0, "order": 30.0}[axis]
@@ -58,7 +52,7 @@ def test_without_a_time_span_the_longest_time_at_one_operating_point_is_analysed
         recording.advance(twin, 0.01)
     recording.finish()
     file = tmp_path / "bag"
-    done = planetary_twin("spectrum", file, "--json", "-")
+    done = run_here("spectrum", file, "--json", "-")
     figures = json.loads(done.stdout)
     assert 1.0 < figures["from_s"] < 1.5 and figures["to_s"] == pytest.approx(1.66, abs=1e-3)
     assert figures["lines"][0]["frequency_hz"] == pytest.approx(515.0, rel=1e-3)
@@ -67,7 +61,7 @@ def test_without_a_time_span_the_longest_time_at_one_operating_point_is_analysed
 
 def test_a_picture_and_a_table_are_written(file, tmp_path):
     for name in ("a.png", "a.csv"):
-        done = planetary_twin(
+        done = run_here(
             "spectrum", file, "--mesh", "planet_ring_2", "--quantity", "mesh_force",
             "--from", 0.3, "--out", tmp_path / name,
         )  # fmt: skip
@@ -85,8 +79,8 @@ def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty,
     npz, healthy = tmp_path / "run.npz", tmp_path / "healthy.yaml"
     healthy.write_text("base: cracked_tooth\nname: healthy\nfaults: []\n")
     scene = "cracked_tooth" if faulty else healthy
-    planetary_twin("simulate", scene, "--duration", 0.6, "--out", npz)
-    done = planetary_twin("spectrum", npz, "--order", "--band", "28.5:31.5", "--json", "-")
+    run_here("simulate", scene, "--duration", 0.6, "--out", npz)
+    done = run_here("spectrum", npz, "--order", "--band", "28.5:31.5", "--json", "-")
     assert done.returncode == 0, done.stderr
     lines = json.loads(done.stdout)["lines"]
     assert lines[0]["harmonic"] == 1 and all(28.5 <= line["order"] <= 31.5 for line in lines)
@@ -99,12 +93,12 @@ def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty,
 @pytest.mark.exhaustive
 def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tmp_path):
     whole, part = (
-        json.loads(planetary_twin("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
+        json.loads(run_here("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
         for band in ([], ["--band", "0.9 kHz:1600"])
     )
     inside = [line for line in whole["lines"] if 900.0 <= line["frequency_hz"] <= 1600.0]
     assert [line["harmonic"] for line in inside] and part["lines"][: len(inside)] == inside
-    assert planetary_twin(
+    assert run_here(
         "spectrum", file, "--band", "900:1600", "--out", tmp_path / "a.csv"
     ).returncode == 0  # fmt: skip
     places = np.genfromtxt(tmp_path / "a.csv", delimiter=",", skip_header=1)[:, 0]
@@ -114,8 +108,8 @@ def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tm
 @pytest.mark.exhaustive
 def test_samples_of_simulate_are_analysed_too(tmp_path):
     npz = tmp_path / "run.npz"
-    planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
-    done = planetary_twin("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
+    run_here("simulate", "paper", "--duration", 0.1, "--out", npz)
+    done = run_here("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
     assert done.returncode == 0, done.stderr
     lines = json.loads(done.stdout)["lines"]
     assert lines[0]["order"] == pytest.approx(30.0, abs=0.3)
@@ -125,10 +119,10 @@ def test_samples_of_simulate_are_analysed_too(tmp_path):
 @pytest.mark.exhaustive
 def test_lines_of_samples_without_a_scene_are_not_named(tmp_path):
     npz = tmp_path / "run.npz"
-    planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
+    run_here("simulate", "paper", "--duration", 0.1, "--out", npz)
     with np.load(npz) as held:
         np.savez(npz, **{name: held[name] for name in held.files if name != "scene_yaml"})
-    done = planetary_twin("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
+    done = run_here("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
     assert done.returncode == 0, done.stderr
     line = json.loads(done.stdout)["lines"][0]
     assert line["order"] == pytest.approx(30.0, abs=0.3)

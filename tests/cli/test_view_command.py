@@ -4,13 +4,8 @@ import subprocess
 import sys
 
 import pytest
+from command_line import run_here
 from synthetic_recording import write_recording
-
-RUN = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
-
-
-def planetary_twin(*arguments):
-    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +16,7 @@ def file(tmp_path_factory):
 def test_save_needs_no_display(file, tmp_path, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    done = planetary_twin("view", file, "--scene", "paper", "--save", tmp_path / "a.rrd")
+    done = run_here("view", file, "--scene", "paper", "--save", tmp_path / "a.rrd")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "a.rrd").stat().st_size > 1e5
 
@@ -29,7 +24,7 @@ def test_save_needs_no_display(file, tmp_path, monkeypatch):
 def test_without_a_display_one_line_names_the_alternatives(file, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    done = planetary_twin("view", file, "--scene", "paper")
+    done = run_here("view", file, "--scene", "paper")
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert "--save" in done.stderr
@@ -49,7 +44,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
         (["view", file, "--scene", "paper", "--save", tmp_path / "no" / "a.rrd"], "a.rrd"),
         (["view", file, "--scene", "paper", "--screenshot", "a.png", "--at", "9"], "at = 9"),
     ]:
-        done = planetary_twin(*arguments)
+        done = run_here(*arguments)
         assert done.returncode == 2
         assert done.stderr.count("\n") == 1, done.stderr
         assert reason in done.stderr

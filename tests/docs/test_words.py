@@ -5,8 +5,6 @@ import re
 import tokenize
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "planetary_twin_py"
 NODES = ROOT / "ros_ws/src/planetary_twin"
@@ -50,16 +48,19 @@ def found_in(source):
     return {word.lower() for text in texts for word in DIALECT.findall(text)}
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
-def test_a_source_has_plain_words_only(file):
-    path = str(file.relative_to(ROOT))
-    found = found_in(file.read_text(encoding="utf-8"))
-    assert {word for word in found if (path, word) not in DEPRECATED} == set()
+def test_sources_have_plain_words_only():
+    found = {
+        (path, word)
+        for file in FILES
+        for path in [str(file.relative_to(ROOT))]
+        for word in found_in(file.read_text(encoding="utf-8"))
+    }
+    assert found - DEPRECATED == set()
 
 
-@pytest.mark.parametrize("file", CORE, ids=lambda file: str(file.relative_to(ROOT)))
-def test_a_source_of_the_core_has_plain_words_only(file):
-    assert set(DIALECT.findall(file.read_text(encoding="utf-8"))) == set()
+def test_sources_of_the_core_have_plain_words_only():
+    found = {str(file): DIALECT.findall(file.read_text(encoding="utf-8")) for file in CORE}
+    assert {file: words for file, words in found.items() if words} == {}
 
 
 def test_comments_strings_and_names_are_searched():

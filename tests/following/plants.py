@@ -79,8 +79,8 @@ def friction_level(plant):
     return (true.teeth + true.rest - nominal.rest) / nominal.teeth
 
 
-def toothed(laws, changes, duration, seed=0, encoders=None, wander=0.02):
-    """Plant with encoders, and follower of its teeth at the end of the run."""
+def hunted(laws, changes, duration, seed=0, encoders=None, wander=0.02):
+    """Play a plant with encoders: yields it and its follower after every hunting period."""
     hidden = Hidden.model_validate(
         {"scene": laws, "duty": {"torque_wander": wander}, "changes": changes, "seed": seed,
          "sensors": {"encoders": {"rate": RATE, "lost": 0.003} | (encoders or {})}}
@@ -96,10 +96,19 @@ def toothed(laws, changes, duration, seed=0, encoders=None, wander=0.02):
 
     for packets in play_encoders(plant):
         follower.add(packets.sample, packets.counts)
+        blocks = follower.blocks
         follower.judge(np.inf, torque)
+        if follower.blocks != blocks:
+            yield plant, follower
     follower.finish()
     follower.judge(np.inf, torque)
-    return plant, follower
+    yield plant, follower
+
+
+def toothed(laws, changes, duration, seed=0, encoders=None, wander=0.02):
+    """Plant with encoders, and follower of its teeth at the end of the run."""
+    *_, last = hunted(laws, changes, duration, seed, encoders, wander)
+    return last
 
 
 def crack(gear, tooth, loss, **more):

@@ -14,6 +14,12 @@ WRONG = {
     "both in rpm": ({"input_speed": RPM * 2, "output_speed": RPM * 2}, "scale input_speed by 0.10"),
     "reversed speed": ({"output_speed": -1.0}, "scale output_speed by -1"),
     "reversed torque": ({"output_torque": -1.0}, "scale output_torque by -1"),
+    "both torques reversed": (
+        {"input_torque": -1.0, "output_torque": -1.0}, "scale input_torque and output_torque by -1",
+    ),
+    "both speeds reversed": (
+        {"input_speed": -1.0, "output_speed": -1.0}, "signs of both torques or of both speeds",
+    ),
     "torque in N mm": ({"output_torque": 1e3}, "output_torque is probably in N mm"),
     "torque in kN m": ({"input_torque": 1e-3}, "input_torque is probably in kN m"),
     "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "probably degC"),
@@ -47,6 +53,25 @@ def test_the_stated_correction_is_accepted(readings, what):
     mended = Follower(paper(), scale={name: float(factor)})
     mended.add(Readings(time, wrong))
     assert mended.estimate()["input_torque"].status == "ESTIMATED"
+
+
+@pytest.mark.parametrize("duty", ["steady", "reversing"])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_loss_within_the_errors_of_the_sensors_is_accepted(duty, seed):
+    _, time, columns = played(duty, {}, 8.0, seed)
+    Follower(paper()).add(Readings(time, columns))
+
+
+def test_a_coasting_train_is_no_reversed_one():
+    speed = np.linspace(104.7, 60.0, 700)  # the motor brakes and the load gives its inertia
+    follower = Follower(paper())
+    torque = 0.4 + follower._balance.train.inertia * np.gradient(speed, 0.01)
+    columns = {
+        "input_torque": torque,
+        "output_torque": np.zeros(len(speed)),
+        "input_speed": speed,
+    }
+    follower.add(Readings(np.arange(1, 701) / 100.0, columns))
 
 
 def test_a_recording_shorter_than_the_check_is_checked_at_its_end(readings):

@@ -2,10 +2,18 @@
 
 from types import SimpleNamespace
 
+import numpy as np
+import pyarrow as pa
 import pytest
+from pyarrow import parquet
+from scipy.io import savemat
 
 from planetary_twin_py.fleet.tables import read_fleet
-from planetary_twin_py.following.measured_tables import read_encoders, read_readings
+from planetary_twin_py.following.measured_tables import (
+    read_encoders,
+    read_readings,
+    read_vibration,
+)
 from planetary_twin_py.following.sensors import read_sensors
 from planetary_twin_py.plant.hidden import read_hidden
 from planetary_twin_py.scene import SceneError
@@ -57,6 +65,58 @@ def test_a_table_without_a_sample_of_the_encoders_is_refused(write):
         read_encoders(write("sample,input_counts,output_counts"), 5e-5)
 
 
+@pytest.mark.parametrize("count", ["inf", "-inf", "nan", "0.5"])
+def test_counts_of_encoders_are_whole_numbers(write, count):
+    with pytest.raises(ValueError, match=rf"row 2: input_counts = {count}: must be a whole number"):
+        read_encoders(write("sample,input_counts,output_counts", "0,0,0", f"1,{count},0"), 5e-5)
+
+
+def test_a_time_whose_sample_has_no_exact_number_is_refused(write):
+    with pytest.raises(ValueError, match="time: must be multiples of 5e-05 s"):
+        read_encoders(write("time,input_counts,output_counts", "0,0,0", "1e15,0,0"), 5e-5)
+
+
+def test_a_table_of_too_many_columns_is_refused(write, tmp_path):
+    names = [f"c{n}" for n in range(3000)]
+    parquet.write_table(pa.table([[0.0]] * 3000, names), file := tmp_path / "rig.parquet")
+    for table in (write(",".join(names), ",".join(["0"] * 3000)), file):
+        with pytest.raises(ValueError, match=r"rig\..*: has 3000 columns: must be at most 2000"):
+            read_readings(table, {})
+
+
+def test_true_is_no_torque(write, tmp_path):
+    with pytest.raises(ValueError, match="input_torque: must be numbers, not true or false"):
+        read_readings(write("time,input_torque", "0,true", "1,false"), {})
+
+
+@pytest.mark.parametrize(
+    ("torque", "line"),
+    [
+        (np.full(30, 1j), "input_torque: must be a vector of real numbers"),
+        (np.full(30, 1e300), r"input_torque = 1e\+300: its magnitude must be at most 9e\+15"),
+    ],
+)
+def test_a_mat_file_has_real_numbers_that_a_sensor_can_have(tmp_path, torque, line):
+    savemat(file := tmp_path / "rig.mat", {"time": np.arange(30.0), "input_torque": torque})
+    with pytest.raises(ValueError, match=line):
+        read_course(file, SimpleNamespace(oil_temperature=343.0))
+
+
+def test_times_of_a_fleet_are_finite_and_common(write):
+    with pytest.raises(ValueError, match="time: must be a finite number in every row"):
+        read_fleet(write(HEADING, "A,0,60,-140,100", "A,inf,60,-140,100"), ("A",))
+    names = tuple(f"g{n}" for n in range(4000))
+    rows = [f"{name},{n},60,-140,100" for n, name in enumerate(names)]
+    with pytest.raises(ValueError, match="4000 rows have 4000 times of 4000 gearboxes: round"):
+        read_fleet(write(HEADING, *rows), names)
+
+
+def test_a_table_may_end_its_lines_with_carriage_returns(write):
+    rows = "\r".join(f"{n},60,-140,100" for n in range(2000))
+    table = write(f"time,input_torque,output_torque,input_speed\r{rows}")
+    assert len(read_readings(table, {}).readings.time) == 2000
+
+
 def test_a_course_with_a_gap_of_centuries_takes_the_memory_of_its_rows(write):
     rows = [f"A,{n * 10**10},60,-140,100" for n in range(20)]
     course = read_course(write(HEADING, *rows), SimpleNamespace(oil_temperature=343.0))
@@ -80,3 +140,80 @@ def test_errors_of_sensors_and_of_what_is_hidden_name_the_file(write, read):
     file.write_bytes(b"\xff")
     with pytest.raises(SceneError, match=r"a\.yaml: must be in UTF-8, byte 1 is not"):
         read(file)
+
+
+def test_a_mat_file_has_the_readings_of_the_same_csv_table(write, tmp_path):
+    table = write("time,input_torque,input_speed", "0.1,60,100", "0.2,61,101")
+    columns = {"time": [0.1, 0.2], "input_torque": [60.0, 61.0], "input_speed": [100, 101]}
+    savemat(tmp_path / "rig.mat", columns | {"notes": "rig 3", "rate": 10.0, "map": np.eye(3)})
+    one, other = (read_readings(file, {}) for file in (table, tmp_path / "rig.mat"))
+    assert repr(one) == repr(other)
+
+
+def test_a_mat_file_has_the_counts_of_the_same_csv_table(write, tmp_path):
+    table = write("sample,input_counts,output_counts", "0,5,-3", "2,9,-7")
+    columns = {"sample": [0, 2], "input_counts": [5, 9], "output_counts": [-3, -7]}
+    savemat(tmp_path / "rig.mat", columns)
+    one, other = (read_encoders(file, 5e-5) for file in (table, tmp_path / "rig.mat"))
+    assert repr(one) == repr(other)
+
+
+@pytest.mark.parametrize(
+    ("contents", "message"),
+    [
+        ({"time": [0.0, 1.0], "input_torque": [1.0, 2.0, 3.0]}, "must be a vector as long as time"),
+        (
+            {"time": [0.0, 1.0], "input_torque": [1j, 2.0]},
+            "input_torque: must be a vector of real numbers",
+        ),
+        ({"notes": "rig 3"}, "has no vector of numbers"),
+    ],
+)
+def test_a_mat_file_without_columns_of_one_length_is_refused(tmp_path, contents, message):
+    savemat(tmp_path / "rig.mat", contents)
+    with pytest.raises(ValueError, match=rf"rig\.mat: .*{message}"):
+        read_readings(tmp_path / "rig.mat", {})
+
+
+def test_vibration_is_every_column_that_is_no_reading(write):
+    heading = "time,T1,input_speed,sample,input_counts,output_counts,housing [g],bearing"
+    found = read_vibration(write(heading, "0,60,100,0,1,2,0.5,3", "0.001,60,100,1,2,3,0.6,4"),
+                           {"input_torque": "T1"})  # fmt: skip
+    assert found.names == ("housing [g]", "bearing")
+    assert found.period == 0.001
+    np.testing.assert_array_equal(found.values, [[0.5, 3.0], [0.6, 4.0]])
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (("housing", "1", "2"), "column 'time': missing"),
+        (("time,input_speed", "0,1", "0.001,1"), "has no column of vibration"),
+        (("time,housing", "0,1"), "median step is 0 s: must be within 0 and 1 s"),
+        (("time,housing", "0,1", "5,1"), "median step is 5 s: must be within 0 and 1 s"),
+        (("time,housing", "0,a", "0.001,1"), "row 1: housing = 'a': must be a number"),
+    ],
+)
+def test_a_table_that_is_no_vibration_is_refused(write, lines, message):
+    with pytest.raises(ValueError, match=message):
+        read_vibration(write(*lines), {})
+
+
+def test_dates_of_several_tables_count_from_the_same_second(tmp_path):
+    noon = np.datetime64("2026-11-24T12:00:00", "ns")
+
+    def table(name, delay, **columns):
+        step = np.timedelta64(50, "us")
+        dates = noon + np.timedelta64(delay, "ms") + step * np.arange(2)
+        parquet.write_table(pa.table({"time": dates} | columns), tmp_path / name)
+        return tmp_path / name
+
+    begin = read_readings(table("rig.parquet", 0, input_torque=[60.0, 61.0]), {}).begin
+    counts = {"input_counts": [1, 2], "output_counts": [3, 4]}
+    encoders = table("encoders.parquet", 1500, **counts)
+    vibration = table("vibration.parquet", 2500, housing=[0.1, 0.2])
+    assert list(read_encoders(encoders, 5e-5, begin).sample) == [30_000, 30_001]
+    np.testing.assert_allclose(read_vibration(vibration, {}, begin).time, [2.5, 2.50005])
+    for read in (lambda: read_encoders(encoders, 5e-5), lambda: read_vibration(vibration, {})):
+        with pytest.raises(ValueError, match="time: has dates, but the readings have seconds"):
+            read()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from following.plants import TEETH_LAWS, crack, toothed
+from following.plants import TEETH_LAWS, crack, hunted, toothed
 
 from planetary_twin_py.following.signatures import signatures
 from planetary_twin_py.following.tooth_kind import ToothKind
@@ -28,6 +28,20 @@ def test_its_size_is_stated_with_an_interval_that_contains_it(cracked):
     assert tooth.loss.low < 0.01 < tooth.loss.high
     assert tooth.loss.value == pytest.approx(0.01, rel=0.1)
     assert tooth.candidates == ("sun tooth 7",)
+
+
+def test_from_its_detection_on_no_stated_interval_misses_the_size_or_the_start():
+    at = LEARNED + 0.4  # within a hunting period
+    changes = ({"at": at, "faults": [crack("planet", 3, 0.012, planet=2)]},)
+    stated = []
+    for _, follower in hunted({}, changes, LEARNED + 14.0, seed=4):
+        for event in follower.events:
+            assert event.since <= at < event.found
+        stated += [one.loss for one in follower.teeth]
+    assert stated[0].status == "LEARNING"  # only a part of its hunting period was cracked
+    sizes = [one for one in stated if one.status == "ESTIMATED"]
+    assert len(sizes) > 12
+    assert all(one.low < 0.012 < one.high for one in sizes)
 
 
 def test_a_change_of_load_identifies_a_crack(cracked):

@@ -43,9 +43,9 @@ class Rig:
     def wait_for_the_follower(self) -> None:
         """Wait until it hears every topic reliably, so that nothing is lost."""
         publishers = (self.joints, self.oil, self.encoders)
-        self.user.until(lambda: all(map(self.is_heard, publishers)))
+        self.user.until(lambda: all(map(self.is_matched, publishers)))
 
-    def is_heard(self, publisher: Publisher) -> bool:
+    def is_matched(self, publisher: Publisher) -> bool:
         """Whether the only subscription is reliable, to which it changes for such a publisher."""
         ends = self.user.node.get_subscriptions_info_by_topic(publisher.topic_name)
         reliable = any(e.qos_profile.reliability == ReliabilityPolicy.RELIABLE for e in ends)
@@ -276,7 +276,7 @@ def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> No
 def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, start: Start) -> None:
     vibration = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 100)
     begin(start, rig)
-    rig.user.until(lambda: rig.is_heard(vibration))
+    rig.user.until(lambda: rig.is_matched(vibration))
     noise = np.random.default_rng(1)
 
     def send(second: int, names: list[str]) -> None:

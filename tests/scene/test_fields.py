@@ -50,44 +50,44 @@ def test_the_fields_are_exactly_those_of_the_schema():
     assert list(FIELDS) and set(FIELDS) == set(ALL)
 
 
-@pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
-def test_unit_choices_and_meaning_are_those_of_the_schema(key):
-    shown, entry = FIELDS[key], ALL[key]
-    assert shown.meaning == entry.at["description"] and shown.meaning
-    assert shown.unit == (entry.at.get("unit", "") or ("-" if is_number(entry.value) else ""))
-    choices = entry.value.get("enum", [entry.value["const"]] if "const" in entry.value else [])
-    if choices:
-        assert shown.range == ", ".join(choices)
+def test_unit_choices_and_meaning_are_those_of_the_schema():
+    for key, entry in ALL.items():
+        shown, value = FIELDS[key], entry.value
+        assert shown.meaning == entry.at["description"] and shown.meaning, key
+        unit = entry.at.get("unit", "") or ("-" if is_number(value) else "")
+        assert shown.unit == unit, key
+        choices = value.get("enum", [value["const"]] if "const" in value else [])
+        assert not choices or shown.range == ", ".join(choices), key
 
 
 def is_number(value):
     return value.get("items", value).get("type") in ("number", "integer")
 
 
-@pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
-def test_ranges_are_those_of_the_schema(key):
-    shown, value = FIELDS[key].range, ALL[key].value
-    if value.get("type") == "array":
-        what = "values" if is_number(value) else "sections"
-        assert shown == f"{value.get('minItems', 0)} to {value['maxItems']} {what}"
-    elif is_number(value):
-        low, high = (float(end) for end in shown[1:-1].split(", "))
-        opened, closed = shown[0] + "low", shown[-1]
-        assert {"[low": value.get("minimum"), "(low": value.get("exclusiveMinimum")}[opened] == low
-        assert {"]": value.get("maximum"), ")": value.get("exclusiveMaximum")}[closed] == high
+def test_ranges_are_those_of_the_schema():
+    for key, entry in ALL.items():
+        shown, value = FIELDS[key].range, entry.value
+        if value.get("type") == "array":
+            what = "values" if is_number(value) else "sections"
+            assert shown == f"{value.get('minItems', 0)} to {value['maxItems']} {what}", key
+        elif is_number(value):
+            low, high = (float(end) for end in shown[1:-1].split(", "))
+            lowest = {"[": value.get("minimum"), "(": value.get("exclusiveMinimum")}
+            highest = {"]": value.get("maximum"), ")": value.get("exclusiveMaximum")}
+            assert (lowest[shown[0]], highest[shown[-1]]) == (low, high), key
 
 
-@pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
-def test_defaults_are_those_of_the_schema(key):
-    shown, default = FIELDS[key].default, ALL[key].at.get("default", "required")
-    if isinstance(default, dict):
-        assert shown == "its defaults"
-    elif isinstance(default, float | int) and not isinstance(default, bool):
-        assert float(shown) == pytest.approx(default, rel=1e-5)
-    else:
-        assert shown == {None: "none", True: "true", False: "false"}.get(
-            default if not isinstance(default, list) else None, default or "none"
-        )
+def test_defaults_are_those_of_the_schema():
+    for key, entry in ALL.items():
+        shown, default = FIELDS[key].default, entry.at.get("default", "required")
+        if isinstance(default, dict):
+            assert shown == "its defaults", key
+        elif isinstance(default, float | int) and not isinstance(default, bool):
+            assert float(shown) == pytest.approx(default, rel=1e-5), key
+        else:
+            assert shown == {None: "none", True: "true", False: "false"}.get(
+                default if not isinstance(default, list) else None, default or "none"
+            ), key
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
     Simulated time starts one step before the time stamp of the first row.
 
     Args:
-        table: CSV or Parquet file.
+        table: CSV, Parquet or MAT file.
         scene: of the gearbox; gives the fields of the operating point that the table lacks.
         out: a bag folder, or a file that ends in .mcap.
 

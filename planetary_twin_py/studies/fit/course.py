@@ -8,18 +8,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...following.bins import CHANNELS
 from ...following.measured_tables import read_readings
 from ...following.train import FollowedTrain
-from ...printable import one_line
 
 Array = NDArray[np.float64]
 
-SUFFIXES = (".csv", ".parquet", ".mat")
 PERIOD = 0.1  # [s] length of a bin
 FEWEST = 20  # smallest number of bins of a fit
-TIME = "time"
-_LONGEST_REASON = 200  # characters
 
 
 class Course(NamedTuple):
@@ -42,12 +37,11 @@ class Course(NamedTuple):
 
 
 def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Course:
-    """Read a manoeuvre from a table or a MAT file.
+    """Read a manoeuvre from a table.
 
     Args:
-        path: a .csv or .parquet table with the columns time, input_torque, output_torque and
-            input_speed or output_speed, with units in brackets unless they are SI; or a .mat file
-            with vectors of these names, in SI.
+        path: of a .csv, .parquet or .mat table with the columns time, input_torque, output_torque
+            and input_speed or output_speed, with units in brackets unless they are SI.
         train: gear train of the gearbox.
         period: length of the bins [s].
 
@@ -58,7 +52,7 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
         ValueError: the file has another format, a channel is missing, or there are too few bins.
         OSError: the file cannot be read.
     """
-    time, columns = _read_mat(path) if path.suffix == ".mat" else read_readings(path, {})[0][:2]
+    time, columns = read_readings(path, {})[0][:2]
     columns = dict(columns)
     if "input_speed" not in columns and "output_speed" in columns:
         columns["input_speed"] = columns["output_speed"] / train.ratio
@@ -83,30 +77,3 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     acceleration = np.gradient(means[2], middles)
     slope = np.asarray(acceleration, dtype=float)
     return Course(middles, means[0], means[1], means[2], slope, means[3])
-
-
-def _read_mat(path: Path) -> tuple[Array, dict[str, Array]]:
-    from scipy.io import loadmat
-
-    if path.exists() and not path.is_file():
-        raise ValueError(f"{path}: must be a file")
-    try:
-        found = loadmat(path, squeeze_me=True)
-    except OSError:
-        raise
-    except Exception as reason:  # of many kinds, if the file is damaged
-        line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
-        raise ValueError(f"{path}: not a MAT file of version 4 to 7.2: {line}") from None
-    if TIME not in found:
-        raise ValueError(f"{path}: variable {TIME!r}: missing")
-    vectors = {}
-    for name in (TIME, *CHANNELS):
-        if name in found:
-            try:
-                values = np.asarray(found[name], dtype=float)
-            except (TypeError, ValueError):
-                raise ValueError(f"{path}: {name}: must be a vector of numbers") from None
-            if values.ndim != 1 or len(values) != np.size(found[TIME]):
-                raise ValueError(f"{path}: {name}: must be a vector as long as {TIME}")
-            vectors[name] = values
-    return vectors.pop(TIME), vectors

@@ -1,0 +1,120 @@
+"""Size, start and cause of a step of the loss.
+
+The parameters from before the step are kept, so that no filter that has adapted to a part of the
+step understates it. The balances of the readings alone are compared with three causes: a change of
+friction is proportional to the loss of the teeth, a change of drag has the sign of the rotation, a
+change of a zero is constant. They differ once load or direction has varied. The kept parameters are
+uncertain: they are unknowns of each comparison, with their covariance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .balance_filter import Balance
+
+Array = NDArray[np.float64]
+
+FRICTION, DRAG, ZERO = "friction", "drag", "zero of a torque sensor"
+CAUSES = FRICTION, DRAG, ZERO
+LONGEST = 300.0  # [s] from the detection of a step in which balances are compared
+FEWEST = 20  # bins before a cause is excluded
+BETTER = 6.0  # units of log-likelihood by which one cause must be better than the others
+FLAT = 1e-12  # information on a cause before the step, in its own units
+BEFORE = 0.005  # probability with which a step has started earlier than stated
+
+
+class StepSize(NamedTuple):
+    """A step of the torque balance."""
+
+    size: float
+    """[N m]."""
+    sd: float
+    """Its standard deviation [N m]."""
+    first: int
+    """Index of the balance from which it may have started."""
+    likely: int
+    """Index of the balance from which it most likely started."""
+
+
+def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
+    """Size and start of a step that has lasted until the last of some balances.
+
+    Every start has a mean of the balances since then and a likelihood; the result is the mean over
+    all starts. The likelihood is that of a step of unknown size in independent noise.
+
+    Args:
+        balances: successive balances with the parameters from before the step.
+        covariance: covariance of these parameters, (7, 7).
+
+    Returns:
+        The step.
+    """
+    values, sd = (np.array([getattr(one, name) for one in balances]) for name in ("value", "sd"))
+    weight = np.cumsum(sd[::-1] ** -2)[::-1]
+    mean = np.cumsum((values / sd**2)[::-1])[::-1] / weight
+    score = 0.5 * weight * mean**2 - 0.5 * np.log(weight)
+    share = np.exp(score - score.max())
+    share /= share.sum()
+    size = float(share @ mean)
+    likely = int(np.argmax(share))
+    slope = np.mean([one.slope for one in balances[likely:]], axis=0)
+    variance = float(share @ (1.0 / weight + (mean - size) ** 2) + slope @ covariance @ slope)
+    first = int(np.searchsorted(np.cumsum(share), BEFORE))
+    return StepSize(size, math.sqrt(variance), first, likely)
+
+
+class StepCause:
+    """Compares causes of a step.
+
+    Args:
+        begin: time at which the step was found [s].
+        covariance: covariance of the parameters from before the step, (7, 7).
+    """
+
+    def __init__(self, begin: float, covariance: Array) -> None:
+        self.begin = begin
+        self._count, self._square = 0, 0.0
+        many = len(covariance) + len(CAUSES)
+        self._matrix, self._vector = np.zeros((many, many)), np.zeros(many)
+        self._prior = np.zeros((many, many))
+        known = len(covariance)
+        self._prior[:known, :known] = np.linalg.pinv(covariance, hermitian=True)
+        self._prior[known:, known:] = FLAT * np.eye(len(CAUSES))
+        self._known = known
+
+    def add(self, found: Balance) -> None:
+        """Add a balance since the step.
+
+        Args:
+            found: balance with the parameters from before the step.
+        """
+        row = np.concatenate([found.slope, [found.friction, found.sign, 1.0]]) / found.sd
+        score = found.value / found.sd
+        self._matrix += np.outer(row, row)
+        self._vector += score * row
+        self._square += score**2
+        self._count += 1
+
+    @property
+    def causes(self) -> tuple[str, ...]:
+        """Causes that explain the balances, the most likely one first."""
+        if self._count < FEWEST:
+            return CAUSES
+        gain = np.array([self._gain(n) for n in range(len(CAUSES))])
+        order = np.argsort(-gain, kind="stable")
+        left = 2.0 * (0.5 * self._square - float(gain.max())) / self._count
+        near = gain > gain.max() - BETTER * max(left, 1.0)
+        return tuple(CAUSES[n] for n in order if near[n])
+
+    def _gain(self, cause: int) -> float:
+        """Gain of log-likelihood of one cause together with errors of the parameters."""
+        rows = [*range(self._known), self._known + cause]
+        matrix = (self._matrix + self._prior)[np.ix_(rows, rows)]
+        vector = self._vector[rows]
+        return float(0.5 * vector @ np.linalg.solve(matrix, vector))

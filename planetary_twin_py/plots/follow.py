@@ -1,0 +1,106 @@
+"""What `follow` has estimated over time: teeth, changed teeth, and friction level."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..following.follower import Following
+from ..following.tooth_search import ALARM
+from .style import BLUE, CYCLE, GREY, WIDTH, applied
+
+HEIGHT = 2.1  # of a row [in]
+
+Tooth = tuple[str, int]
+"""Gear and number."""
+
+
+def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Following]) -> Figure:
+    """Draw estimates over time, with a dotted line where a change has been found.
+
+    Args:
+        name: of the scene, for the title.
+        teeth: number of teeth by gear, in the order of `Following.every_z`.
+        states: estimated states, in the order of time.
+
+    Returns:
+        The figure: friction level with its 95 % interval; with encoders also the significance of
+        every tooth, and the loss of stiffness of changed teeth.
+
+    Raises:
+        ValueError: there is no state with a time.
+    """
+    states = [one for one in states if np.isfinite(one.time)]
+    if not states:
+        raise ValueError("there is no estimate to draw")
+    every = [(gear, number) for gear, count in teeth.items() for number in range(count)]
+    changed = list(dict.fromkeys((t.gear, t.tooth) for one in states for t in one.teeth))
+    rows = 1 + any(one.every_z for one in states) + bool(changed)
+    with applied():
+        figure = Figure(figsize=(WIDTH, rows * HEIGHT), layout="constrained")
+        axes = list(figure.subplots(rows, 1, squeeze=False, sharex=True)[:, 0])
+        _friction(axes[-1], states)
+        if any(one.every_z for one in states):
+            _significance(axes[0], states, {tooth: every.index(tooth) for tooth in changed})
+        if changed:
+            _losses(axes[-2], states, changed)
+        for panel in axes:
+            for event in states[-1].events:
+                panel.axvline(event.found, color=GREY, linewidth=0.8, linestyle=":")
+        axes[0].set_title(f"{name}: {_headline(states[-1])}")
+        axes[-1].set_xlabel("Time [s]")
+    return figure
+
+
+def _headline(state: Following) -> str:
+    if not state.events:
+        return "no change found"
+    first, *others = state.events
+    more = f", and {len(others)} more" if others else ""
+    return f"{first.what}, found at {first.found:.1f} s{more}"
+
+
+def _significance(axes: Axes, states: Sequence[Following], changed: Mapping[Tooth, int]) -> None:
+    """Significance of every tooth in each hunting period; teeth that have changed in colour."""
+    judged = [one for one in states if one.every_z]
+    time, every = (np.array([getattr(one, n) for one in judged]) for n in ("time", "every_z"))
+    axes.plot(time, every, color=GREY, linewidth=0.4, alpha=0.5)
+    for n, ((gear, number), column) in enumerate(changed.items()):
+        label = f"{gear} tooth {number}"
+        axes.plot(time, every[:, column], color=CYCLE[n % len(CYCLE)], label=label)
+    axes.axhline(ALARM, color="black", linewidth=0.8, linestyle="--", label="limit of an event")
+    axes.set_ylabel("Each tooth, z [-]")
+    axes.legend(loc="upper left")
+
+
+def _losses(axes: Axes, states: Sequence[Following], changed: Sequence[Tooth]) -> None:
+    """Loss of stiffness of changed teeth, with 95 % intervals."""
+    for n, (gear, number) in enumerate(changed):
+        rows = [
+            (one.time, tooth.loss.value, tooth.loss.low, tooth.loss.high)
+            for one in states
+            for tooth in one.teeth
+            if (tooth.gear, tooth.tooth) == (gear, number)
+        ]
+        time, value, low, high = np.array(rows).T
+        colour = CYCLE[n % len(CYCLE)]
+        axes.plot(time, 100.0 * value, ".-", color=colour, label=f"{gear} tooth {number}")
+        axes.fill_between(time, 100.0 * low, 100.0 * high, color=colour, alpha=0.2, linewidth=0.0)
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel("Loss of stiffness,\nif a crack [%]")
+    axes.legend(loc="upper left")
+
+
+def _friction(axes: Axes, states: Sequence[Following]) -> None:
+    """Friction level with its 95 % interval, where it is identifiable."""
+    found = [(one.time, one["friction_level"]) for one in states]
+    time = np.array([at for at, _ in found])
+    value, low, high = np.array([(one.value, one.low, one.high) for _, one in found]).T
+    axes.plot(time, value, color=BLUE)
+    axes.fill_between(time, low, high, color=BLUE, alpha=0.2, linewidth=0.0)
+    axes.set_ylabel("Friction level [-]")
+    if np.isnan(value).all():
+        axes.text(0.5, 0.5, "not identifiable", transform=axes.transAxes, ha="center")
