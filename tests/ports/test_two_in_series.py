@@ -56,8 +56,8 @@ def test_a_locked_train_of_two_stages_twists_as_its_springs_in_series():
     assert behind.output_torque == pytest.approx(torques[1] / RATIO, rel=1e-6)
     twists = []
     for twin, torque, loose in zip(twins, torques, slack, strict=True):
-        # The second stage is turned backwards, so its other flanks touch.
-        sun_mesh, ring_mesh = (np.abs(twin.advance(1e-4).waveform.dte[-1]) - loose)[[0, 3]]
+        # The second stage is turned backwards, through its backlash, so its other flanks touch.
+        sun_mesh, ring_mesh = np.abs(twin.advance(1e-4).waveform.dte[-1] - loose)[[0, 3]]
         yielded = (sun_mesh + ring_mesh) / BASE_RADIUS
         twists.append(torque / 500.0 + torque / RATIO**2 / 3000.0 + yielded)
     # The second stage turns the output of the first, backwards and by 3/7 of its input.
