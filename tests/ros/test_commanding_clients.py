@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -135,7 +136,9 @@ def test_positions_by_topic_move_a_shaft_and_are_recorded(
     scene.write_text(scene.read_text() + still)
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=moved")
     given = ("scene:=" + str(scene), "wait_for:=logger")
-    start("planetary_twin.simulation", "--ros-args", *(p for g in given for p in ("-p", g)))
+    simulation = start(
+        "planetary_twin.simulation", "--ros-args", *(p for g in given for p in ("-p", g))
+    )
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     peer.until(lambda: joints)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
@@ -152,7 +155,8 @@ def test_positions_by_topic_move_a_shaft_and_are_recorded(
             return abs(np.mean([math.remainder(off, 2.0 * math.pi) for off in recent])) < 1e-3
 
         peer.until(follows)
-    logger.terminate()
-    logger.communicate(timeout=20.0)
+    for program in (simulation, logger):  # so all messages of the last interval are recorded
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=60.0)
     verdict = verify(tmp_path / "recordings/moved", TWIN)
     assert verdict.identical, verdict

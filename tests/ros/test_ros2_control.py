@@ -74,7 +74,9 @@ def test_a_controller_of_ros2_control_moves_the_arm(
     peer.until(lambda: any(abs(each.effort[0] - torque) < 1e-6 for each in commands))
     assert topic_system.poll() is None
     peer.until(lambda: ignored(diagnostics) is not None)
-    assert ignored(diagnostics) <= {"ignored: no effort or velocity of sun_joint or carrier_joint"}
+    assert ignored(diagnostics) <= {
+        "ignored: no effort, velocity or position of sun_joint or carrier_joint"
+    }
 
 
 def ignored(diagnostics: list[DiagnosticArray]) -> set[str] | None:
