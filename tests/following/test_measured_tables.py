@@ -102,13 +102,9 @@ def test_a_mat_file_has_real_numbers_that_a_sensor_can_have(tmp_path, torque, li
         read_course(file, SimpleNamespace(oil_temperature=343.0))
 
 
-def test_times_of_a_fleet_are_finite_and_common(write):
+def test_times_of_a_fleet_are_finite(write):
     with pytest.raises(ValueError, match="time: must be a finite number in every row"):
         read_fleet(write(HEADING, "A,0,60,-140,100", "A,inf,60,-140,100"), ("A",))
-    names = tuple(f"g{n}" for n in range(4000))
-    rows = [f"{name},{n},60,-140,100" for n, name in enumerate(names)]
-    with pytest.raises(ValueError, match="4000 rows have 4000 times of 4000 gearboxes: round"):
-        read_fleet(write(HEADING, *rows), names)
 
 
 def test_a_table_may_end_its_lines_with_carriage_returns(write):
@@ -162,7 +158,10 @@ def test_a_mat_file_has_the_counts_of_the_same_csv_table(write, tmp_path):
     ("contents", "message"),
     [
         ({"time": [0.0, 1.0], "input_torque": [1.0, 2.0, 3.0]}, "must be a vector as long as time"),
-        ({"time": [0.0, 1.0], "input_torque": [1j, 2.0]}, "input_torque: must be a vector of real numbers"),
+        (
+            {"time": [0.0, 1.0], "input_torque": [1j, 2.0]},
+            "input_torque: must be a vector of real numbers",
+        ),
         ({"notes": "rig 3"}, "has no vector of numbers"),
     ],
 )
