@@ -36,8 +36,8 @@ class Errors(NamedTuple):
     warnings: tuple[str, ...]  # of the run
 
     def within(self, tolerance: float) -> bool:
-        """Whether the scene keeps to the tolerance."""
-        return max(self.dte, self.loss) < 10.0 * tolerance and self.closed
+        """Whether the errors are below ten tolerances."""
+        return max(self.dte, self.loss) < 10.0 * tolerance
 
     @property
     def closed(self) -> bool:
@@ -164,7 +164,7 @@ def main() -> None:
     given = parser.parse_args()
     warnings.simplefilter("ignore")
     random, paper = np.random.default_rng(given.seed), pt.load_scene("paper")
-    compared = beyond = unwarned = 0
+    compared = beyond = unwarned = unclosed = 0
     for number in range(given.count):
         try:
             changes = random_changes(random)
@@ -176,9 +176,11 @@ def main() -> None:
             print(f"{number:4d}  refused: {str(refusal)[:90]}")
             continue
         compared += 1
-        if not found.within(given.tolerance):
-            beyond += 1
-            unwarned += not found.warnings
+        within = found.within(given.tolerance)
+        beyond += not within
+        unwarned += not within and not found.warnings
+        unclosed += not found.closed
+        if not (within and found.closed):
             point = scene.operating_point
             print(
                 f"{number:4d}  {point.input_speed / pt.rpm(1.0):10.4g} rpm "
@@ -188,7 +190,7 @@ def main() -> None:
             )
     print(
         f"{compared} scenes compared, {beyond} beyond ten tolerances of {given.tolerance:g}, "
-        f"{unwarned} of them without a warning"
+        f"{unwarned} of them without a warning; {unclosed} ledgers miss a millionth of the turnover"
     )
 
 

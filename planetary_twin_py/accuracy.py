@@ -1,8 +1,8 @@
 """Runs whose results are less accurate than their tolerance suggests.
 
 A tolerance limits the error of a step. Three kinds of motion amplify such errors: non-periodic
-impacts of flanks, vibration that reverses friction, and friction that has not slid far enough to be
-independent of the initial state.
+impacts of flanks, vibration that reverses friction or feeds on it, and friction that has not slid
+far enough to be independent of the initial state.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Course(NamedTuple):
     flank_events: int = 0
     """Engagements and separations of flanks."""
     reversals: int = 0
-    """Steps in which vibration stops gears, or nearly so."""
+    """Steps in which vibration stops gears, or slows them much."""
     repeated_steps: int = 0
     """Steps that were not computed because the motion is periodic."""
     unsettled: float = 0.0
@@ -114,9 +114,10 @@ def course_warnings(course: Course) -> Iterator[str]:
         )
     if course.reversals > 0:
         yield (
-            f"vibration stops gears relative to the carrier, or nearly so, in {course.reversals} "
-            "steps: errors grow when friction reverses and may exceed ten times the tolerance; "
-            "compare with a run at a tighter tolerance"
+            f"vibration stops gears relative to the carrier, or slows them much, in "
+            f"{course.reversals} steps: errors grow when friction reverses, or feeds the vibration "
+            "of creeping gears, and may exceed ten times the tolerance; compare with a run at a "
+            "tighter tolerance"
         )
     if course.both_flanks > 0:
         yield (
@@ -155,7 +156,7 @@ class Settling:
 
     def __init__(self, scene: Scene) -> None:
         gearset, friction = scene.gearset, scene.lubrication
-        self._remembers = scene.dynamics != "quasi_static" and friction.friction
+        self._remembers = not scene.quasi_static and friction.friction
         self._distance = SETTLED * friction.presliding_displacement
         angle = min(mesh.pressure_angle for mesh in gearset.geometry.meshes)
         lever = gearset.geometry.sun.base_radius * math.tan(angle)

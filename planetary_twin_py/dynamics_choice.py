@@ -19,7 +19,7 @@ from .scene import Scene, SceneError
 from .window import mesh_statistics
 
 AUTO = "auto"
-BY_COST = ("quasi_static", "torsional", "planar", "spatial")
+BY_COST = ("quasi_static", "torsional", "quasi_static_planar", "planar", "spatial")
 """From the simplest dynamics to the most complete one."""
 FIGURES = ("dte_mean", "dte_rms", "dte_peak", "mesh_force_mean", "mesh_force_peak", "power_loss")
 """Compared quantities: the power loss, and the others for every mesh."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from ._core import (
     keep_given,
 )
 from .dynamics.cycle import common_cycles, turns_per_cycle
-from .dynamics.library import library
+from .dynamics.library import library, record_in
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
@@ -112,8 +112,11 @@ class Engine:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
         oil_at = point.oil_temperature, point.lambda_ratio
         if self._oil_at != oil_at:
-            self.model.oil, self._oil_at = self._record(build_oil(self.scene, point)), oil_at
-        load, ports = self._record(self._loads.build(point)), self.scene.drive.ports
+            self.model.oil, self._oil_at = (
+                record_in(self._core, build_oil(self.scene, point)),
+                oil_at,
+            )
+        load, ports = record_in(self._core, self._loads.build(point)), self.scene.drive.ports
         if self._given:  # what is given stays, whatever the operating point
             keep_given(self.model.load, load)
         self.model.load, self._given = load, ports.given
@@ -127,12 +130,6 @@ class Engine:
             self.march.run.nodes = self._core.radau(points)
         control.changed = True
         self._allow_periodic()
-
-    def _record(self, record: Any) -> Any:
-        """A record of oil or load as the core of this scene has it; its memory is the same."""
-        own = getattr(self._core, type(record).__name__)()
-        own.raw()[:] = record.raw()
-        return own
 
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""

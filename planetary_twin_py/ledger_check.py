@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .result import Energy
+from .result import ROUNDING, Energy
 from .tolerance import TOLERANCES
 from .window import Window
 
 OF_LOSS = 0.01  # allowed residual/loss
 OF_TURNOVER = 1e-5  # allowed residual/turnover, for trains with small losses
-OF_STORED = 1e-9  # allowed residual/stored energy, due to rounding
+OF_STORED = ROUNDING  # allowed residual/stored energy
 
 
 class LedgerWarning(UserWarning):

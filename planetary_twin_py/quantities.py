@@ -207,7 +207,7 @@ def _study() -> dict[str, Quantity]:
             description=f"{side_title(side)} meshes: fraction of the time in contact in which "
             "viscous friction is clipped to zero because the pressure is too low for its law",
         )
-    return found | {EXCESS: LEDGER_EXCESS} | COURSE
+    return found | {SPEED_SHARE: SPEED, EXCESS: LEDGER_EXCESS} | COURSE
 
 
 def side_title(side: str) -> str:
@@ -225,12 +225,19 @@ LEDGER_EXCESS = Quantity(
     "Residual of the energy ledger",
     description="residual of the energy ledger/allowed residual; above 1, losses are uncertain",
 )
+SPEED_SHARE = "speed_share"
+"""Column of a study's table, see `studies.turning`."""
+SPEED = Quantity(
+    "Speed/operating point",
+    description="mean mesh frequency/that of the operating point; NaN where the gears are to stand "
+    "still, or run up",
+)
 COURSE = {
     "unsettled": Quantity(
         "Time to settle", "s", "time until creeping gears have forgotten their initial state"
     ),
     "reversals": Quantity(
-        "Reversals", description="steps in which vibration stops gears, or nearly so"
+        "Reversals", description="steps in which vibration stops gears, or slows them much"
     ),
     "both_flanks": Quantity(
         "Both flanks", description="steps in which both flanks of a tooth touch"

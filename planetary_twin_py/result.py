@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from .dynamics_choice import DynamicsChoice
 
 
+ROUNDING = 1e-9  # of the stored energy: work below it is due to rounding
+
+
 @dataclass(frozen=True)
 class Energy:
     """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work - weight +
@@ -57,6 +60,11 @@ class Energy:
         return sum(max(work, 0.0) for work in self.machines)
 
     @property
+    def driven(self) -> bool:
+        """Whether the machines put in more than rounding errors, unlike at standstill."""
+        return self.put_in > ROUNDING * self.stored
+
+    @property
     def residual(self) -> float:
         """Residual of the balance, an error of the integration [J]."""
         lost = self.loss + self.damping - self.stiffness_work - self.weight
@@ -87,7 +95,8 @@ class Stats:
     flank_events: int
     """Engagements and separations of flanks."""
     reversals: int
-    """Steps in which vibration may have stopped or reversed a gear relative to the carrier."""
+    """Steps in which vibration may have stopped or reversed a gear relative to the carrier, or
+    slowed a creeping one by a fifth."""
     both_flanks: int
     """Steps in which both flanks of a mesh touch; the model has a force on one of them only."""
     wall_time: float
@@ -161,7 +170,7 @@ class Result:
 
     @property
     def efficiency(self) -> float:
-        """1 - loss/put_in over `duration`; NaN if no machine drives."""
-        if self.energy.put_in <= 0.0:
+        """1 - loss/put_in over `duration`; NaN if no machine drives, as at standstill."""
+        if not self.energy.driven:
             return float("nan")
         return 1.0 - self.energy.loss / self.energy.put_in

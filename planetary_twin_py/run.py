@@ -95,7 +95,7 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
             f"give torsional, planar or quasi_static; `planetary-twin explain {scene.name}` "
             "compares them"
         )
-    if scene.dynamics != "quasi_static":
+    if not scene.quasi_static:
         return DrivenEngine(scene, tolerance, method)
     if method not in ("auto", "march"):
         raise ValueError(
@@ -114,5 +114,5 @@ def check_point(scene: Scene, point: OperatingPoint) -> None:
     Raises:
         ValueError: the speed loop of the drive is not stable.
     """
-    if scene.dynamics != "quasi_static":
+    if not scene.quasi_static:
         check_speed_loop(scene, build_train(held_axes(scene)), point)

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+LARGEST = 2.0**53
+"""Magnitude in SI of a measured value, up to which counts are exact and sums of squares finite."""
 _QUANTITY = re.compile(r"([-+]?[\d._]+(?:[eE][-+]?\d+)?)\s*(\S.*)")
 _POWER = re.compile(r"(?<=[^\W\d_])(-?\d)")  # of mm2, min-1
 _INSTEAD = (  # a common wrong unit, the expected unit, and advice

@@ -14,6 +14,7 @@ from .accuracy import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
 from .planar.motion import AxesMotion
+from .result import ROUNDING
 
 # Rows of what the core computes of every mesh, by names of `quantities.MESH`.
 ROWS = {
@@ -157,9 +158,11 @@ class Window:
 
     @property
     def efficiency(self) -> float:
-        """1 - power_loss/power of the driving machines; NaN if no machine drives."""
+        """1 - power_loss/power of the driving machines; NaN if no machine drives, as at
+        standstill."""
         put_in = float(np.maximum(self.machine_power, 0.0).sum())
-        return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
+        least = ROUNDING * self.stored_energy / (self.end - self.start)
+        return 1.0 - self.power_loss / put_in if put_in > least else math.nan
 
 
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:

@@ -63,6 +63,38 @@ def test_a_run_that_may_not_keep_to_it_says_why(changes, reason):
         pt.simulate(PAPER.replace(**changes), 0.02)
 
 
+# Little damping, 2 mm/s at the pitch point, and no change of stiffness that would excite them.
+CREEPING = {
+    "input_speed": 0.55,
+    "input_torque": 22.0,
+    "mesh.sun_planet_stiffness": 6e7,
+    "mesh.planet_ring_stiffness": 6e7,
+    "mesh.double_pair_ratio": 1.0,
+    "mesh.damping": {"law": "viscous", "damping_ratio": 0.01},
+    "lubrication.lambda_ratio": "computed",
+}
+FALLING = {"lubrication.traction": "schlenk"}
+CONSTANT = {"lubrication.traction": "table", "lubrication.friction_table": {"coefficient": [0.08]}}
+
+
+@pytest.mark.parametrize(("law", "vibrates"), [(FALLING, True), (CONSTANT, False)])
+def test_creeping_gears_vibrate_and_are_warned_of_where_friction_falls_with_the_speed(
+    law, vibrates
+):
+    scene = PAPER.replace(**CREEPING, **law)
+    run = pt.simulate(scene, 0.01)
+    lines = list(accuracy_warnings(scene, run))
+    assert any(line.startswith("vibration stops gears") for line in lines) == vibrates
+    planet = run.speed[:, run.bodies.index("planet_1")]
+    assert (planet.std() > 0.05 * abs(planet.mean())) == vibrates
+
+
+def test_a_differential_that_turns_as_a_block_is_not_warned_of():
+    speed = pt.rpm(1000.0)
+    scene = pt.load_scene("differential").replace(input_speed=speed, second_input_speed=speed)
+    assert pt.simulate(scene, 0.02).stats.reversals == 0
+
+
 def test_steps_in_which_both_flanks_touch_are_warned_of_and_no_others():
     assert "both flanks" in next(course_warnings(Course(both_flanks=1)))
     assert not list(course_warnings(Course()))

@@ -84,7 +84,7 @@ def test_a_driven_scene_runs_in_torsion_and_says_why():
         pt.load_scene("paper").replace(dynamics="auto", **{"drive.input.port": "torque"})
     )
     assert choice.dynamics == "torsional"
-    assert choice.reason.count("requires dynamics = torsional") == 2
+    assert choice.reason.count("requires dynamics = torsional") == 3
 
 
 @pytest.mark.parametrize(("name", "selected"), [("floating_sun", "planar"), ("paper", "torsional")])

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..following.follower import Following
 
 EPOCH = 1e8  # [s] above this, stamps count from 1970
+_YEAR_10000 = 253402300800.0  # [s] from 1970
 REMEDY = "improved by"
 """Heading of the column with readings that would determine a quantity, or determine it better."""
 
@@ -46,8 +47,8 @@ def print_state(console: Console, name: str, state: Following) -> None:
 
 
 def _instant(time: float) -> str:
-    """Format a stamp: as a date in UTC if it counts from 1970."""
-    if not time > EPOCH:
+    """Format a stamp: as a date in UTC if it counts from 1970 and has a year of four digits."""
+    if not EPOCH < time < _YEAR_10000:
         return f"{time:.1f} s"
     return datetime.fromtimestamp(time, UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-5]
 

@@ -63,7 +63,7 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span:
     return found
 
 
-def put(
+def write_results(
     table: pa.Table,
     out: Path,
     x: str | None = None,
@@ -101,8 +101,14 @@ def warn(table: pa.Table) -> None:
     from ..studies.clipping import clipping_of_study
     from ..studies.energy_balance import unbalanced_runs
     from ..studies.inaccurate import inaccuracies
+    from ..studies.turning import turning_of_study
 
-    lines = (clipping_of_study(table), unbalanced_runs(table), *inaccuracies(table))
+    lines = (
+        clipping_of_study(table),
+        unbalanced_runs(table),
+        *inaccuracies(table),
+        *turning_of_study(table),
+    )
     for line in filter(None, lines):
         remark(f"warning: {line}")
 

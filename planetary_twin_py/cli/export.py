@@ -47,10 +47,8 @@ def export(
             done = write(
                 file, chosen, lambda at, end: progress.update(task, completed=at, total=end)
             )
-    except ValueError as error:
+    except (ValueError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
     for line in done.remarks:
         remark(line)
     for path, rows in done.rows.items():

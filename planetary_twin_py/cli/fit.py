@@ -104,10 +104,8 @@ def fit(  # noqa: PLR0913 - an argument for each option
                 report=lambda count: status.update(f"{count} simulations"),
                 hold_out=_span(hold_out),
             )  # fmt: skip
-    except (ValueError, ArithmeticError) as error:
+    except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     warnings = list(remarks(found))
     _print(console, found)
     for line in warnings:
@@ -135,10 +133,8 @@ def _manoeuvre(
         given = dict(map(_pair, _parts(free)))
         span = _span(hold_out)
         found, warnings = fit_manoeuvre(console, file, scene, given, (begin, end), span)
-    except (ValueError, ArithmeticError) as error:
+    except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     put_figures(course_figures(found, warnings), out[1])
     if out[0] is not None:
         from ..studies.fit.report import report_of_course

@@ -80,10 +80,8 @@ def fleet(
         work = FollowGroup(from_.resolve(), loaded, len(names), known)
         with _executor(scheduler) as executor, progress("gearboxes", len(names)) as advance:
             found = follow_groups(work, names, executor, advance)
-    except (ValueError, ArithmeticError) as error:
+    except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     _show(console, found)
     if out is not None:
         from ..fleet.notes import write_state

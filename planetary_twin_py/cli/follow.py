@@ -110,10 +110,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
         _note_unused(unused, samples if from_ in (encoders, vibration) else ())
         with console.status("following"):
             states = list(play_back(follower, readings, samples))
-    except (ValueError, ArithmeticError) as error:
+    except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     print_state(console, loaded.name, states[-1])
     if out is not None:
         from ..following.notes import write_notes

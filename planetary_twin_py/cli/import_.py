@@ -50,10 +50,8 @@ def import_(
         gearbox = changed_scene(scene, settings(set_ or []))
         with busy("converting the table"):
             done = write_measured(table, gearbox, out)
-    except ValueError as error:
+    except (ValueError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
     for line in _summary(out, done):
         make_console().print(line, highlight=False, soft_wrap=True)
 

@@ -40,10 +40,8 @@ def info(
         with busy("reading the recording"):
             found = read_info(file)
             happened = _events(file, found) if events else None
-    except RecordingError as error:
+    except (RecordingError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     for line in found.remarks:
         remark(line)
     console = console_beside(json_)

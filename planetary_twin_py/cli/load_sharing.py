@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from ..planar.load_sharing import LoadSharing
     from ..scene import Scene
+    from ..scene.supports import Support
 
 
 def load_sharing(
@@ -71,23 +73,28 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     import numpy as np
     from rich.table import Table
 
+    from ..planar.rows import CENTRAL
+
     planets = scene.gearset.planets
     largest = found.mesh_force.max(axis=0)
     pins = np.linalg.norm(found.planet_bearing, axis=2)
     table = Table(
         title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
-        caption="Share: torque of a planet over the mean of all planets",
+        caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
+        "and coast flanks of the sun mesh, on the pin, and on an element of a rolling bearing",
     )
     for heading in (
-        "planet", "share, mean", "smallest", "largest", r"sun mesh, drive \[N]", r"coast \[N]",
-        r"pin, largest \[N]",
+        "planet", "share, mean", "smallest", "largest", "drive flank", "coast flank", "pin"
     ):  # fmt: skip
-        table.add_column(heading, justify="right")
+        table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
+    if not np.isnan(found.element_load[:, len(CENTRAL) :]).all():
+        table.add_column("rolling\nelement", justify="right", no_wrap=True)
     for i in range(planets):
-        share = found.share[:, i]
+        share, element = found.share[:, i], found.element_load[:, len(CENTRAL) + i].max()
         figures = (f"{value:.4f}" for value in (share.mean(), share.min(), share.max()))
-        forces = (f"{v:.4g}" for v in (largest[0, i], largest[1, i], pins[:, i].max()))
-        table.add_row(str(i + 1), *figures, *forces)
+        forces = (figure(v, "N") for v in (largest[0, i], largest[1, i], pins[:, i].max()))
+        elements = [] if np.isnan(element) else [figure(float(element), "N")]
+        table.add_row(str(i + 1), *figures, *forces, *elements)
     return table
 
 
@@ -99,28 +106,39 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     from ..planar.rows import CENTRAL
 
     table = Table(title="Axes", caption="Orbit: largest distance of the axis from its mean place")
-    for heading in ("member", "bearing", r"displacement, largest \[m]", r"orbit \[m]",
-                    r"bearing force, largest \[N]"):  # fmt: skip
+    for heading in ("member", "bearing", "largest displacement", "orbit", "largest bearing force"):
         table.add_column(heading, justify="right")
+    largest_force = float(found.mesh_force.max())
+    largest_move = float(np.linalg.norm(found.displacement, axis=2).max())
     for k, body in enumerate(CENTRAL):
-        moved, force = found.displacement[:, k], np.linalg.norm(found.bearing[:, k], axis=1)
+        moved = found.displacement[:, k]
+        displaced = float(np.linalg.norm(moved, axis=1).max())
+        orbit = float(np.linalg.norm(moved - moved.mean(axis=0), axis=1).max())
+        force = float(np.linalg.norm(found.bearing[:, k], axis=1).max())
         support = getattr(scene.supports, body, None)
-        bearing = "held" if support is None else f"{support.bearing:g} N/m"
         table.add_row(
             body,
-            bearing if support is None or support.bearing else "none: floats",
-            f"{np.linalg.norm(moved, axis=1).max():.4g}",
-            f"{np.linalg.norm(moved - moved.mean(axis=0), axis=1).max():.4g}",
-            f"{force.max():.4g}",
+            _bearing_text(support),
+            figure(without_rounding(displaced, largest_move), "m"),
+            figure(without_rounding(orbit, largest_move), "m"),
+            figure(without_rounding(force, largest_force), "N"),
         )
     return table
+
+
+def _bearing_text(support: Support | None) -> str:
+    if support is None:
+        return "held"
+    if support.rolling is not None:
+        return support.rolling.text
+    return figure(support.bearing, "N/m") if support.bearing else "none: floats"
 
 
 def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
     lines = []
     if found.both_flanks:
         lines.append(
-            "warning: both flanks of a mesh touch at some positions: the play is used up, "
+            "warning: both flanks of a mesh touch at some positions: the backlash is used up, "
             "and planets are wedged between sun and ring"
         )
     if scene.faults:
@@ -131,6 +149,9 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
 
 
 def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
+    import numpy as np
+
+    from ..planar.motion import axes_names
     from ..planar.rows import CENTRAL
 
     return {
@@ -141,6 +162,11 @@ def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
         "share": found.share.tolist(),
         "mesh_force": found.mesh_force.tolist(),
         "planet_bearing": found.planet_bearing.tolist(),
+        "element_load": {
+            body: found.element_load[:, k].tolist()
+            for k, body in enumerate(axes_names(scene.gearset.planets))
+            if not np.isnan(found.element_load[:, k]).all()
+        },
         "bearing": {body: found.bearing[:, k].tolist() for k, body in enumerate(CENTRAL)},
         "displacement": {body: found.displacement[:, k].tolist() for k, body in enumerate(CENTRAL)},
     }

@@ -65,10 +65,8 @@ def plant(
             raise ValueError("--encoders: requires sensors.encoders.rate in --hidden")
         with make_console().status("simulating"):
             lines = list(_write(loaded, truth, duration, (out, encoders)))
-    except (ValueError, ArithmeticError) as error:
+    except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     for line in lines:
         make_console().print(line, highlight=False, markup=False, soft_wrap=True)
 

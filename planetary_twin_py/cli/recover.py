@@ -42,10 +42,8 @@ def recover(
     try:
         with busy("copying intact messages"):
             saved = save(file, folder)
-    except RecordingError as error:
+    except (RecordingError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     for line in saved.remarks or ["no damage found: the copy is complete"]:
         remark(line)
     table = Table("topic", "messages saved", box=None)

@@ -66,9 +66,7 @@ def resimulate(
                 folder,
                 lambda time, end: progress.update(task, completed=time, total=end),
             )
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
-    except ValueError as error:
+    except (ValueError, OSError) as error:
         fail(error)
     say_units(made.scene, changes)
     for line in made.remarks:

@@ -43,10 +43,8 @@ def verify(
             result = compare(
                 file, chosen, lambda time: status.update(f"simulating again: {time:.1f} s")
             )
-    except RecordingError as error:
+    except (RecordingError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
     _print(console, result)
     put_figures(_figures(result), json_)
     if not (result.identical if result.same_makers else result.within_bound):

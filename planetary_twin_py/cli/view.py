@@ -126,10 +126,8 @@ def _one_line_errors() -> Iterator[None]:
 
     try:
         yield
-    except (RecordingError, SceneError, ViewerError) as error:
+    except (RecordingError, SceneError, ViewerError, OSError) as error:
         fail(error)
-    except OSError as error:
-        fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
 
 
 def _read(file: Path, namespace: str | None) -> Recording:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from types import ModuleType
+from typing import Any
 
 from .. import _core
 from ..scene import Scene
@@ -20,3 +21,18 @@ def library(scene: Scene) -> ModuleType:
         `_core` or `_core.axes`.
     """
     return _core.axes if scene.moving_axes else _core
+
+
+def record_in(core: ModuleType, record: Any) -> Any:
+    """Convert a record to a build of the core.
+
+    Args:
+        core: see `library`.
+        record: of a type whose memory is the same in both builds: load or oil.
+
+    Returns:
+        A record with the same values.
+    """
+    own = getattr(core, type(record).__name__)()
+    own.raw()[:] = record.raw()
+    return own

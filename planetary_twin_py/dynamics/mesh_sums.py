@@ -5,6 +5,7 @@ Statistics of windows and runs follow from them, independent of the samples.
 
 from __future__ import annotations
 
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -31,14 +32,15 @@ def mesh_sums(record: _core.MeshSums, meshes: int) -> MeshSums:
     return MeshSums(float(record.time), record.integral[:, :meshes].copy(), *peaks)
 
 
-def record_of(sums: MeshSums) -> _core.MeshSums:
-    """The same as a record."""
-    return _core.MeshSums(
+def record_of(sums: MeshSums, core: ModuleType) -> _core.MeshSums:
+    """The same as a record of a build of the core."""
+    record: _core.MeshSums = core.MeshSums(
         time=sums.time,
         integral=sums.integral,
         dte_peak=sums.dte_peak,
         force_peak=sums.force_peak,
     )
+    return record
 
 
 def in_order(sums: MeshSums, place: np.ndarray) -> MeshSums:

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from .._core import AXES, MovingAxes, axes
+from .._core.axes import RollingBearing
 from ..planar.rows import COAST, DRIVE, PlanarRows, planar_rows
 from ..scene import Scene
-from ..scene.supports import Support
+from ..scene.supports import Rolling, Support
 from ..spatial.rows import row_of_scene
 from .bodies import (
     CENTRAL,
@@ -28,23 +29,39 @@ from .bodies import (
     tilts_of,
 )
 from .planet_groups import planet_groups
+from .rolling_bearings import eccentricity, press, rolling_bearing
+from .static_load import mesh_force
 
 SIDES = (DRIVE, COAST)
+LEAST_LOAD = 1.0  # [N] at which a rolling bearing without load is made linear
 BEARING_DAMPING = 1.25e-5
 """Damping of a bearing over its stiffness [s], where a scene gives none: the middle of the range
 0.25e-5 to 2.5e-5 s of Friswell, Penny, Garvey and Lees 2010, Dynamics of Rotating Machines."""
 
 
-def bearing_damping(support: Support) -> float:
-    """Damping of a bearing.
+def linear_bearing(scene: Scene, kind: str) -> tuple[float, float]:
+    """Linear bearing of a kind of body.
 
     Args:
-        support: of the bearing.
+        scene: with supports.
+        kind: "sun", "planet", "ring" or "carrier".
 
     Returns:
-        That of the scene, or its default [N s/m].
+        Radial stiffness [N/m] and damping [N s/m]: of a rolling bearing those along a nominal load,
+        for a planet that of its pin, for the others a mesh force, which is of the size of what
+        errors leave to them. They decide how fast the equations are solved, not the solution.
     """
-    return default_damping(support.damping, support.bearing)
+    support: Support = getattr(scene.supports, kind)
+    if support.rolling is None:
+        stiffness = support.bearing or 0.0
+        return stiffness, default_damping(support.damping, stiffness)
+    law, clearance = rolling_bearing(support.rolling), support.clearance
+    load = max(abs(mesh_force(scene, scene.operating_point.input_torque)), LEAST_LOAD)
+    if kind == "planet":
+        load *= 2.0 * math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
+    size = np.array([eccentricity(law, clearance, load)])
+    stiffness = float(press(law, clearance, size)[2, 0])
+    return stiffness, law.damping_time * stiffness
 
 
 def default_damping(damping: float | None, stiffness: float) -> float:
@@ -83,6 +100,8 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         **_gravity(scene),
         **_bearings(scene, bodies),
     )
+    for name, law in zip(_bearing_names(scene), moving.rolling, strict=False):
+        _fill_rolling(getattr(scene.supports, name.split("_")[0]).rolling, law)
     if scene.tilting_axes:
         moving.slope_place, moving.slope = _slopes(scene, bodies)
         moving.face_square = scene.gearset.face_width**2 / 12.0
@@ -181,8 +200,7 @@ def _fill_tilting(scene: Scene, bodies: Bodies, moving: MovingAxes) -> None:
     """Fill axial and tilting motion of all bearings, in their order."""
     supports, radii = scene.supports, tilting_radii(scene)
     polar, diametral = polar_masses(scene), tilting_masses(scene)
-    names = [*CENTRAL, *(f"planet_{i + 1}" for i in range(scene.gearset.planets))]
-    for name, axis in zip(names, moving.tilting, strict=False):
+    for name, axis in zip(_bearing_names(scene), moving.tilting, strict=False):
         kind = name.split("_")[0]
         support, r = getattr(supports, kind), radii[kind]
         axis.lift = bodies.place[f"{name}.z"]
@@ -219,7 +237,8 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     supports, planets = scene.supports, scene.gearset.planets
     assert supports is not None  # the scene has been checked
     held = [getattr(supports, kind) for kind in CENTRAL] + [supports.planet] * planets
-    names = [*CENTRAL, *(f"planet_{i + 1}" for i in range(planets))]
+    names = _bearing_names(scene)
+    linear = [linear_bearing(scene, name.split("_")[0]) for name in names]
     angles, errors = scene.gearset.planet_angles, scene.errors
     pin = 1.0 / math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
     return {
@@ -229,11 +248,24 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "direction": [[0.0, 0.0]] * 3 + [[math.cos(a), math.sin(a)] for a in angles],
         "carried": [0.0] * 3 + [pin] * planets,
         "mass": [support.mass for support in held],
-        "stiffness": [support.bearing for support in held],
-        "damping": [bearing_damping(support) for support in held],
+        "stiffness": [stiffness for stiffness, _ in linear],
+        "damping": [damping for _, damping in linear],
         "clearance": [support.clearance for support in held],
         "centre": _centres(scene) + [errors.of_planet(i)[:2] for i in range(planets)],
     }
+
+
+def _bearing_names(scene: Scene) -> list[str]:
+    """Bodies on bearings, in the order of the core."""
+    return [*CENTRAL, *(f"planet_{i + 1}" for i in range(scene.gearset.planets))]
+
+
+def _fill_rolling(rolling: Rolling | None, law: RollingBearing) -> None:
+    if rolling is None:
+        return
+    given = rolling_bearing(rolling)
+    for name in ("strength", "exponent", "load_zone", "damping_time"):
+        setattr(law, name, getattr(given, name))
 
 
 def _gravity(scene: Scene) -> dict[str, Any]:

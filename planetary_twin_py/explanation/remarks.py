@@ -25,5 +25,11 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
         yield line
     yield from accuracy_warnings(scene, run)
     yield from turning_warnings(scene, run)
+    if scene.lubrication.friction and scene.lubrication.friction_torque == "printed":
+        yield (
+            "lubrication.friction_torque = printed: (17) to (20) of Salagianni et al. have the "
+            "wrong sign, and count the loss twice: friction drives the gears, and power loss and "
+            "efficiency are those of no gearbox"
+        )
     if line := clipping_of_run(clipped_friction(scene, run)):
         yield line

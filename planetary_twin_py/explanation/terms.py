@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from ..dynamics.moving_axes import linear_bearing
 from ..dynamics.stiffness_laws import stiffness_laws
 from ..scene import Scene
 from .axes import meaning_of_held_axes
+
+KINDS = ("planet", "sun", "ring", "carrier")
 
 
 class Term(NamedTuple):
@@ -35,9 +38,7 @@ NOT_MODELLED = (
     Limit("transient oil film", "film and traction follow load and speed without delay"),
 )
 
-STATICS_ONLY = Limit(
-    "vibration", "dynamics is quasi_static: the train turns rigidly, without vibration or rattle"
-)
+STATICS_ONLY = Limit("vibration", "the train turns rigidly (dynamics), without vibration or rattle")
 
 
 HELIX = Limit(
@@ -62,6 +63,11 @@ SHUTTLING = Limit(
     "the resultant of a mesh stays in the middle of the face, and flanks touch all along it",
 )
 
+CAGE = Limit(
+    "passing of rolling elements",
+    "bearings have the mean stiffness over all positions of the cage, and no raceway waviness",
+)
+
 NOMINAL_LINES = (
     IN_PLANE,
     Limit("axial friction", "friction of teeth acts in the plane of the gears"),
@@ -70,12 +76,13 @@ NOMINAL_LINES = (
 
 def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model that apply to `scene`."""
-    statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
+    statics = (STATICS_ONLY,) if scene.quasi_static else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
+    rolling = (CAGE,) if _elements(scene) is not None else ()
     if scene.tilting_axes:
-        return (SHUTTLING, *NOMINAL_LINES, *NOT_MODELLED)
+        return (*statics, SHUTTLING, *NOMINAL_LINES, *rolling, *NOT_MODELLED)
     if scene.moving_axes:
-        return (*helix, IN_PLANE, FLAT, *NOT_MODELLED)
+        return (*statics, *helix, IN_PLANE, FLAT, *rolling, *NOT_MODELLED)
     axes = Limit("translation of axes", meaning_of_held_axes(scene))
     return (*statics, *helix, axes, FLAT, *NOT_MODELLED)
 
@@ -90,7 +97,7 @@ def _dynamics(scene: Scene) -> Term | None:
     # A force that jumps at first contact has no equilibrium for loads below the jump. Without
     # dynamics, nothing can be given at the ports.
     jumps = scene.mesh.backlash == "regulatory_factor"
-    if scene.dynamics == "quasi_static" or jumps or scene.drive.ports.given:
+    if scene.quasi_static or jumps or scene.drive.ports.given:
         return None
     if scene.moving_axes:
         law = "rotation and displacement of every body; elastic bearings, couplings and teeth"
@@ -183,7 +190,7 @@ def _positions(scene: Scene) -> Term | None:
 def _damping(scene: Scene) -> Term | None:
     damping = scene.mesh.damping
     undamped = damping.law == "viscous" and damping.damping_ratio == 0.0
-    if undamped or scene.dynamics == "quasi_static":
+    if undamped or scene.quasi_static:
         return None
     law = f"{damping.law.replace('_', ' ')}, proportional to the stiffness"
     return Term("mesh damping", law, {"mesh.damping": {"law": "viscous", "damping_ratio": 0.0}})
@@ -205,12 +212,28 @@ def _ripple(scene: Scene) -> Term | None:
 
 
 def _bearings(scene: Scene) -> Term | None:
-    kinds = ("planet", "sun", "ring", "carrier")
-    found = [kind for kind in kinds if getattr(scene.losses, f"{kind}_bearing") is not None]
+    found = [kind for kind in KINDS if getattr(scene.losses, f"{kind}_bearing") is not None]
     if not found:
         return None
     without = {f"losses.{kind}_bearing": None for kind in found}
     return Term("bearings", f"Palmgren, of {', '.join(found)}", without)
+
+
+def _elements(scene: Scene) -> Term | None:
+    """Rolling elements, against linear bearings with their stiffness under a nominal load."""
+    supports = scene.supports
+    if supports is None or not scene.moving_axes:
+        return None
+    found = {kind: getattr(supports, kind).rolling for kind in KINDS}
+    names = [f"{kind} on {rolling.text}" for kind, rolling in found.items() if rolling]
+    if not names:
+        return None
+    without: dict[str, Any] = {}
+    for kind, rolling in found.items():
+        if rolling:
+            without[f"supports.{kind}.rolling"] = None
+            without[f"supports.{kind}.bearing"], _ = linear_bearing(scene, kind)
+    return Term("rolling elements", f"Palmgren, {', '.join(names)}", without)
 
 
 def _drag(scene: Scene) -> Term | None:
@@ -242,6 +265,7 @@ _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _boundary,
     _rolling,
     _bearings,
+    _elements,
     _drag,
     _churning,
 )

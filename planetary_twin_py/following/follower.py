@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene
+from ..units import LARGEST
 from .balance import PERIOD, BalanceFollower
 from .balance_filter import Innovation
 from .baseline import LearnedCell
@@ -34,7 +35,8 @@ class Readings(NamedTuple):
     """Stamps [s], (n,)."""
     columns: Mapping[str, Array]
     """Readings by channel, (n,) each in SI: input_speed, input_torque, output_speed, output_torque
-    and oil_temperature, with the signs of gearbox_state; NaN where a reading is missing."""
+    and oil_temperature, with the signs of gearbox_state; NaN where a reading is missing, for which
+    magnitudes above 2^53 count, too."""
     arrival: Array | None = None
     """Times of arrival by the receiver's clock [s], (n,); None if unknown."""
     sender: str = "readings"
@@ -106,12 +108,13 @@ class Follower:
         scene: scene of the gearbox, with one input.
         sensors: accuracy of the sensors.
         encoders: format of the samples; None: the first samples state it, or there are none.
-        scale: factors on the readings, by channel, for other units and signs.
+        scale: factors on the readings, by channel, for other units and signs; magnitudes of 1e-9
+            to 1e9.
         period: length of the bins over which readings are averaged [s].
 
     Raises:
         SceneError: the scene has two inputs, or cannot be simulated.
-        ValueError: a channel of `scale` does not exist.
+        ValueError: a channel of `scale` does not exist, or its factor is out of range.
     """
 
     scene: Scene
@@ -121,9 +124,11 @@ class Follower:
     period: float = PERIOD
 
     def __post_init__(self) -> None:
-        for name in self.scale:
+        for name, factor in self.scale.items():
             if name not in CHANNELS:
                 raise ValueError(f"scale: {name!r}: must be one of {', '.join(CHANNELS)}")
+            if not 1e-9 <= abs(factor) <= 1e9:
+                raise ValueError(f"scale: {name} = {factor!r}: its magnitude must be 1e-9 to 1e9")
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
         self._balance = BalanceFollower(self.scene, self.sensors, self.period)
@@ -242,8 +247,8 @@ class Follower:
         for name, values in block.columns.items():
             if name not in CHANNELS:
                 raise ValueError(f"{name!r}: must be one of {', '.join(CHANNELS)}")
-            columns[name] = np.asarray(values, dtype=float) * self.scale.get(name, 1.0)
-        time = np.asarray(block.time, dtype=float)
+            columns[name] = _plausible(np.asarray(values) * self.scale.get(name, 1.0))
+        time = _plausible(block.time)
         if block.arrival is not None:
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
         self._balance.add(time, columns, block.sender)
@@ -262,3 +267,10 @@ class Follower:
                 "numbered from each new start, and baselines are learned again"
             )
         yield from self._teeth.remarks()
+
+
+def _plausible(values: Array) -> Array:
+    """Copy of `values` with NaN, a missing reading, where the magnitude exceeds `LARGEST`."""
+    found = np.array(values, dtype=float)
+    found[~(np.abs(found) <= LARGEST)] = np.nan
+    return found

@@ -8,7 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..printable import one_line
 from ..recording.tables.measurements import TIME, Column, in_si, read_columns
+from ..units import LARGEST
 from .bins import CHANNELS
 from .follower import EncoderSamples, Readings
 from .vibration import VibrationSamples
@@ -99,7 +101,7 @@ def read_encoders(path: Path, period: float, begin: np.datetime64 | None = None)
         sample = _whole(path, SAMPLE, found[SAMPLE].in_si(SAMPLE, ""))
     elif TIME[0] in found:
         number = found[TIME[0]].in_si(TIME[0], "s") / period
-        if not np.all(np.abs(number - np.round(number)) < 0.2):
+        if not np.all((np.abs(number - np.round(number)) < 0.2) & (np.abs(number) <= LARGEST)):
             raise ValueError(
                 f"{path}: time: must be multiples of {period:g} s; is the sample rate right?"
             )
@@ -173,13 +175,13 @@ def _headings(path: Path, names: Mapping[str, str], found: Mapping[str, Column])
             raise ValueError(f"columns.{name}: must be one of {', '.join((*CHANNELS, ARRIVAL))}")
         headings = [c.heading for own, c in found.items() if wanted in (c.heading, own)]
         if len(headings) != 1:
-            listed = ", ".join(column.heading for column in found.values())
+            listed = one_line(", ".join(column.heading for column in found.values()), 400)
             raise ValueError(f"{path}: column {wanted!r}: no such column; has {listed}")
         chosen[TIME[0] if name in TIME else name] = headings[0]
     return chosen
 
 
 def _whole(path: Path, name: str, values: np.ndarray) -> np.ndarray:
-    for row in np.flatnonzero(~(values == np.round(values)))[:1]:  # NaN, too
+    for row in np.flatnonzero(~(np.isfinite(values) & (values == np.round(values))))[:1]:
         raise ValueError(f"{path}: row {row + 1}: {name} = {values[row]:g}: must be a whole number")
     return values.astype(np.int64)

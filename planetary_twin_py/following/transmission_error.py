@@ -89,7 +89,7 @@ def model_error(
         from there on [m], (cycles * points,). Steps decrease if the sun turns backwards.
     """
     train = followed_train(scene)
-    if scene.dynamics == "quasi_static":
+    if scene.quasi_static:
         scene = scene.replace(dynamics="torsional")
     rate = abs(float(train.cycles) * scene.operating_point.input_speed) / (2.0 * math.pi)
     run = simulate(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ..dynamics.bodies import rigid_ratios
+from ..planar.small_motion import radial_stiffness
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
@@ -30,7 +31,8 @@ def natural_modes(
         model: "torsional", gears and carrier as in a simulation (Kahraman 1994); "machines", the
             same with motor and load; "printed", eqs. (32)-(38) of Salagianni et al. 2017;
             "planar", Lin and Parker 1999; "spatial", six motions of every body. The last two
-            require `scene.supports`.
+            require `scene.supports`, whose rolling bearings are linear about the static
+            equilibrium at the torque of the scene.
         stiffness: of every mesh. "single": one tooth pair is in contact; "mean": mean over the
             mesh cycle, which gives the modes at which a simulation resonates.
         input_speed: of the first motor [rad/s]. For the models planar and spatial, the frequencies
@@ -118,7 +120,8 @@ def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
 
     def body(name: str) -> PlanarBody:
         support: Support = getattr(supports, name)
-        return PlanarBody(support.mass, rim[name], support.bearing, support.torsion)
+        along, across = radial_stiffness(scene, name)
+        return PlanarBody(support.mass, rim[name], along, support.torsion, across)
 
     return PlanarSet(
         body("sun"),
@@ -146,15 +149,17 @@ def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
 
     def body(name: str) -> SpatialBody:
         support: Support = getattr(supports, name)
+        along, across = radial_stiffness(scene, name)
         return SpatialBody(
             support.mass,
             rim[name],
             support.diametral(rim[name]),
             radius[name],
-            support.bearing,
+            along,
             support.axial or 0.0,
             support.tilting or 0.0,
             support.torsion,
+            across,
         )
 
     return SpatialSet(

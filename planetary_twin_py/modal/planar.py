@@ -27,6 +27,8 @@ class PlanarBody:
     """Radial stiffness of the bearing [N/m]; the bearing of a planet is on the carrier."""
     torsion: float = 0.0
     """Stiffness of a torsional support, divided by r^2 [N/m]."""
+    across: float | None = None
+    """Radial stiffness across the radius of a planet [N/m]; None: `bearing`."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +76,10 @@ def planar_model(data: PlanarSet) -> SpringModel:
     kinds = ["sun_planet"] * planets + ["planet_ring"] * planets
     for kind, row in zip(kinds, rows.flanks(DRIVE), strict=True):
         springs.append(Spring(kind, getattr(data, kind), row))
-    for row in rows.pin.reshape(2 * planets, -1):
-        springs.append(Spring("planet_bearing", data.planet.bearing, row))
+    across = data.planet.bearing if data.planet.across is None else data.planet.across
+    for outwards, sideways in rows.pin:
+        springs.append(Spring("planet_bearing", data.planet.bearing, outwards))
+        springs.append(Spring("planet_bearing", across, sideways))
     masses = []
     for body in (*CENTRAL, *data.planets):
         values = getattr(data, body) if body in CENTRAL else data.planet

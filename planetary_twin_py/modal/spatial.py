@@ -43,6 +43,8 @@ class SpatialBody:
     """Tilting stiffness of the bearing, moment/angle/r^2 [N/m]."""
     torsion: float = 0.0
     """Stiffness of a torsional support, moment/angle/r^2 [N/m]."""
+    across: float | None = None
+    """Radial stiffness across the radius of a planet [N/m]; None: `bearing`."""
 
 
 @dataclass(frozen=True)
@@ -148,12 +150,19 @@ def _tilt(data: SpatialSet, name: str, direction: Vector) -> dict[str, float]:
 
 def _pin(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
     """Springs of the bearing of a planet: three directions, and tilting relative to the carrier."""
-    arm = data.carrier.radius * np.array([math.cos(psi), math.sin(psi), 0.0])
+    outwards = np.array([math.cos(psi), math.sin(psi), 0.0])
+    sideways = np.array([-math.sin(psi), math.cos(psi), 0.0])
+    arm = data.carrier.radius * outwards
     body, springs = data.planet, []
-    for direction, kind in zip(np.eye(3), ("bearing", "bearing", "axial"), strict=True):
+    across = body.bearing if body.across is None else body.across
+    for direction, kind, stiffness in (
+        (outwards, "bearing", body.bearing),
+        (sideways, "bearing", across),
+        (np.array([0.0, 0.0, 1.0]), "axial", body.axial),
+    ):
         carried = _velocity(data, "carrier", direction, arm)
         parts = _relative(_velocity(data, planet, direction, np.zeros(3)), carried)
-        springs.append(Spring(f"planet_{kind}", getattr(body, kind), row(parts)))
+        springs.append(Spring(f"planet_{kind}", stiffness, row(parts)))
     share = body.radius / data.carrier.radius
     for motion in ("wx", "wy"):
         parts = {f"{planet}.{motion}": 1.0, f"carrier.{motion}": -share}

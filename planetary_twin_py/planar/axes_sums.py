@@ -114,11 +114,8 @@ def read_axes(
     Returns:
         The samples, and statistics of the time of `span`.
     """
-    from ..modal.natural import natural_modes  # takes time to import
-
     begin, until = span
-    modes = natural_modes(scene, model=scene.dynamics, stiffness="mean")
-    needed = max(LEAST, PER_PERIOD * float(modes.frequencies.max()))
+    needed = max(LEAST, PER_PERIOD * _fastest(scene))
     finer = max(1, math.ceil(needed / sample_rate))
     rate = finer * sample_rate
     done, last = samples_until(begin, rate), samples_until(until, rate)
@@ -133,3 +130,13 @@ def read_axes(
         parts.append(Samples(*(part[first::finer].copy() for part in found)))
         done += count
     return Samples(*map(np.concatenate, zip(*parts, strict=True))), sums.statistics()
+
+
+def _fastest(scene: Scene) -> float:
+    """Frequency of the fastest natural mode [Hz], 0 where nothing vibrates."""
+    if scene.quasi_static:
+        return 0.0
+    from ..modal.natural import natural_modes  # takes time to import
+
+    modes = natural_modes(scene, model=scene.dynamics, stiffness="mean")
+    return float(modes.frequencies.max())

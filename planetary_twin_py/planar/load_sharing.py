@@ -14,16 +14,19 @@ from typing import NamedTuple
 import numpy as np
 
 from .._core import TERMS, TOTAL, Train
+from .._core.axes import RollingBearing
 from ..dynamics.bodies import rigid_ratios
+from ..dynamics.moving_axes import linear_bearing
 from ..dynamics.planet_groups import scene_phases
+from ..dynamics.rolling_bearings import largest_element_load, rolling_bearing
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import Scene
-from ..scene.supports import Supports
+from ..scene.supports import Support, Supports
 from .errors import Displacements, displacements
 from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
-from .statics import Equilibrium, Springs, equilibrium
+from .statics import Equilibrium, Springs, eccentricities, equilibrium
 from .weight import weight_forces
 
 POSITIONS = 64  # in a mesh cycle, if the load repeats with it
@@ -49,6 +52,9 @@ class LoadSharing(NamedTuple):
     (P, 3, 2)."""
     displacement: np.ndarray
     """Displacement of sun, ring and carrier, x and y in the carrier's frame [m], (P, 3, 2)."""
+    element_load: np.ndarray
+    """Load of the most loaded rolling element in the bearings of sun, ring, carrier and planets,
+    NaN in other bearings [N], (P, 3 + N)."""
 
     @property
     def factor(self) -> float:
@@ -91,7 +97,8 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
     closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
     found = equilibrium(springs, force, closed)
-    return _result(scene, rows, turns, errors, basis, found, weight)
+    elements = _element_loads(scene, springs, found)
+    return _result(scene, rows, turns, errors, basis, found, weight, elements)
 
 
 def _positions(scene: Scene) -> np.ndarray:
@@ -162,6 +169,7 @@ def _springs(
         radial,
         clearance,
         centre,
+        _rolling(scene),
     )
 
 
@@ -192,7 +200,7 @@ def _bearings(
         for direction, motion in enumerate("xy"):
             central[place, direction, rows.place(f"{body}.{motion}")] = 1.0
     pins = np.tile(errors.pin, (count, 1, 1))
-    stiffness, clearance = _of_bodies(supports, scene.gearset.planets)
+    stiffness, clearance = _of_bodies(scene, supports)
     return (
         np.concatenate([central, rows.pin]),
         stiffness,
@@ -201,9 +209,23 @@ def _bearings(
     )
 
 
-def _of_bodies(supports: Supports, planets: int) -> tuple[np.ndarray, np.ndarray]:
-    bodies = [supports.sun, supports.ring, supports.carrier, *[supports.planet] * planets]
-    return np.array([body.bearing for body in bodies]), np.array([b.clearance for b in bodies])
+def _kinds(scene: Scene) -> list[str]:
+    """Kinds of the bodies on bearings: sun, ring, carrier, planets."""
+    return [*CENTRAL, *["planet"] * scene.gearset.planets]
+
+
+def _of_bodies(scene: Scene, supports: Supports) -> tuple[np.ndarray, np.ndarray]:
+    kinds = _kinds(scene)
+    stiffness = np.array([linear_bearing(scene, kind)[0] for kind in kinds])
+    return stiffness, np.array([getattr(supports, kind).clearance for kind in kinds])
+
+
+def _rolling(scene: Scene) -> tuple[RollingBearing | None, ...]:
+    """Laws of the rolling bearings, None for the others."""
+    if scene.supports is None:
+        return ()
+    given = (getattr(scene.supports, kind).rolling for kind in _kinds(scene))
+    return tuple(rolling_bearing(rolling) if rolling else None for rolling in given)
 
 
 def _cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
@@ -256,6 +278,7 @@ def _result(
     basis: np.ndarray,
     found: Equilibrium,
     weight: np.ndarray,
+    elements: np.ndarray,
 ) -> LoadSharing:
     planets, count = scene.gearset.planets, len(turns)
     forces = found.contact_force.reshape(count, 2, 2 * planets)
@@ -275,4 +298,16 @@ def _result(
         pins,
         bearing + np.eye(3)[2][:, None] * on_carrier[:, None, place : place + 2],
         moved[:, :, :2] + (errors.axis if scene.supports is None else 0.0),
+        elements,
     )
+
+
+def _element_loads(scene: Scene, springs: Springs, found: Equilibrium) -> np.ndarray:
+    """Load of the most loaded rolling element of each bearing, (P, bearings)."""
+    loads = np.full((len(found.displacement), len(_kinds(scene))), np.nan)
+    size = np.linalg.norm(eccentricities(springs, found.displacement), axis=-1)
+    for b, kind in enumerate(_kinds(scene)):
+        support: Support | None = getattr(scene.supports, kind, None)
+        if support is not None and support.rolling is not None:
+            loads[:, b] = largest_element_load(support.rolling, support.clearance, size[:, b])
+    return loads

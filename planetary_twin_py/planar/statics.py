@@ -1,10 +1,10 @@
-"""Static equilibrium of unilateral springs, and of bearings with clearance.
+"""Static equilibrium of unilateral springs, and of bearings with clearance or rolling elements.
 
 The elastic energy of a linear structure, of flanks that can only push and of bearings with radial
-clearance is convex, so an equilibrium is a minimum of the potential energy. Newton's method with a
-line search finds it (Nocedal and Wright 2006, Numerical Optimization, algorithm 3.2). The energy
-is piecewise smooth; a step is exact once the set of touching flanks is that of the solution. All
-positions are solved together.
+clearance or rolling elements is convex, so an equilibrium is a minimum of the potential energy.
+Newton's method with a line search finds it (Nocedal and Wright 2006, Numerical Optimization,
+algorithm 3.2). The energy is piecewise smooth; a step is exact once the set of touching flanks is
+that of the solution and no bearing rolls. All positions are solved together.
 """
 
 from __future__ import annotations
@@ -12,6 +12,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+
+from .._core.axes import RollingBearing
+from ..dynamics.rolling_bearings import press
 
 MOST_STEPS = 200
 MOST_HALVINGS = 40
@@ -35,11 +38,13 @@ class Springs(NamedTuple):
     bearing: np.ndarray
     """Rows of each bearing in two directions, (bearings, 2, n)."""
     bearing_stiffness: np.ndarray
-    """Radial stiffness [N/m], (bearings,)."""
+    """Radial stiffness; of rolling bearings in the initial guess only [N/m], (bearings,)."""
     clearance: np.ndarray
     """Radial clearance [m], (bearings,)."""
     offset: np.ndarray
     """Displacement at which each bearing is centred [m], (P, bearings, 2)."""
+    rolling: tuple[RollingBearing | None, ...]
+    """Law of each rolling bearing, None of the others, (bearings,)."""
 
 
 class Equilibrium(NamedTuple):
@@ -103,14 +108,33 @@ def _contact_forces(springs: Springs, q: np.ndarray) -> np.ndarray:
 
 
 def _bearing_forces(springs: Springs, q: np.ndarray) -> np.ndarray:
-    eccentricity = _eccentricity(springs, q)
-    size = np.linalg.norm(eccentricity, axis=-1, keepdims=True)
-    pressed = np.maximum(size - springs.clearance[:, None], 0.0)
-    unit = eccentricity / np.maximum(size, SMALLEST)
-    return np.asarray(springs.bearing_stiffness[:, None] * pressed * unit)
+    eccentricity = eccentricities(springs, q)
+    size = np.linalg.norm(eccentricity, axis=-1)
+    unit = eccentricity / np.maximum(size, SMALLEST)[..., None]
+    return np.asarray(_pressed(springs, size)[1][..., None] * unit)
 
 
-def _eccentricity(springs: Springs, q: np.ndarray) -> np.ndarray:
+def _pressed(springs: Springs, size: np.ndarray) -> np.ndarray:
+    """Energy, force and stiffness of bearings along their eccentricities, (3, P, bearings)."""
+    pressed = np.maximum(size - springs.clearance, 0.0)
+    k = springs.bearing_stiffness
+    found = np.stack([0.5 * k * pressed**2, k * pressed, k * (size > springs.clearance)])
+    for b, law in enumerate(springs.rolling):
+        if law is not None:
+            found[:, :, b] = press(law, springs.clearance[b], size[:, b])
+    return found
+
+
+def eccentricities(springs: Springs, q: np.ndarray) -> np.ndarray:
+    """Displacements in the bearings from where they are centred.
+
+    Args:
+        springs: springs of the structure.
+        q: displacements [m], (P, n).
+
+    Returns:
+        The displacements in two directions [m], (P, bearings, 2).
+    """
     return np.einsum("bdn,pn->pbd", springs.bearing, q) - springs.offset
 
 
@@ -122,27 +146,24 @@ def _gradient(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 def _energy(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
     approach = np.maximum(q @ springs.contact.T - springs.gap, 0.0)
-    size = np.linalg.norm(_eccentricity(springs, q), axis=-1)
-    pressed = np.maximum(size - springs.clearance, 0.0)
+    size = np.linalg.norm(eccentricities(springs, q), axis=-1)
     total = 0.5 * np.einsum("pn,nm,pm->p", q, springs.linear, q) - np.sum(force * q, axis=1)
     total += 0.5 * np.sum(springs.contact_stiffness * approach**2, axis=1)
-    return np.asarray(total + 0.5 * (pressed**2) @ springs.bearing_stiffness)
+    return np.asarray(total + _pressed(springs, size)[0].sum(axis=1))
 
 
 def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
     """Stiffness matrix of all contacts [N/m], (P, n, n)."""
     touching = springs.contact_stiffness * (q @ springs.contact.T > springs.gap)
     matrix = springs.linear + np.einsum("pf,fn,fm->pnm", touching, springs.contact, springs.contact)
-    eccentricity = _eccentricity(springs, q)
+    eccentricity = eccentricities(springs, q)
     size = np.linalg.norm(eccentricity, axis=-1)
-    share = np.minimum(springs.clearance / np.maximum(size, SMALLEST), 1.0)
     unit = eccentricity / np.maximum(size, SMALLEST)[..., None]
-    # along the load a bearing has its stiffness, across it the part due to the indentation
-    block = (1.0 - share)[..., None, None] * np.eye(2)
-    block = block + np.where(size > springs.clearance, share, 0.0)[..., None, None] * (
-        unit[..., :, None] * unit[..., None, :]
-    )
-    block = block * springs.bearing_stiffness[:, None, None]
+    _, force, along = _pressed(springs, size)
+    # Across its load a bearing resists by the turn of its force.
+    across = np.where(size > 0.0, force / np.maximum(size, SMALLEST), along)
+    outer = unit[..., :, None] * unit[..., None, :]
+    block = across[..., None, None] * np.eye(2) + (along - across)[..., None, None] * outer
     return np.asarray(
         matrix + np.einsum("pbde,bdn,bem->pnm", block, springs.bearing, springs.bearing)
     )

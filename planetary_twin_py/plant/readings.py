@@ -25,11 +25,22 @@ class Plant:
         scene: scene that a follower knows.
         hidden: differences from the scene that it does not know.
         duration: simulated time [s].
+
+    Raises:
+        ValueError: the duration is shorter than a period of the sensors.
     """
 
     scene: Scene
     hidden: Hidden
     duration: float
+
+    def __post_init__(self) -> None:
+        period = 1.0 / self.hidden.sensors.rate
+        if not self.duration >= period:
+            raise ValueError(
+                f"duration = {self.duration!r} s: must be at least a period of the sensors, "
+                f"{period:g} s"
+            )
 
     @cached_property
     def true_scene(self) -> Scene:

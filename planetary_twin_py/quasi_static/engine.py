@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -15,25 +16,23 @@ from .._core import (
     MESH_FORCE,
     VISCOUS,
     Control,
+    Load,
     Model,
+    Oil,
     Report,
     State,
     WindowEnd,
-    first_guess,
-    kinetic,
-    roll,
-    sample_equilibria,
-    sample_equilibrium,
-    turn_to,
 )
 from ..dynamics.bodies import MOTOR
-from ..dynamics.mesh_sums import MeshSums, record_of
+from ..dynamics.library import library, record_in
+from ..dynamics.mesh_sums import MeshSums, mesh_sums, record_of
 from ..dynamics.oil import build_oil
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
 from ..integrators.clock import TICKS, delay, instant, sampling
 from ..integrators.interpolant import Samples, Waves, new_samples
+from ..planar.motion import axes_motion, joined_flanks
 from ..runaway import Limits, RunawayError
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
@@ -57,6 +56,7 @@ class QuasiStaticEngine:
     def __init__(self, scene: Scene, tolerance: float) -> None:
         check_tolerance(tolerance)
         self.scene = scene
+        self._core = library(scene)
         # Nothing vibrates, so damping has no effect.
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
@@ -72,7 +72,11 @@ class QuasiStaticEngine:
         if control.start_speed is not None:
             speeds[0] = control.start_speed
         axes = self.train.axes
-        return State(speed=speeds[:axes], set_speed=speeds[:axes])
+        return self._state(speed=speeds[:axes], set_speed=speeds[:axes])
+
+    def _state(self, **fields: Any) -> State:
+        state: State = self._core.State(**fields)
+        return state
 
     def _load(
         self, point: OperatingPoint, tolerance: float, origin: State, energy: np.ndarray
@@ -81,15 +85,16 @@ class QuasiStaticEngine:
 
         If there is no equilibrium, nothing changes.
         """
-        load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
-        model = Model(train=self.train, oil=oil, load=load)
+        load: Load = record_in(self._core, build_load(self.scene, point, self.train))
+        oil: Oil = record_in(self._core, build_oil(self.scene, point))
+        model: Model = self._core.Model(train=self.train, oil=oil, load=load)
         lean = (
             DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
         )
-        check_second_coupling(model, tolerance, lean, origin)
-        ledger = Ledger(model, tolerance, lean, origin, energy)
+        check_second_coupling(self._core, model, tolerance, lean, origin)
+        ledger = Ledger(self._core, model, tolerance, lean, origin, energy)
         self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
-        self._origin, self._run = origin.copy(), first_guess(lean)
+        self._origin, self._run = origin.copy(), self._core.first_guess(lean)
         self._both_flanks = self.control.both_flanks  # before this operating point
 
     def advance(
@@ -105,12 +110,14 @@ class QuasiStaticEngine:
         """
         samples = new_samples(self.train, room)
         at = sampling(first_sample, sample_rate)
-        sample_equilibria(self.model, self.tolerance, self._origin, self._run, at, samples)
+        self._core.sample_equilibria(
+            self.model, self.tolerance, self._origin, self._run, at, samples
+        )
         try:
             self._limits.check_squeeze(samples, self.model.load)
         except ArithmeticError as reason:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
-        roll(self.model, self._origin, instant(until))
+        self._core.roll(self.model, self._origin, instant(until))
         self.reached = Fraction(until)
         self._count()
         return samples
@@ -124,13 +131,31 @@ class QuasiStaticEngine:
             RunawayError: the teeth yield more than they can, see `runaway`.
         """
         time, rows = Fraction(until, TICKS), len(out.time)
-        shown = self.advance(time, first, rate, rows).mesh[:, :, report.mesh[: report.meshes]]
+        samples, place = self.advance(time, first, rate, rows), report.mesh[: report.meshes]
+        moving = self.scene.moving_axes
+        shown = joined_flanks(samples.mesh, place) if moving else samples.mesh[:, :, place]
         out.time[:] = np.arange(first, first + rows) / rate
         out.dte[:], out.mesh_force[:] = shown[:, DTE], shown[:, MESH_FORCE]
         out.friction[:] = shown[:, BOUNDARY] + shown[:, VISCOUS]
+        if moving:
+            self._put_axes(samples, place, out)
         self.stand(until, end)
-        end.sums = record_of(self.take_mesh_sums(time))
+        end.sums = record_of(self.take_mesh_sums(time), self._core)
         yield from ()  # all is done here: there are no jobs
+
+    def _put_axes(self, samples: Samples, place: np.ndarray, out: Waves) -> None:
+        """Fill what a waveform has of axes that move."""
+        ratio = self.train.ratio[self.train.carrier]
+        angle = 2.0 * np.pi * samples.turns @ ratio
+        if self.train.carrier < self.train.bodies:
+            angle = angle + samples.angle[:, self.train.carrier]
+        force = np.abs(samples.mesh[:, MESH_FORCE]).mean(axis=0)[place]
+        found, rows = axes_motion(self.scene, samples, place, angle, force), len(samples.turns)
+        out.displacement[:] = found.displacement.reshape(rows, -1)
+        out.bearing_force[:] = found.bearing_force.reshape(rows, -1)
+        out.orbit[:] = found.orbit.reshape(rows, -1)
+        out.flank_force[:] = found.flank_force.reshape(rows, -1)
+        out.lean[:] = samples.lean.reshape(rows, -1)
 
     def stand(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
@@ -144,9 +169,9 @@ class QuasiStaticEngine:
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
-        samples, run = new_samples(self.train, 1), first_guess(self._lean)
+        samples, run = new_samples(self.train, 1), self._core.first_guess(self._lean)
         at = instant(time)
-        sample_equilibrium(self.model, self.tolerance, self._origin, run, at, samples, 0)
+        self._core.sample_equilibrium(self.model, self.tolerance, self._origin, run, at, samples, 0)
         return samples
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
@@ -160,7 +185,7 @@ class QuasiStaticEngine:
 
     def _standing(self, time: float | Fraction) -> State:
         state = self._origin.copy()
-        turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
+        self._core.turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
         return state
 
     def take_ledger(self) -> np.ndarray:
@@ -177,7 +202,12 @@ class QuasiStaticEngine:
 
         `time` is the end of the last window.
         """
-        return self._ledger.take_mesh_sums(instant(time))
+        sums = self._ledger.take_mesh_sums(instant(time))
+        if not self.scene.moving_axes:
+            return sums
+        record = record_of(sums, self._core)
+        self._core.join_flanks(self.train, record)
+        return mesh_sums(record, int(self.train.meshes))
 
     def _count(self) -> None:
         """Update the counters of the run."""
@@ -191,5 +221,10 @@ class QuasiStaticEngine:
         return self._ledger.power(instant(self.reached))
 
     def stored(self) -> tuple[float, float]:
-        """Kinetic and elastic energy at `reached` [J]; the elastic energy is not modelled, so 0."""
-        return kinetic(self.model, self._standing(self.reached)), 0.0
+        """Kinetic energy at `reached` [J], and potential energy of the weight of the planets.
+
+        The elastic energy is not modelled.
+        """
+        standing = self._standing(self.reached)
+        lifted = self._core.weight_energy(self.train, standing)
+        return self._core.kinetic(self.model, standing), lifted

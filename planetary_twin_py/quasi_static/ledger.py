@@ -7,6 +7,7 @@ With a changing speed, a torque ripple, runout or faulty teeth, every panel is i
 from __future__ import annotations
 
 import math
+from types import ModuleType
 
 import numpy as np
 
@@ -15,21 +16,8 @@ from .._core import (
     DRIVE_SIDE,
     DTE,
     MESH_FORCE,
-    MESHES,
-    PEAKS,
-    TOTALS,
     Model,
     State,
-    add_rates,
-    cycle_shift,
-    divide_cycle,
-    first_guess,
-    follow,
-    frame_cycle,
-    frame_cycle_rate,
-    integrate,
-    settle,
-    turn_to,
 )
 from ..dynamics.bodies import MOTOR
 from ..dynamics.mesh_sums import MeshSums
@@ -44,6 +32,7 @@ class Ledger:
     """Integrals of the powers since the start, at one operating point.
 
     Args:
+        core: build of the core with the model.
         model: the train at this operating point.
         tolerance: relative error of the losses of a mesh cycle.
         lean: side of the teeth that carries the mean torque.
@@ -55,14 +44,24 @@ class Ledger:
     """
 
     def __init__(
-        self, model: Model, tolerance: float, lean: int, origin: State, energy: np.ndarray
+        self,
+        core: ModuleType,
+        model: Model,
+        tolerance: float,
+        lean: int,
+        origin: State,
+        energy: np.ndarray,
     ) -> None:
+        self._core = core
         self._model, self._tolerance, self._lean = model, tolerance, lean
         self._mark = origin.copy()
         self._taken = Instant(origin.seconds, origin.time)
-        self._totals, self._peak = np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
+        self._totals, self._peak = (
+            np.zeros(self._core.TOTALS),
+            np.zeros((self._core.PEAKS, self._core.MESHES)),
+        )
         self._totals[ENERGY] = energy
-        self._run = first_guess(lean)
+        self._run = self._core.first_guess(lean)
         self._repeated_both_flanks = 0
         self._repeats = _repeats(model)
         self._edges = self._corners(origin)
@@ -93,14 +92,14 @@ class Ledger:
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Totals (TOTALS,) and peaks (PEAKS, MESHES) from the previous call to `time`."""
-        follow(
+        self._core.follow(
             self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
             self._totals, self._peak,
         )  # fmt: skip
         left = delay(self._mark, time)
         if not self._repeats or not self._is_steady():
             return self._with(*self._integral(0.0, left))
-        rate = abs(frame_cycle_rate(self._model.train, self._mark))
+        rate = abs(self._core.frame_cycle_rate(self._model.train, self._mark))
         if rate == 0.0:
             rates, peak = self._rates(time)
             self._move(rates * left, peak, left)
@@ -138,7 +137,7 @@ class Ledger:
     def _move(self, gain: np.ndarray, peak: np.ndarray, time: float) -> None:
         """Move the mark by `time` [s] and add `gain` and `peak` to the totals."""
         self._totals, self._peak = self._with(gain, peak)
-        turn_to(self._model, self._mark, time, self._mark)
+        self._core.turn_to(self._model, self._mark, time, self._mark)
 
     def _panels(self, origin: State) -> np.ndarray:
         """Edges of panels [mesh cycles of the frame], fine enough for the target speed."""
@@ -146,13 +145,13 @@ class Ledger:
             model, state = self._model.copy(), origin.copy()
             model.load.target_speed = speed
             state.set_speed = state.speed = speed
-            rate = frame_cycle_rate(model.train, state)
+            rate = self._core.frame_cycle_rate(model.train, state)
             if rate != 0.0:
                 cycle, both_flanks = self._divide(model, state)
                 if self._repeats and self._is_steady():  # then this is the cycle that repeats
                     self._cycle, self._cycle_both_flanks = cycle, both_flanks
                 phase = cycle[0]
-                first = frame_cycle(model.train, state, 1)
+                first = self._core.frame_cycle(model.train, state, 1)
                 return np.mod(first + math.copysign(1.0, rate) * phase[:-1], 1.0)
         return self._edges
 
@@ -160,22 +159,22 @@ class Ledger:
         self, model: Model, origin: State
     ) -> tuple[tuple[np.ndarray, np.ndarray, np.ndarray], int]:
         """A mesh cycle in panels, and the number of its equilibria with both flanks in touch."""
-        rate = frame_cycle_rate(model.train, origin)
-        first = frame_cycle(model.train, origin, 1)
+        rate = self._core.frame_cycle_rate(model.train, origin)
+        first = self._core.frame_cycle(model.train, origin, 1)
         ahead = np.mod(math.copysign(1.0, rate) * (self._edges - first), 1.0)
         edges = np.unique(np.concatenate([[0.0, 1.0], ahead]))
         edges = edges[np.append(np.diff(edges) > SAME, True)]
         edges[0], edges[-1] = 0.0, 1.0
-        run = first_guess(self._lean)
-        cycle = divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
+        run = self._core.first_guess(self._lean)
+        cycle = self._core.divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
         return cycle, int(run.both_flanks)
 
     def _corners(self, origin: State) -> np.ndarray:
         """Mesh cycles of the frame at which the ramp of a tooth pair begins or ends."""
-        train, load, run = self._model.train, self._model.load, first_guess(self._lean)
-        turn_to(self._model, origin, 0.0, run.state)
-        settle(self._model, self._tolerance, run)
-        shift = cycle_shift(train, run.state.x)
+        train, load, run = self._model.train, self._model.load, self._core.first_guess(self._lean)
+        self._core.turn_to(self._model, origin, 0.0, run.state)
+        self._core.settle(self._model, self._tolerance, run)
+        shift = self._core.cycle_shift(train, run.state.x)
         reverses = load.ripple >= abs(load.torque[MOTOR])
         sides = (DRIVE_SIDE, COAST_SIDE) if reverses else (self._lean,)
         corners = []
@@ -183,9 +182,18 @@ class Ledger:
             kind = train.kind[i]
             edge = train.edge[kind, : train.segments[kind]]
             for side in sides:
+                if side not in self._sides_of(i):
+                    continue
                 late = float(train.coast_lead[kind]) if side == COAST_SIDE else 0.0
                 corners.append(side * (edge - late) + train.phase[i] - shift)
         return np.unique(np.mod(np.concatenate(corners), 1.0))
+
+    def _sides_of(self, mesh: int) -> tuple[int, ...]:
+        """Sides of the flanks that an entry of the meshes stands for."""
+        train = self._model.train
+        if int(train.moving.bearings) == 0:
+            return (DRIVE_SIDE, COAST_SIDE)
+        return (DRIVE_SIDE,) if mesh < train.meshes // 2 else (COAST_SIDE,)
 
     def _is_steady(self) -> bool:
         return bool(np.all(self._mark.set_speed == self._model.load.target_speed))
@@ -195,8 +203,8 @@ class Ledger:
 
         It starts from a new guess and changes no state.
         """
-        run = first_guess(self._lean)
-        return integrate(self._model, self._tolerance, self._mark, run, (begin, end))
+        run = self._core.first_guess(self._lean)
+        return self._core.integrate(self._model, self._tolerance, self._mark, run, (begin, end))
 
     def power(self, time: Instant) -> np.ndarray:
         """Time derivative of the ledger [W] at `time`, which is not before the mark."""
@@ -204,11 +212,15 @@ class Ledger:
 
     def _rates(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Time derivative of the totals at `time`, and the peaks at that instant."""
-        run, rates, peak = first_guess(self._lean), np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
-        turn_to(self._model, self._mark, delay(self._mark, time), run.state)
-        shown = settle(self._model, self._tolerance, run)
+        run, rates, peak = (
+            self._core.first_guess(self._lean),
+            np.zeros(self._core.TOTALS),
+            np.zeros((self._core.PEAKS, self._core.MESHES)),
+        )
+        self._core.turn_to(self._model, self._mark, delay(self._mark, time), run.state)
+        shown = self._core.settle(self._model, self._tolerance, run)
         train = self._model.train
-        add_rates(train, run.evaluation.power, shown, 1.0, rates)
+        self._core.add_rates(train, run.evaluation.power, shown, 1.0, rates)
         peak[:2, : train.meshes] = np.abs(shown[[DTE, MESH_FORCE]])
         return rates, peak
 
@@ -217,6 +229,5 @@ def _repeats(model: Model) -> bool:
     """Whether the powers of steady running depend only on the position in the mesh cycle."""
     train = model.train
     periods = [train.line_period[kind, : train.lines[kind]] for kind in range(2)]
-    return bool(
-        model.load.ripple == 0.0 and train.faults == 0 and np.all(np.concatenate(periods) == 1)
-    )
+    at_rest = model.load.ripple == 0.0 and train.moving.gravity == 0.0
+    return bool(at_rest and train.faults == 0 and np.all(np.concatenate(periods) == 1))

@@ -10,17 +10,21 @@ converges. Otherwise the teeth would jump between equilibria, which is not a qua
 from __future__ import annotations
 
 import math
+from types import ModuleType
 
-from .._core import Model, State, steepest_torque
+from .._core import Model, State
 from ..dynamics.bodies import SECOND_MOTOR
 
 MOST_FEEDBACK = 0.5  # |g dT/dc|; the rest is for runout and faults, which change T elsewhere
 
 
-def check_second_coupling(model: Model, tolerance: float, lean: int, origin: State) -> None:
+def check_second_coupling(
+    core: ModuleType, model: Model, tolerance: float, lean: int, origin: State
+) -> None:
     """Refuse a coupling of the second motor that is too soft, if there is a second motor.
 
     Args:
+        core: build of the core with the model.
         model: the train at an operating point.
         tolerance: see `settle`.
         lean: side of the teeth that carries the mean torque.
@@ -37,7 +41,7 @@ def check_second_coupling(model: Model, tolerance: float, lean: int, origin: Sta
     stiffness = float(train.coupling_stiffness[SECOND_MOTOR] * train.radius[member] ** 2)
     winding = abs(float(train.cycles[1])) / (2.0 * math.pi * stiffness)
     for speed in (model.load.target_speed, origin.set_speed):
-        feedback = winding * steepest_torque(model, tolerance, lean, origin, speed)
+        feedback = winding * core.steepest_torque(model, tolerance, lean, origin, speed)
         if feedback > MOST_FEEDBACK:
             raise ValueError(
                 f"drive.second_input.coupling_stiffness = {stiffness:g} N m/rad: too soft for "

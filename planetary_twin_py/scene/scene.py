@@ -19,7 +19,7 @@ from .lubrication import Lubrication
 from .mesh import Mesh, TipReliefs
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
-from .paths import NoSuchPath, paths, put
+from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, Section, listed, quantity
 from .supports import Supports
 
@@ -37,14 +37,18 @@ class Scene(Section):
 
     name: str = Field(description="name in recordings and pictures")
     description: str = Field("", description="description in words")
-    dynamics: Literal["torsional", "planar", "spatial", "quasi_static", "auto"] = Field(
+    dynamics: Literal[
+        "torsional", "planar", "spatial", "quasi_static", "quasi_static_planar",
+        "quasi_static_spatial", "auto",
+    ] = Field(
         "torsional",
         description="torsional: all bodies vibrate about axes that are held; planar: the axes move "
         "in the plane, too, on the bearings of `supports`; spatial: they move along themselves and "
         "tilt as well; quasi_static: the train turns rigidly and its loads are in static "
-        "equilibrium at every time; auto: the least of these that keeps to `dynamics_error` at the "
-        "operating point",
-    )
+        "equilibrium at every time, its axes are held; quasi_static_planar and "
+        "quasi_static_spatial: the same with axes that move; auto: the least of these, "
+        "quasi_static_spatial apart, that keeps to `dynamics_error` at the operating point",
+    )  # fmt: skip
     dynamics_error: float = quantity(
         "", "largest relative error of forces, DTE and loss that dynamics: auto may make", 0.02,
         gt=0.0, le=1.0,
@@ -79,7 +83,7 @@ class Scene(Section):
         yield from self._ports()
         yield from self._limits()
         yield from self._faulty_teeth()
-        yield from self._play()
+        yield from self._closed_backlash()
         yield from self._relief()
         yield from self._errors_of_planets()
         yield from self._moving_axes()
@@ -116,7 +120,7 @@ class Scene(Section):
             value = getattr(self.operating_point, name)
             reach = getattr(self.drive, _LIMITS[name]) if name in _LIMITS else math.inf
             if abs(value) > reach or not tunable.minimum <= value <= tunable.maximum:
-                why = f", drive.{_LIMITS[name]}" if name in _LIMITS else ""
+                why = f" (drive.{_LIMITS[name]})" if name in _LIMITS else ""
                 yield f"{name} = {value!r}: {self.tunables[name].range}{why}"
 
     def _faulty_teeth(self) -> Iterator[str]:
@@ -133,7 +137,7 @@ class Scene(Section):
                     "otherwise give stiffness_loss"
                 )
 
-    def _play(self) -> Iterator[str]:
+    def _closed_backlash(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
         if self.moving_axes or self.dynamics == "auto":
             return  # there both flanks have their forces, or dynamics without them is refused later
@@ -148,7 +152,7 @@ class Scene(Section):
             least = 1.005 * (closed + half) / self.mesh.flanks(1.0, angle)[0]  # rounded upwards
             yield (
                 f"backlash = {backlash!r}: must be at least {least:.3g} m, as mesh.runout closes "
-                f"the play by {2.0 * closed:.3g} m more than there is, of which the load opens "
+                f"the backlash by {2.0 * closed:.3g} m more than there is, of which the load opens "
                 f"{0.5 * opened:.3g} m: both flanks of a tooth would touch at once"
             )
 
@@ -212,12 +216,17 @@ class Scene(Section):
     @property
     def moving_axes(self) -> bool:
         """Whether the axes move in a simulation."""
-        return self.dynamics in ("planar", "spatial")
+        return self.dynamics.endswith(("planar", "spatial"))
 
     @property
     def tilting_axes(self) -> bool:
         """Whether the axes tilt and move along themselves in a simulation."""
-        return self.dynamics == "spatial"
+        return self.dynamics.endswith("spatial")
+
+    @property
+    def quasi_static(self) -> bool:
+        """Whether loads are in static equilibrium at every time of a simulation."""
+        return self.dynamics.startswith("quasi_static")
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""
@@ -269,7 +278,7 @@ class Scene(Section):
             if given.setdefault(path, name) != name:
                 errors.append(f"{path[-1]}: given twice, as {given[path]} and as {name}")
             try:
-                data = put(data, [Scene], path, value)
+                data = with_value(data, [Scene], path, value)
             except NoSuchPath as error:
                 reason = f"{error}"
                 errors.append(

@@ -3,14 +3,45 @@
 from __future__ import annotations
 
 import math
+from typing import Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from .quantity import Section, quantity
 
 
+class Rolling(Section):
+    """Rollers or balls of a bearing, whose force is that of Palmgren 1959.
+
+    The force is a mean over the positions of the cage, so it excites no vibration of its own.
+    """
+
+    rollers: int | None = Field(None, description="number of rollers", ge=3, le=1000)
+    length: float | None = quantity("m", "length over which a roller carries", None, gt=0.0, le=1.0)
+    balls: int | None = Field(None, description="number of balls", ge=3, le=1000)
+    diameter: float | None = quantity("m", "diameter of a ball", None, gt=0.0, le=1.0)
+    damping_time: float = quantity(
+        "s", "damping over stiffness, in every direction", 1.25e-5, ge=0.0, le=1e-3
+    )
+
+    @property
+    def text(self) -> str:
+        """Number and size of the elements, e.g. "14 rollers of 12 mm"."""
+        kind, size = ("rollers", self.length) if self.rollers else ("balls", self.diameter)
+        return f"{self.rollers or self.balls} {kind} of {1e3 * (size or 0.0):g} mm"
+
+    @model_validator(mode="after")
+    def _rollers_or_balls(self) -> Self:
+        rollers = self.rollers is not None and self.length is not None
+        balls = self.balls is not None and self.diameter is not None
+        given = sum(v is not None for v in (self.rollers, self.length, self.balls, self.diameter))
+        if given != 2 or not (rollers or balls):
+            raise ValueError("must have either rollers and length, or balls and diameter")
+        return self
+
+
 class Support(Section):
-    """Mass, diametral inertia and bearing stiffness of one kind of body.
+    """Mass, diametral inertia and bearing of one kind of body.
 
     r is the base radius of a gear, and the radius of the planet centres of the carrier. A member
     that floats has a stiffness of 0. The default damping is the middle of the range of Friswell,
@@ -21,7 +52,12 @@ class Support(Section):
     tilt_mass: float | None = quantity(
         "kg", "diametral inertia I/r^2; default: half of J/r^2", None, gt=0.0, le=1e7
     )
-    bearing: float = quantity("N/m", "radial bearing stiffness", ge=0.0, le=1e14)
+    bearing: float | None = quantity(
+        "N/m", "radial bearing stiffness; required without `rolling`", None, ge=0.0, le=1e14
+    )
+    rolling: Rolling | None = Field(
+        None, description="rollers or balls of the bearing, in place of `bearing` and `damping`"
+    )
     damping: float | None = quantity(
         "N s/m", "radial damping of the bearing; default: 1.25e-5 s times its stiffness", None,
         ge=0.0, le=1e10,
@@ -42,6 +78,16 @@ class Support(Section):
         "stiffness", None, ge=0.0, le=1e10,
     )  # fmt: skip
     torsion: float = quantity("N/m", "torsional stiffness: torque/angle/r^2", 0.0, ge=0.0, le=1e14)
+
+    @model_validator(mode="after")
+    def _one_radial_law(self) -> Self:
+        if self.bearing is None and self.rolling is None:
+            raise ValueError("bearing: required (0 N/m: the body floats), or rolling")
+        if self.rolling is not None:
+            for name in ("bearing", "damping"):
+                if getattr(self, name) is not None:
+                    raise ValueError(f"{name}: must be null, as rolling has its own law")
+        return self
 
     def diametral(self, rim_mass: float) -> float:
         """Diametral inertia.

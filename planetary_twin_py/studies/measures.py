@@ -16,6 +16,7 @@ from ..quantities import (
     MEMBERS,
     MESH,
     SIDES,
+    SPEED_SHARE,
     STUDIED,
     STUDIED_OF_AXES,
 )
@@ -24,6 +25,7 @@ from ..scene import Scene
 from ..twin import Twin
 from ..window import Window
 from .plan import Settings
+from .turning import speed_share
 
 Row = dict[str, float]
 
@@ -48,7 +50,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
     return row(scene, twin.advance(settings.duration))
 
 
-class Glance(NamedTuple):
+class RunSummary(NamedTuple):
     """Summary of a run over its duration and over all meshes."""
 
     power_loss: float  # tooth friction, bearings and churning, mean [W]
@@ -59,12 +61,12 @@ class Glance(NamedTuple):
     mesh_force_peak: float  # largest magnitude in any mesh [N]
 
 
-def glance(result: Result) -> Glance:
+def summary_of(result: Result) -> RunSummary:
     """Summary of a run over its duration and over all meshes."""
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
     peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}
-    return Glance(power_loss=result.mean_power_loss, **means, **peaks)
+    return RunSummary(power_loss=result.mean_power_loss, **means, **peaks)
 
 
 def row(scene: Scene, window: Window) -> Row:
@@ -78,6 +80,7 @@ def row(scene: Scene, window: Window) -> Row:
     shares = clipped_friction(scene, window)
     figures |= {f"{side}_{CLIPPED}": share for side, share in shares.items()}
     figures |= {name: float(getattr(window.course, name)) for name in COURSE}
+    figures[SPEED_SHARE] = speed_share(scene, window.mesh_frequency)
     figures[EXCESS] = balance_of_window(window).excess
     return figures if window.axes is None else figures | axes_row(window.axes)
 

@@ -12,12 +12,15 @@ def fail(message: object, code: int = 2) -> NoReturn:
     """Print `message` as one line and end the command.
 
     Args:
-        message: text, or an exception.
+        message: text, or an exception; one of the system is shown as file and reason.
         code: exit code.
 
     Raises:
         typer.Exit: always.
     """
+    if isinstance(message, OSError) and message.strerror:
+        named = () if message.filename is None else (str(message.filename),)
+        message = ": ".join((*named, message.strerror))
     _say(f"planetary-twin: {message}", "red")
     raise typer.Exit(code)
 

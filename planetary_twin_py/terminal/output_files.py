@@ -40,7 +40,10 @@ def file_ending_in(*suffixes: str) -> Callable[..., Any]:
     ) -> Target | None:
         if value is not None and Path(value).suffix not in suffixes:
             _refuse(_option(param), Path(value), f"must end in {', '.join(suffixes)}")
-        return output_file(context, param, value)
+        checked = output_file(context, param, value)
+        if value is not None and Path(value).exists() and not Path(value).is_file():
+            _refuse(_option(param), Path(value), "must be a file")  # a pipe would wait for a reader
+        return checked
 
     return check
 
@@ -52,11 +55,14 @@ def check_file(option: str, path: Path) -> None:
         option: name of the option that gives the path, e.g. "--out".
         path: a file, which may exist.
     """
-    if path.is_dir():
-        _refuse(option, path, "is a folder; name a file")
-    if path.exists() and not os.access(path, os.W_OK):
-        _refuse(option, path, "is not writable")
-    _check_folder(option, path, path.parent)
+    try:
+        if path.is_dir():
+            _refuse(option, path, "is a folder; name a file")
+        if path.exists() and not os.access(path, os.W_OK):
+            _refuse(option, path, "is not writable")
+        _check_folder(option, path, path.parent)
+    except OSError as error:  # of a name that is too long
+        _refuse(option, path, str(error.strerror))
 
 
 def check_recording(option: str, path: Path) -> None:
@@ -66,12 +72,15 @@ def check_recording(option: str, path: Path) -> None:
         option: name of the option that gives the path, e.g. "--out".
         path: a folder, whose parents are created, or one file NAME.mcap; it must not exist.
     """
-    if path.exists():
-        _refuse(option, path, "already exists; choose another name")
-    above = path.parent
-    while path.suffix != ".mcap" and not above.exists():
-        above = above.parent
-    _check_folder(option, path, above)
+    try:
+        if path.exists():
+            _refuse(option, path, "already exists; choose another name")
+        above = path.parent
+        while path.suffix != ".mcap" and not above.exists():
+            above = above.parent
+        _check_folder(option, path, above)
+    except OSError as error:  # of a name that is too long
+        _refuse(option, path, str(error.strerror))
 
 
 def _check_folder(option: str, path: Path, folder: Path) -> None:

@@ -136,3 +136,10 @@ def test_a_table_without_readings_is_refused(folder):
     table = folder / "empty.csv"
     table.write_text("time,load\n0,1\n1,2\n")
     assert "has none of the columns input_speed" in fails("follow", "paper", "--from", table)
+
+
+def test_a_stamp_after_the_year_9999_is_shown_in_seconds(folder):
+    table = folder / "late.csv"
+    rows = [f"{1e15 + n / 8},63,145,104.7" for n in range(40)]
+    table.write_text("\n".join(["time,input_torque,output_torque,input_speed", *rows]) + "\n")
+    assert "10000000000000" in cli("follow", "paper", "--from", table)

@@ -28,6 +28,13 @@ def test_a_heavy_load_has_viscous_friction_throughout(heavy):
     assert list(remarks(HEAVY, heavy, 1e-4)) == []
 
 
+def test_friction_that_drives_the_gears_is_reported():
+    printed = pt.load_scene("paper_printed")
+    run = pt.simulate(printed, 0.01)
+    assert run.efficiency > 1.0
+    assert any("friction_torque = printed" in line for line in remarks(printed, run, 1e-4))
+
+
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 def test_a_light_load_has_none_and_that_is_reported(dynamics):
     scene = LIGHT.replace(dynamics=dynamics)

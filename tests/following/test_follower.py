@@ -93,6 +93,11 @@ def test_clocks_with_different_rates_cause_remarks():
     ("arguments", "message"),
     [
         ({"scale": {"speed": 2.0}}, "scale: 'speed': must be one of input_speed"),
+        (
+            {"scale": {"input_torque": 1e300}},
+            r"scale: input_torque = 1e\+300: its magnitude must be",
+        ),
+        ({"scale": {"input_torque": 0.0}}, r"scale: input_torque = 0\.0: its magnitude must be"),
         ({"period": 0.0}, r"period = 0\.0 s: must be within"),
         ({"encoders": EncoderFormat((0, 4), 1e-4)}, "counts_per_turn = 0, 4"),
     ],
@@ -100,6 +105,25 @@ def test_clocks_with_different_rates_cause_remarks():
 def test_arguments_are_checked(arguments, message):
     with pytest.raises(ValueError, match=message):
         Follower(paper(), **arguments)
+
+
+def test_a_reading_that_no_sensor_has_counts_as_missing():
+    """Its square would overflow: an estimate of other readings must not depend on it."""
+    time = np.arange(1, 401) / 100.0
+    torque = np.full(400, 63.0)
+    torque[100:200] = np.nan
+    estimates = []
+    for value in (np.nan, np.inf, -1e300):
+        torque[100:200] = value
+        follower = Follower(paper())
+        columns = {"input_torque": torque, "output_torque": 2.31 * torque[:1].repeat(400)}
+        follower.add(Readings(time, columns | {"input_speed": np.full(400, 104.72)}))
+        follower.finish()
+        found = follower.estimate()
+        assert found.counters["missing"] == 100
+        estimates.append([(one.value, one.sd) for one in found.estimates])
+    assert np.array_equal(*estimates[:2], equal_nan=True)
+    assert np.array_equal(*estimates[1:], equal_nan=True)
 
 
 def test_unknown_channels_and_unexpected_samples_are_refused():

@@ -65,6 +65,58 @@ def test_a_table_without_a_sample_of_the_encoders_is_refused(write):
         read_encoders(write("sample,input_counts,output_counts"), 5e-5)
 
 
+@pytest.mark.parametrize("count", ["inf", "-inf", "nan", "0.5"])
+def test_counts_of_encoders_are_whole_numbers(write, count):
+    with pytest.raises(ValueError, match=rf"row 2: input_counts = {count}: must be a whole number"):
+        read_encoders(write("sample,input_counts,output_counts", "0,0,0", f"1,{count},0"), 5e-5)
+
+
+def test_a_time_whose_sample_has_no_exact_number_is_refused(write):
+    with pytest.raises(ValueError, match="time: must be multiples of 5e-05 s"):
+        read_encoders(write("time,input_counts,output_counts", "0,0,0", "1e15,0,0"), 5e-5)
+
+
+def test_a_table_of_too_many_columns_is_refused(write, tmp_path):
+    names = [f"c{n}" for n in range(3000)]
+    parquet.write_table(pa.table([[0.0]] * 3000, names), file := tmp_path / "rig.parquet")
+    for table in (write(",".join(names), ",".join(["0"] * 3000)), file):
+        with pytest.raises(ValueError, match=r"rig\..*: has 3000 columns: must be at most 2000"):
+            read_readings(table, {})
+
+
+def test_true_is_no_torque(write, tmp_path):
+    with pytest.raises(ValueError, match="input_torque: must be numbers, not true or false"):
+        read_readings(write("time,input_torque", "0,true", "1,false"), {})
+
+
+@pytest.mark.parametrize(
+    ("torque", "line"),
+    [
+        (np.full(30, 1j), "input_torque: must be a vector of real numbers"),
+        (np.full(30, 1e300), r"input_torque = 1e\+300: its magnitude must be at most 9e\+15"),
+    ],
+)
+def test_a_mat_file_has_real_numbers_that_a_sensor_can_have(tmp_path, torque, line):
+    savemat(file := tmp_path / "rig.mat", {"time": np.arange(30.0), "input_torque": torque})
+    with pytest.raises(ValueError, match=line):
+        read_course(file, SimpleNamespace(oil_temperature=343.0))
+
+
+def test_times_of_a_fleet_are_finite_and_common(write):
+    with pytest.raises(ValueError, match="time: must be a finite number in every row"):
+        read_fleet(write(HEADING, "A,0,60,-140,100", "A,inf,60,-140,100"), ("A",))
+    names = tuple(f"g{n}" for n in range(4000))
+    rows = [f"{name},{n},60,-140,100" for n, name in enumerate(names)]
+    with pytest.raises(ValueError, match="4000 rows have 4000 times of 4000 gearboxes: round"):
+        read_fleet(write(HEADING, *rows), names)
+
+
+def test_a_table_may_end_its_lines_with_carriage_returns(write):
+    rows = "\r".join(f"{n},60,-140,100" for n in range(2000))
+    table = write(f"time,input_torque,output_torque,input_speed\r{rows}")
+    assert len(read_readings(table, {}).readings.time) == 2000
+
+
 def test_a_course_with_a_gap_of_centuries_takes_the_memory_of_its_rows(write):
     rows = [f"A,{n * 10**10},60,-140,100" for n in range(20)]
     course = read_course(write(HEADING, *rows), SimpleNamespace(oil_temperature=343.0))
@@ -110,7 +162,10 @@ def test_a_mat_file_has_the_counts_of_the_same_csv_table(write, tmp_path):
     ("contents", "message"),
     [
         ({"time": [0.0, 1.0], "input_torque": [1.0, 2.0, 3.0]}, "must be a vector as long as time"),
-        ({"time": [0.0, 1.0], "input_torque": [1j, 2.0]}, "input_torque: must be real"),
+        (
+            {"time": [0.0, 1.0], "input_torque": [1j, 2.0]},
+            "input_torque: must be a vector of real numbers",
+        ),
         ({"notes": "rig 3"}, "has no vector of numbers"),
     ],
 )

@@ -53,7 +53,7 @@ def test_interpolated_samples_are_those_that_are_computed_from_the_same_step(sce
     assert engine.repeats
     for q in range(QUANTITIES):
         largest = np.nanmax(np.abs(computed.mesh[:, q]))
-        # Polynomials are tried at three places of each piece, so elsewhere they may err by more.
+        # Polynomials are tried at five places of each piece, so elsewhere they may err by more.
         allowed = 2.0 * SHARE * tolerance * largest
         assert np.nanmax(np.abs(shown.mesh[:, q] - computed.mesh[:, q])) <= allowed, q
     deflection = engine.control.deflection / engine.train.radius[: engine.train.bodies]

@@ -10,9 +10,11 @@ right angle. Nothing here comes from the package but the numbers of the scene.
 import math
 
 import numpy as np
+from planar.rolling_law import element
 from reference_model import COAST, DRIVE, OPEN, Reference
 
 BEARING_TIME = 1.25e-5  # [s] damping of a bearing over its stiffness
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)  # over the load zone of rolling elements
 
 
 class PlanarReference(Reference):
@@ -35,7 +37,8 @@ class PlanarReference(Reference):
         supports = [getattr(scene.supports, name) for name in ("sun", "ring", "carrier")]
         supports += [scene.supports.planet] * n
         self.masses = np.array([support.mass for support in supports])
-        self.bearing = np.array([support.bearing for support in supports])
+        self.bearing = np.array([support.bearing or 0.0 for support in supports])
+        self.rolling = [support.rolling for support in supports]
         self.clearance = np.array([support.clearance for support in supports])
         self.pins = np.array([scene.errors.of_planet(i)[:2] for i in range(n)])
         self.inertia[self.carrier] -= n * gears.planet_mass * self.radius**2
@@ -126,11 +129,34 @@ class PlanarReference(Reference):
     def _pull(self, force, b, r, rate, axes):
         """Pull body b back by its bearing, and push the carrier on if that is on it."""
         k, size = self.bearing[b], math.hypot(*r)
+        if self.rolling[b]:
+            self._press_on(force, b, self._roll(b, r, rate, size), axes)
+            return
         pull = -k * (r + BEARING_TIME * rate)
         if self.clearance[b] > 0.0:
             unit = r / max(size, 1e-300)
             press = k * (size - self.clearance[b] + BEARING_TIME * (unit @ rate))
             pull = -max(press, 0.0) * unit * (size > self.clearance[b])
+        self._press_on(force, b, pull, axes)
+
+    def _roll(self, b, r, rate, size):
+        """Force of rolling elements, damped in proportion to their stiffness, by differences."""
+        rolling, clearance = self.rolling[b], self.clearance[b]
+        if size <= clearance:
+            return np.zeros(2)
+        count, n, load = element(rolling)
+        end = math.acos(clearance / size)
+        angle = 0.5 * end * (NODES + 1.0)
+        part = count * load / math.pi * 0.5 * end * WEIGHTS * np.cos(angle)
+        reach = np.maximum(size * np.cos(angle) - clearance, 0.0)
+        push = (part * reach**n).sum()
+        stiffness = (part * n * reach ** (n - 1.0) * np.cos(angle)).sum()
+        unit = r / size
+        across = np.array([-unit[1], unit[0]])
+        along = max(push + BEARING_TIME * stiffness * (unit @ rate), 0.0)
+        return -along * unit - BEARING_TIME * push / size * (across @ rate) * across
+
+    def _press_on(self, force, b, pull, axes):
         force[self.at(b) : self.at(b) + 2] += pull
         if axes is not None:
             force[self.at(2) : self.at(2) + 2] -= axes.T @ pull

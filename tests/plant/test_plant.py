@@ -88,6 +88,11 @@ def test_lost_packets_and_quantisation_are_as_given():
     assert set(np.diff(np.flatnonzero(np.diff(sample) > 1)) % 200) == {0}
 
 
+def test_a_duration_without_a_reading_is_refused():
+    with pytest.raises(ValueError, match=r"duration = 1e-05 s: must be at least a period .*0.01 s"):
+        Plant(SCENE, Hidden(), 1e-5)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from power_flows import ALL_FLOWS, scene_of
+from quasi_static.steady_drive import STEADY
 from test_long_run import HOURS, columns, turns_after
 
 import planetary_twin_py as pt
@@ -24,19 +25,6 @@ ERRORS = {
     "backlash": "3 um",
 }
 WEAR = {"faults": [{"kind": "wear", "gear": "sun", "tooth": 7, "depth": "4 um"}]}
-# Stiff shafts and a heavy motor: the speed holds, and nothing but the meshes yields.
-STEADY = {
-    "mesh.damping.law": "viscous",
-    "mesh.damping.damping_ratio": 1.0,
-    "drive.speed_control.bandwidth": 50.0,
-    "drive.input.inertia": 2.0,
-    "drive.output.inertia": 5e-3,
-    **{
-        f"drive.{side}.{name}": value
-        for side in ("input", "output")
-        for name, value in (("coupling_stiffness", 1e7), ("coupling_damping", 1e3))
-    },
-}
 
 
 def closes(energy):

@@ -1,6 +1,7 @@
 """Another recorder with the QoS of rosbag2; publishes the message counts by topic.
 
-The subscriptions are those of rosbag2 on Jazzy (`Rosbag2QoS`): reliable, with a depth of 10.
+Like rosbag2 on Jazzy, it runs outside the namespace of the twin, and its subscriptions are reliable
+with a depth of 10 (`Rosbag2QoS`).
 """
 
 from __future__ import annotations
@@ -18,21 +19,21 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-NAME = "rosbag2_recorder"
-NAMESPACE = "/planetary_twin"
-COUNTS = f"{NAMESPACE}/{NAME}/counts"
+NAME = "/rosbag2_recorder"
+COUNTS = f"{NAME}/counts"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-TOPICS = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform, "joint_states": JointState}
+KINDS = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform, "joint_states": JointState}
+TOPICS = {f"/planetary_twin/{name}": kind for name, kind in KINDS.items()}
 
 
 def main() -> None:
     rclpy.init()
-    node = rclpy.create_node(NAME, namespace=NAMESPACE)
+    node = rclpy.create_node(NAME.removeprefix("/"))
     received: Counter[str] = Counter()
     counts = node.create_publisher(String, COUNTS, LATCHED)
 
     def receive(topic: str, raw: bytes) -> None:
-        received[f"{NAMESPACE}/{topic}"] += 1
+        received[topic] += 1
         counts.publish(String(data=json.dumps(received)))
 
     for topic, kind in TOPICS.items():

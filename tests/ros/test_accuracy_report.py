@@ -21,7 +21,7 @@ def test_inaccurate_intervals_are_a_warning_until_the_next_report() -> None:
         report.add(replace(window, course=window.course._replace(reversals=3)))
     bad = report.status()
     assert bad.level == DiagnosticStatus.WARN
-    assert bad.message.startswith("vibration stops gears relative to the carrier, or nearly so")
+    assert bad.message.startswith("vibration stops gears relative to the carrier, or slows")
     assert " in 6 steps: " in bad.message
     assert {item.key: item.value for item in bad.values}["reversals"] == "6"
     assert report.status().level == DiagnosticStatus.OK

@@ -56,9 +56,11 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
     assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
 
 
-def waited(monkeypatch: pytest.MonkeyPatch, listener: str) -> float:
-    """Time [s] that a twin waits for `logger` if a node with this name has subscribed."""
-    info = SimpleNamespace(node_name=listener, node_namespace=TWIN)
+def waited(
+    monkeypatch: pytest.MonkeyPatch, listener: str, namespace: str = TWIN, name: str = "logger"
+) -> float:
+    """Time [s] that a twin waits for `name` if the node `listener` has subscribed."""
+    info = SimpleNamespace(node_name=listener, node_namespace=namespace)
     publisher = SimpleNamespace(topic_name=STATES, get_subscription_count=lambda: 1)
     node = SimpleNamespace(
         publishers=[publisher],
@@ -68,7 +70,7 @@ def waited(monkeypatch: pytest.MonkeyPatch, listener: str) -> float:
     )
     clock = SimpleNamespace(now=100.0)
     monkeypatch.setattr(audience, "time", SimpleNamespace(monotonic=lambda: clock.now))
-    waiting = Audience(node, "logger")
+    waiting = Audience(node, name)
     waiting.begin()
     while not waiting.present():
         clock.now += 0.1
@@ -88,3 +90,11 @@ def test_a_subscription_of_another_node_does_not_end_the_wait(
 ) -> None:
     assert waited(monkeypatch, "rviz") > PATIENCE
     assert "has not subscribed" in capsys.readouterr().out
+
+
+def test_a_node_outside_the_namespace_is_named_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rosbag2 runs as /rosbag2_recorder, and `ros2 bag record` sets no namespace."""
+    assert waited(monkeypatch, "rosbag2_recorder", "/", "/rosbag2_recorder") < 1.0
+    assert waited(monkeypatch, "logger", "/") > PATIENCE
+    assert waited(monkeypatch, "logger", "/another/twin", f"{TWIN}/logger") > PATIENCE
+    assert waited(monkeypatch, "logger", name=f"{TWIN}/logger") < 1.0

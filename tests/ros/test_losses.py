@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.audience import full_name
 from planetary_twin.telemetry import STALL
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from planetary_twin_msgs.srv import Step
@@ -49,7 +50,8 @@ class Twin:
         parameters = (f"rate_factor:={rate}", f"wait_for:={name}", *more)
         options = [option for parameter in parameters for option in ("-p", parameter)]
         self.process = start("planetary_twin.simulation", "--ros-args", *options)
-        self.status: list[RecorderStatus] = peer.listen(RecorderStatus, f"{TWIN}/{name}/status", 1)
+        status = f"{full_name(TWIN, name)}/status"
+        self.status: list[RecorderStatus] = peer.listen(RecorderStatus, status, 1)
         self.states: list[GearboxState] = peer.listen(GearboxState, STREAMS[0], 1)
         self.reports: list[DiagnosticArray] = listen_to_reports(peer)
 
@@ -174,7 +176,7 @@ def test_another_recorder_receives_all_if_its_queue_is_long_enough(
         pass
     twin.advance(0.05)
     sent = published(twin.end())
-    expected = {f"{TWIN}/{topic}": sent[f"{TWIN}/{topic}"] for topic in TOPICS}
+    expected = {topic: sent[topic] for topic in TOPICS}
     peer.until(lambda: received and json.loads(received[-1].data) == expected)
 
 

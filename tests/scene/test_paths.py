@@ -94,7 +94,11 @@ def test_every_listed_field_has_a_valid_path():
     assert len(names) > 120
     inertia = dict.fromkeys(("sun", "planet", "ring", "carrier"), 0.01)
     other = whole.replace(**{"gearset.equivalent_mass": None, "gearset.inertia": inertia})
+    elements = {"mass": 1.0, "rolling": {"rollers": 14, "length": 0.012}}
+    rolling = whole.replace(supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), elements))
     for name in names:
         scene = other if name.startswith("gearset.inertia.") else whole
+        if ".rolling." in name:
+            scene = rolling
         _, value = look_up(scene, name)
         assert scene.replace(**{name: value}) == scene

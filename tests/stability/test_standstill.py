@@ -39,6 +39,14 @@ def test_standing_still_friction_carries_no_torque_and_takes_no_power():
     assert run.power_loss[-1].sum() < 1e-9
 
 
+@pytest.mark.parametrize("torque", [-63.0, 0.5])
+def test_standing_still_there_is_no_efficiency(torque):
+    """Work of the motors that is a rounding error of the stored energy has no losses."""
+    scene = PAPER.replace(input_speed=0.0, input_torque=torque)
+    assert np.isnan(pt.simulate(scene, 0.1).efficiency)
+    assert np.isnan(pt.Twin(scene).advance(0.1).efficiency)
+
+
 @EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_from_standstill_the_sun_follows_the_set_point(law, direction):

@@ -13,6 +13,7 @@ void bind_axes(nb::module_& core) {
     bind_records(m);
     bind_train(m);
     bind_initial_state(m);
+    bind_quasi_static(m);
     bind_integrators(m);
     bind_run(m);
     bind_ports(m);

@@ -7,6 +7,7 @@
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/unlocked.hpp"
+#include "mesh/join_flanks.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/motion.hpp"
 #include "quasi_static/planet_load.hpp"
@@ -14,6 +15,7 @@
 #include "quasi_static/sampling.hpp"
 #include "quasi_static/second_coupling.hpp"
 #include "quasi_static/totals.hpp"
+#include "train/weight.hpp"
 
 namespace gearbox {
 
@@ -160,6 +162,10 @@ void bind_quasi_static(nb::module_& m) {
         },
         nb::arg("model"), nb::arg("origin"), nb::arg("after"), nb::arg("state"),
         "Put `state` where the motors are `after` seconds after `origin`.");
+    m.def("weight_energy", &weight_energy, nb::arg("train"), nb::arg("state"),
+          "Potential energy of the weight of bodies whose axes move [J].");
+    m.def("join_flanks", &join_flanks, nb::arg("train"), nb::arg("sums"),
+          "Let both entries of every mesh have forces, films and losses of both flanks.");
     m.def(
         "roll",
         [](const Model& model, State& origin, const InstantTuple& until) {

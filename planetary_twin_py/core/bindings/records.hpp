@@ -80,6 +80,11 @@ inline void bind_records(nb::module_& m) {
         .FIELD(TiltingAxis, tilting_damping)
         .FIELD(TiltingAxis, diametral)
         .FIELD(TiltingAxis, polar);
+    record<RollingBearing>(m, "RollingBearing")
+        .FIELD(RollingBearing, strength)
+        .FIELD(RollingBearing, exponent)
+        .FIELD(RollingBearing, load_zone)
+        .FIELD(RollingBearing, damping_time);
     record<MovingAxes>(m, "MovingAxes")
         .FIELD(MovingAxes, bearings)
         .FIELD(MovingAxes, frame)
@@ -92,6 +97,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(MovingAxes, stiffness)
         .FIELD(MovingAxes, damping)
         .FIELD(MovingAxes, clearance)
+        .FIELD(MovingAxes, rolling)
         .FIELD(MovingAxes, centre)
         .FIELD(MovingAxes, arm)
         .FIELD(MovingAxes, gravity)

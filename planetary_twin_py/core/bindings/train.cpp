@@ -1,7 +1,10 @@
 // The train and its meshes for Python.
 
+#include <vector>
+
 #include <nanobind/stl/tuple.h>
 
+#include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/vectors.hpp"
@@ -233,6 +236,21 @@ void bind_equations(nb::module_& m) {
         },
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "trim"_a, "out"_a,
         "Forces on all bodies in coordinates x, `delay` seconds after the start of a step.");
+    m.def(
+        "press_rolling",
+        [](const RollingBearing& bearing, double clearance, const Vector& size) {
+            const std::size_t count = size.size();
+            std::vector<double> found(3 * count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Pressed at = press_rolling(bearing, clearance, size.data()[i]);
+                found[i] = at.energy;
+                found[count + i] = at.push;
+                found[2 * count + i] = at.stiffness;
+            }
+            return new_array(found.data(), {3, count});
+        },
+        "bearing"_a, "clearance"_a, "size"_a,
+        "Energy [J], force [N] and stiffness [N/m] of a rolling bearing per eccentricity, (3, n).");
     m.def("kinetic", &kinetic, "model"_a, "state"_a, "Kinetic energy of all bodies [J].");
     m.def(
         "stored",

@@ -192,6 +192,7 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     // error.
     const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);
     if (held_back && outdone(control, h, true, 0)) control.detour = DETOUR;
+    keep_step<L>(run);
     control.collocated = true;
     control.changed = false;
     march.end = march.begin;
@@ -200,6 +201,8 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     keep_last_forces(model, march, run.node[last], march.last);
     std::int64_t changing = end_on_flank_event<L>(model, march, h);
     finish_end<L>(model, march);
+    run.past.end_seconds = march.end.seconds;
+    run.past.end_time = march.end.time;
     return changing;
 }
 

@@ -24,6 +24,9 @@ inline constexpr double LEFT_OVER = 0.1;  // of the tolerance that a sweep not m
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
 inline constexpr double WEAKEST_MIXED_PULL = 1.5;  // the same of sweeps that are mixed
+// Pull per step length [1/s] below which it is not relied upon: that of an earlier step may have
+// been luck.
+inline constexpr double LEAST_PULL = 2e3;
 inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
 inline constexpr double TAIL = 4.0;   // by which the estimated error of the polynomial counts more
 inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors last for ever
@@ -162,7 +165,8 @@ void settle_meshes(const Model& model, March& march) {
 template <int L>
 Outcome settle_friction(const Model& model, March& march, double& known_pull) {
     Propagation& run = march.run;
-    double change = ASTRAY, tail = 0.0, pull = known_pull * run.motion.step;
+    double change = ASTRAY, tail = 0.0;
+    double pull = std::max(known_pull, LEAST_PULL) * run.motion.step;
     Mixing<L> mixing;
     for (int round = 0; round < MOST_SWEEPS; ++round) {
         double before = change;
@@ -194,7 +198,10 @@ Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
     set_step<L>(run, h);
     const bool recalled = fresh && recall<L>(march);
-    add_given<L>(model, march, 1.0, run.rest);
+    if (!fresh && continues(march))
+        extrapolate<L>(run);
+    else
+        add_given<L>(model, march, 1.0, run.rest);
     visit_nodes<L>(model, march);
     ContactState& contacts = contacts_of(run);
     if (!contacts.varies) return settle_friction<L>(model, march, contacts.pull[1]);

@@ -42,9 +42,15 @@ void add_spring(double (*matrix)[BODIES], const std::int64_t* place, const doubl
         }
 }
 
-// Bearings that move the axes; radially those with clearance are not linear, and part of the rest.
+// Bearings that move the axes. What their forces differ from linear ones is part of the rest.
 std::int64_t linear_bearings(const Train& train) {
     return MOVING ? train.moving.bearings : 0;
+}
+
+// Whether bearing b most often lets its axis float within its clearance, as that of a planet, which
+// carries the load, does not.
+bool floats(const Train& train, std::int64_t b) {
+    return train.moving.clearance[b] > 0.0 && !on_carrier(train.moving, b);
 }
 
 // K between the bodies and the ground, in coordinates of unit mass [1/s^2].
@@ -58,7 +64,7 @@ void stiffness_matrix(const Train& train, const ContactState& modes, const doubl
         add_spring(matrix, train.coupling[c], ends, 2, train.coupling_stiffness[c], scale);
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
         for (const BearingRow& row : rows_of_bearing(train, b)) {
-            if (row.radial && train.moving.clearance[b] > 0.0) continue;
+            if (row.radial && floats(train, b)) continue;
             add_spring(matrix, row.place, row.factor, row.size, row.stiffness, scale);
         }
     }
@@ -77,13 +83,13 @@ struct FormOfMode {
     }
 };
 
-// What mode m does to the bearings without clearance, which damp it.
+// What mode m does to the bearings, which damp it.
 void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
     const FormOfMode mode(train, modes.matrices, m);
     const double* form = mode.way;
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
         for (const BearingRow& row : rows_of_bearing(train, b)) {
-            if (row.radial && train.moving.clearance[b] > 0.0) continue;
+            if (row.radial && floats(train, b)) continue;
             double way = 0.0;
             for (int e = 0; e < row.size; ++e) way += row.factor[e] * form[row.place[e]];
             modes.shaft_damping[m] += row.damping * way * way;

@@ -1,5 +1,7 @@
 #include "integrators/creep.hpp"
 
+#include <cmath>
+
 #include "integrators/step_control.hpp"
 #include "train/equations.hpp"
 #include "tribology/bristles.hpp"
@@ -8,8 +10,46 @@ namespace gearbox {
 
 namespace {
 
-// Speed of a gear against the carrier, of that without vibration, below which it may come to stick.
+// Part of its speed against the carrier by which vibration slows a gear that may then come to stick.
 constexpr double STICKING = 0.5;
+// The same of gears that creep. Friction that falls with the speed feeds their vibration, which
+// grows from errors however small, until it stops them.
+constexpr double SWINGING = 0.2;
+constexpr double ROUNDING = 1e-9;  // of the speeds of two motors, in their difference
+
+// Whether vibration slows a gear against the carrier by more than a part of its rigid speed.
+bool vibration_slows(const Train& train, const double* v, const double* rigid, double part) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        std::int64_t carrier = train.body[i][2];
+        double turning = v[carrier] * train.inverse_radius[carrier];
+        for (int gear = 0; gear < 2; ++gear) {
+            std::int64_t body = train.body[i][gear];
+            double steady = rigid[body] - rigid[carrier];
+            double change = v[body] * train.inverse_radius[body] - turning;
+            if (-change * steady > part * steady * steady) return true;
+        }
+    }
+    return false;
+}
+
+// Whether friction may feed a vibration of creeping gears. It counts against the speed that they
+// shall reach: where they pass through standstill, any vibration exceeds that of the moment.
+bool creep_swings(const Model& model, const March& march) {
+    const Train& train = model.train;
+    double rigid[BODIES], rate = 0.0, size = 0.0;
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        double share = train.cycles[a] * model.load.target_speed[a];
+        rate += share;
+        size += std::fabs(share);
+    }
+    if (!(std::fabs(rate) > ROUNDING * size)) return false;  // they shall not turn
+    for (int j = 0; j < BODIES; ++j) {
+        rigid[j] = 0.0;
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            rigid[j] += train.ratio[j][a] * model.load.target_speed[a];
+    }
+    return vibration_slows(train, march.begin.v, rigid, SWINGING);
+}
 
 }  // namespace
 
@@ -29,23 +69,13 @@ void hold_or_slide(const Model& model, March& march) {
 }
 
 void avoid_reversals(const Model& model, March& march) {
-    const Train& train = model.train;
     Control& control = march.control;
-    if (control.creeping || !control.slow) return;
-    const double *rigid = march.constants.rigid, *v = march.begin.v;
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        std::int64_t carrier = train.body[i][2];
-        double turning = v[carrier] * train.inverse_radius[carrier];
-        for (int gear = 0; gear < 2; ++gear) {
-            std::int64_t body = train.body[i][gear];
-            double steady = rigid[body] - rigid[carrier];
-            double speed = steady + v[body] * train.inverse_radius[body] - turning;
-            if (speed * steady < STICKING * steady * steady) {
-                control.detour = DETOUR;
-                ++control.reversals;
-                return;
-            }
-        }
+    const double* rigid = march.constants.rigid;
+    if (control.creeping) {
+        control.reversals += creep_swings(model, march);
+    } else if (control.slow && vibration_slows(model.train, march.begin.v, rigid, STICKING)) {
+        control.detour = DETOUR;
+        ++control.reversals;
     }
 }
 

@@ -13,7 +13,7 @@ void hold_or_slide(const Model& model, March& march);
 
 // Leave steps to Rosenbrock's method for a while where vibration may reverse friction. A polynomial
 // through friction that jumps from one sense to the other is off by more than the change of its
-// nodes shows.
+// nodes shows. Vibration of creeping gears is counted only.
 void avoid_reversals(const Model& model, March& march);
 
 }  // namespace gearbox

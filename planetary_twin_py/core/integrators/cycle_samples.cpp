@@ -20,8 +20,8 @@ constexpr int TERMS_OF_TIME = 8;
 // Chebyshev's points, where interpolation errs least, and places where it errs most.
 constexpr double POINTS[TERMS_OF_TIME] = {-0.98078528, -0.83146961, -0.55557023, -0.19509032,
                                           0.19509032,  0.55557023,  0.83146961,  0.98078528};
-constexpr int TRIALS = 3;
-constexpr double TRIAL[TRIALS] = {-1.0, 0.0, 1.0};
+constexpr int TRIALS = 5;
+constexpr double TRIAL[TRIALS] = {-1.0, -0.38268343, 0.0, 0.38268343, 1.0};
 constexpr double ERROR_SHARE = 0.01;  // of the tolerance, that interpolation may add
 constexpr int MOST_COLUMNS = QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS +
                              (MOVING ? BEARINGS * (SAMPLE_AXES + SAMPLE_LEAN) : 0);

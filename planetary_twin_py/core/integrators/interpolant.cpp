@@ -5,7 +5,7 @@
 
 #include "integrators/frame.hpp"
 #include "integrators/node_forces.hpp"
-#include "train/bearings.hpp"
+#include "run/sample_axes.hpp"
 #include "train/body_speed.hpp"
 #include "train/drag.hpp"
 #include "train/observe.hpp"
@@ -48,16 +48,6 @@ void sample_bodies(const Train& train, const State& begin, const double* x, cons
         out.angle[row * out.bodies + j] = angle;
         out.speed[row * out.bodies + j] = body_speed(train, begin, v, j);
     }
-}
-
-void sample_axes(const Train& train, const State& begin, const double* x, const double* v,
-                 const Samples& out, std::int64_t row) {
-    const double turning = body_speed(train, begin, v, train.moving.frame);
-    for (std::int64_t b = 0; b < out.bearings; ++b)
-        show_bearing(train, b, turning, x, v, out.moved + (row * out.bearings + b) * SAMPLE_AXES);
-    if (!out.lean || !tilts(train)) return;
-    for (std::int64_t b = 0; b < out.bearings; ++b)
-        show_lean(train, b, turning, x, v, out.lean + (row * out.bearings + b) * SAMPLE_LEAN);
 }
 
 // Write a sample from what the meshes show and the motion of the bodies.

@@ -1,10 +1,11 @@
 #pragma once
 
-// What the last passage through a contact state says of the next.
+// How the rest of the motion grows over a step, from what earlier steps have shown.
 //
-// Meshing returns to the same contacts in every cycle. In steady running the rest of the motion
-// then grows from the start of the step as it did the last time, so it needs no further sweep. It
-// is a guess: where it is wrong, the sweeps find out.
+// Meshing returns to the same contacts in every cycle. In steady running the rest then grows from
+// the start of the step as it did the last time, so it needs no further sweep. Within a contact
+// state it grows on as it did over the step before. Either is a guess: where it is wrong, the
+// sweeps find out.
 
 #include <cmath>
 
@@ -72,6 +73,47 @@ bool recall(March& march) {
         (V(friction) + (V(past.past_rubbing[n]) - rubbing)).store(friction);
     }
     return true;
+}
+
+// Keep the rest and friction of a step that has just been accepted, for the next.
+template <int L>
+void keep_step(Propagation& run) {
+    PastStep& past = run.past;
+    past.step = run.motion.step;
+    past.nodes = run.nodes.count;
+    for (int n = 0; n < run.nodes.count; ++n) {
+        copy<L>(run.rest[n], past.rest[n]);
+        copy<L>(run.node[n].rubbing, past.rubbing[n]);
+    }
+}
+
+// Whether the step begins where the last one by collocation has ended; if so, and if the contacts
+// have not changed since, the rest grows on.
+inline bool continues(const March& march) {
+    const PastStep& past = march.run.past;
+    return past.step > 0.0 && past.nodes == march.run.nodes.count &&
+           past.end_seconds == march.begin.seconds && past.end_time == march.begin.time;
+}
+
+// Let rest and friction grow on as the polynomials of the last step do at its end, by their slopes
+// and curvatures there: higher powers would amplify what the sweeps have left.
+template <int L>
+void extrapolate(Propagation& run) {
+    const PastStep& past = run.past;
+    const double longer = run.motion.step / past.step;
+    for (int n = 0; n < run.nodes.count; ++n) {
+        const double s = run.nodes.abscissa[n] * longer;
+        Row<L> rest(run.rest[n]), rubbing(run.node[n].rubbing);
+        for (int i = 0; i < run.nodes.count; ++i) {
+            double growth = 0.0;  // of the polynomial that is 1 at node i and 0 at the others
+            for (int k = 1; k < run.nodes.count; ++k)
+                growth += run.nodes.coefficient[k][i] * (k * s + 0.5 * k * (k - 1) * s * s);
+            rest += growth * Row<L>(past.rest[i]);
+            rubbing += growth * Row<L>(past.rubbing[i]);
+        }
+        rest.store(run.rest[n]);
+        rubbing.store(run.node[n].rubbing);
+    }
 }
 
 // Keep how rest and friction grew over the first step in a contact state, but for what was given.

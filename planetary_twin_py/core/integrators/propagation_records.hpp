@@ -22,6 +22,16 @@ struct alignas(64) ModalMotion {
     alignas(64) double free[2][BODIES];        // q and q' of the free motion at the start
 };
 
+// The rest and friction at the nodes of the last step by collocation, in its modes.
+struct alignas(64) PastStep {
+    double step;               // its length, 0: none yet [s]
+    std::int64_t nodes;        // their number
+    std::int64_t end_seconds;  // when it ended, as in a State
+    double end_time;
+    alignas(64) double rest[MOST_NODES][BODIES];
+    alignas(64) double rubbing[MOST_NODES][BODIES];
+};
+
 struct alignas(64) Propagation {
     Nodes nodes;
     ContactModes known;
@@ -36,6 +46,7 @@ struct alignas(64) Propagation {
     alignas(64) double sine[5][BODIES];
     alignas(64) double end_cosine[BODIES];  // at the end of the step
     alignas(64) double end_sine[BODIES];
+    PastStep past;
     Node node[MOST_NODES];
     Node shown[MOST_INSTANTS];            // where samples lie
     alignas(64) double before_d[MESHES];  // at the last node, one sweep earlier

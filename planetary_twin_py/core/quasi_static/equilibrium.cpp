@@ -8,9 +8,9 @@
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
+#include "quasi_static/machines.hpp"
 #include "quasi_static/mesh_springs.hpp"
 #include "quasi_static/statics.hpp"
-#include "train/body_speed.hpp"
 #include "train/equations.hpp"
 #include "train/observe.hpp"
 
@@ -78,24 +78,7 @@ void check_jump(const Model& model, const Equilibrium& run) {
     }
 }
 
-// Let the machines balance the friction that has been found; book what they give.
-void book_machines(const Model& model, Equilibrium& run) {
-    balance_torques(model, run);
-    const Train& train = model.train;
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        double speed = body_speed(train, run.state, run.state.v, train.coupling[c][0]);
-        run.evaluation.power[WORK + c] = run.torque[c] * speed;
-        run.evaluation.power[IMPULSE + c] = run.torque[c];
-    }
-}
-
 }  // namespace
-
-Equilibrium first_guess(std::int64_t lean) {
-    Equilibrium run{};
-    std::fill(std::begin(run.lean), std::end(run.lean), lean);
-    return run;
-}
 
 void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
     const Train& train = model.train;
@@ -105,7 +88,7 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double (*sho
         bool free = n < FREE_PASSES;
         double shift = cycle_shift(train, state.x);
         if (free || !kept) place_springs(model, run);
-        balance_torques(model, run);
+        put_external(model, run);
         double mean = carry(model, run);
         deflect(model, run);
         observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
@@ -116,6 +99,7 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double (*sho
         bool rests = kept && (moved <= PLACE * tolerance || !free);
         if (rubs_as_before(model, run, slack) && rests) {
             check_jump(model, run);
+            put_external(model, run);
             book_machines(model, run);
             if (both_flanks_touch(model, state, run.step)) ++run.both_flanks;
             return;

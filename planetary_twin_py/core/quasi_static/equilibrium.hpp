@@ -4,10 +4,13 @@
 //
 // The motors keep their speeds, so along each rigid motion the load (and the second motor of a
 // differential) gives what friction, drag and the inertia of a changing speed leave to be given.
-// Tooth forces are those of bodies at rest in the frame that turns with the motors. Friction
-// depends on them and they on friction, by some hundredths: a few passes bring both together. All
-// laws are those of the dynamic model, applied to a state whose x squeezes every mesh by its static
-// force.
+// Tooth forces are those of bodies at rest in the frame that turns with the motors; where axes
+// move, forces of bearings, too. Friction depends on them and they on friction, by some hundredths:
+// a few passes bring both together. All laws are those of the dynamic model, applied to a state
+// whose x squeezes every mesh by its static force.
+
+#include <algorithm>
+#include <iterator>
 
 #include "quasi_static/equilibrium_record.hpp"
 #include "rooms.hpp"
@@ -22,7 +25,11 @@ constexpr int DRIVE_PLAY = 0, COAST_PLAY = 1;
 constexpr double DITHER = 0.05;
 
 // An equilibrium still to be found, the teeth on the side `lean`.
-Equilibrium first_guess(std::int64_t lean);
+inline Equilibrium first_guess(std::int64_t lean) {
+    Equilibrium run{};
+    std::fill(std::begin(run.lean), std::end(run.lean), lean);
+    return run;
+}
 
 // Bring `run`, whose frame stands where it is to be, into equilibrium; fill `shown`.
 //

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "quasi_static/motion.hpp"
+#include "run/sample_axes.hpp"
 #include "train/body_speed.hpp"
 
 namespace gearbox {
@@ -27,6 +28,7 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
         out.speed[row * out.bodies + j] = body_speed(train, state, state.v, j);
         out.angle[row * out.bodies + j] = angle;
     }
+    if constexpr (MOVING) sample_axes(train, state, state.x, state.v, out, row);
 }
 
 void sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,

@@ -1,13 +1,13 @@
 #include "quasi_static/statics.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "quasi_static/equilibrium.hpp"
+#include "quasi_static/machines.hpp"
 #include "quasi_static/planet_load.hpp"
 #include "rooms.hpp"
 #include "train/set_step_constants.hpp"
-#include "vector/math.hpp"
 
 namespace gearbox {
 
@@ -75,32 +75,12 @@ double idle_stretch(const Equilibrium& run, std::int64_t p, double w) {
 
 }  // namespace
 
-void balance_torques(const Model& model, Equilibrium& run) {
+void put_external(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
-    const Load& load = model.load;
-    std::int64_t axes = train.axes;
-    for (double& balance : run.balance) balance = 0.0;
-    for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double speeding = 0.0;
-        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.step.slew[a];
-        run.external[j] = run.evaluation.rubbing[j] - train.mass[j] * train.radius[j] * speeding;
-        for (std::int64_t a = 0; a < axes; ++a)
-            run.balance[a] += train.ratio[j][a] * train.radius[j] * run.external[j];
-    }
-    double torque = load.torque[MOTOR];
-    torque += load.ripple *
-              sin_cos(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]).sine;
-    for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
-    run.torque[MOTOR] = torque;
-    std::int64_t loaded = train.coupling[LOAD_MACHINE][0];
-    run.torque[LOAD_MACHINE] = -(torque + run.balance[0]) / train.ratio[loaded][0];
-    if (axes > 1) {
-        double taken = train.ratio[loaded][1] * run.torque[LOAD_MACHINE];
-        run.torque[SECOND_MOTOR] = -(taken + run.balance[1]);
-    }
+    std::copy_n(run.evaluation.rubbing, train.bodies, run.external);
+    balance_torques(model, run);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        run.external[machine] += run.torque[c] / train.radius[machine];
         run.external[member] += run.external[machine];
     }
 }

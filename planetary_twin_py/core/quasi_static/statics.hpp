@@ -6,7 +6,7 @@
 namespace gearbox {
 
 // Torques of the machines, and the forces on all bodies but those of the meshes.
-void balance_torques(const Model& model, Equilibrium& run);
+void put_external(const Model& model, Equilibrium& run);
 
 // Share the forces among the planets; their mean magnitude [N].
 double carry(const Model& model, Equilibrium& run);

@@ -2,17 +2,18 @@
 
 // Forces of bearings, and of a frame that turns, on the displacements of the axes.
 //
-// A bearing pulls with k (r - c) along the displacement r beyond its clearance c, and is damped;
-// it never pushes the other way. Bearings of sun, ring and carrier are at rest in the housing, so
-// their damping sees the motion against the housing. Coriolis and centripetal terms are those of
-// Lin and Parker 1999, eq. (9), but that the centripetal force of a planet across its radius acts
-// on its displacement against the pin: with that on eta itself a wound-up carrier would be pushed
-// on, and torques would not balance.
+// A bearing pulls with k (r - c) along the displacement r beyond its clearance c, or as the law of
+// rolling bearings has it, and is damped; it never pushes the other way. Bearings of sun, ring and
+// carrier are at rest in the housing, so their damping sees the motion against the housing.
+// Coriolis and centripetal terms are those of Lin and Parker 1999, eq. (9), but that the
+// centripetal force of a planet across its radius acts on its displacement against the pin: with
+// that on eta itself a wound-up carrier would be pushed on, and torques would not balance.
 
 #include <cmath>
 
 #include "rooms.hpp"
 #include "train/body_speed.hpp"
+#include "train/rolling_bearing.hpp"
 #include "train/state.hpp"
 #include "train/tilting.hpp"
 #include "train/train.hpp"
@@ -34,6 +35,14 @@ inline InPlane across_bearing(const Train& train, std::int64_t b, const double* 
             x[axes.place[b][1]] + (sine * a - cosine * c) - axes.carried[b] * x[train.carrier]};
 }
 
+// How far bearing b is from where it is centred [m].
+inline double eccentricity(const Train& train, std::int64_t b, const double* x) {
+    const InPlane r = across_bearing(train, b, x);
+    const double* centre = train.moving.centre[b];
+    const double along = r.along - centre[0], across = r.across - centre[1];
+    return std::sqrt(along * along + across * across);
+}
+
 // Add a force on what bearing b holds to `force`, and its reaction on what it is on.
 inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& pull, double* force) {
     const MovingAxes& axes = train.moving;
@@ -43,6 +52,36 @@ inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& pu
     force[axes.carrier[0]] -= cosine * pull.along - sine * pull.across;
     force[axes.carrier[1]] -= sine * pull.along + cosine * pull.across;
     force[train.carrier] -= axes.carried[b] * pull.across;
+}
+
+inline bool rolls(const MovingAxes& axes, std::int64_t b) {
+    return axes.rolling[b].strength > 0.0;
+}
+
+// Whether the force of bearing b is linear in the displacement.
+inline bool is_linear(const MovingAxes& axes, std::int64_t b) {
+    return axes.clearance[b] == 0.0 && !rolls(axes, b);
+}
+
+// What bearing b does under an eccentricity of `size` [m].
+inline Pressed press(const MovingAxes& axes, std::int64_t b, double size) {
+    if (rolls(axes, b)) return press_rolling(axes.rolling[b], axes.clearance[b], size);
+    const double k = axes.stiffness[b], pressed = size - axes.clearance[b];
+    if (!(pressed > 0.0)) return {0.0, 0.0, 0.0};
+    return {0.5 * k * pressed * pressed, k * pressed, k};
+}
+
+// Damping [N s/m] of bearing b along its eccentricity and across it. A rolling bearing is damped in
+// proportion to its stiffness in either direction.
+struct RadialDamping {
+    double along, across;
+};
+
+inline RadialDamping radial_damping(const MovingAxes& axes, std::int64_t b, const Pressed& at,
+                                    double size) {
+    if (!rolls(axes, b)) return {axes.damping[b], 0.0};
+    const double time = axes.rolling[b].damping_time;
+    return {time * at.stiffness, time * at.push / size};
 }
 
 struct BearingForce {
@@ -61,17 +100,23 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
         against.along -= turning * r.across;
         against.across += turning * r.along;
     }
-    const double k = axes.stiffness[b], c = axes.damping[b], clearance = axes.clearance[b];
-    if (clearance == 0.0) {
+    if (is_linear(axes, b)) {
+        const double k = axes.stiffness[b], c = axes.damping[b];
         InPlane damped{-c * against.along, -c * against.across};
         return {{damped.along - k * r.along, damped.across - k * r.across},
                 -(damped.along * rate.along + damped.across * rate.across)};
     }
-    double size = std::sqrt(r.along * r.along + r.across * r.across), pressed = size - clearance;
-    if (!(pressed > 0.0)) return {{0.0, 0.0}, 0.0};
-    double nx = r.along / size, ny = r.across / size;
-    double push = std::fmax(k * pressed + c * (nx * against.along + ny * against.across), 0.0);
-    return {{-push * nx, -push * ny}, (push - k * pressed) * (nx * rate.along + ny * rate.across)};
+    const double size = std::sqrt(r.along * r.along + r.across * r.across);
+    const Pressed at = press(axes, b, size);
+    if (!(at.push > 0.0)) return {{0.0, 0.0}, 0.0};
+    const RadialDamping damping = radial_damping(axes, b, at, size);
+    const double nx = r.along / size, ny = r.across / size;
+    const double pressing =
+        std::fmax(at.push + damping.along * (nx * against.along + ny * against.across), 0.0);
+    const double sideways = damping.across * (nx * against.across - ny * against.along);
+    return {{-pressing * nx + sideways * ny, -pressing * ny - sideways * nx},
+            (pressing - at.push) * (nx * rate.along + ny * rate.across) +
+                sideways * (nx * rate.across - ny * rate.along)};
 }
 
 // Displacement of what bearing b holds, without the way that the carrier turns it along, and its
@@ -147,17 +192,12 @@ inline BearingRows rows_of_bearing(const Train& train, std::int64_t b) {
 
 // Elastic energy of bearing b [J].
 inline double bearing_energy(const Train& train, std::int64_t b, const double* x) {
-    const MovingAxes& axes = train.moving;
-    InPlane r = across_bearing(train, b, x);
-    double along = r.along - axes.centre[b][0], across = r.across - axes.centre[b][1];
-    double size = std::sqrt(along * along + across * across);
-    double pressed = std::fmax(size - axes.clearance[b], 0.0);
-    return 0.5 * axes.stiffness[b] * pressed * pressed;
+    return press(train.moving, b, eccentricity(train, b, x)).energy;
 }
 
 // Whether bearing b, seen at x, is beyond its clearance.
 inline bool presses(const Train& train, std::int64_t b, const double* x) {
-    if (train.moving.clearance[b] == 0.0) return true;
+    if (is_linear(train.moving, b)) return true;
     return bearing_energy(train, b, x) > 0.0;
 }
 

@@ -63,15 +63,25 @@ void hold_body(Balance& balance, std::int64_t body) {
     balance.force[body] = 0.0;
 }
 
+// Stiffness of bearing b in any direction: at least that along its load.
+double stiffest(const Train& train, std::int64_t b, const double* x) {
+    const MovingAxes& axes = train.moving;
+    if (!rolls(axes, b)) return axes.stiffness[b];
+    return std::max(axes.stiffness[b], press(axes, b, eccentricity(train, b, x)).stiffness);
+}
+
 // Add the stiffness of the bearings, as if none had clearance: so no step leads far away, at the
 // price of more of them. And a little of its own to every coordinate: what nothing holds, such as
 // an axis that floats without load, stays where it is.
 void hold_axes(Start& start) {
     const Train& train = start.model.train;
     double (*stiffness)[BODIES] = start.balance.stiffness;
-    for (std::int64_t b = 0; b < train.moving.bearings; ++b)
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
+        const double radial = stiffest(train, b, start.state.x);
         for (const BearingRow& row : rows_of_bearing(train, b))
-            add_outer(stiffness, row.place, row.factor, row.size, row.stiffness);
+            add_outer(stiffness, row.place, row.factor, row.size,
+                      row.radial ? radial : row.stiffness);
+    }
     double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
     for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
 }

@@ -18,6 +18,7 @@
 #include <cstdint>
 
 #include "rooms.hpp"
+#include "train/rolling_bearing.hpp"
 
 namespace gearbox {
 
@@ -47,13 +48,14 @@ struct alignas(64) MovingAxes {
     double direction[BEARINGS][2];    // cosine and sine of the position of a planet; 0 in housing
     double carried[BEARINGS];         // way of a pin per x of the carrier [-]; 0 in housing
     double mass[BEARINGS];            // [kg]
-    double stiffness[BEARINGS];       // radial [N/m]
+    double stiffness[BEARINGS];       // radial [N/m]; of a rolling bearing, under nominal load
     double damping[BEARINGS];         // [N s/m]
     double clearance[BEARINGS];       // radial [m]
-    double centre[BEARINGS][2];       // displacement at which a bearing is centred [m]
-    double arm;                       // radius of the planet centres [m]
-    double gravity;                   // [m/s^2], 0 without weight
-    double downwards;                 // its direction from x of the housing [rad]
+    RollingBearing rolling[BEARINGS];
+    double centre[BEARINGS][2];         // displacement at which a bearing is centred [m]
+    double arm;                         // radius of the planet centres [m]
+    double gravity;                     // [m/s^2], 0 without weight
+    double downwards;                   // its direction from x of the housing [rad]
     std::int64_t turn_numerator[AXES];  // turns of the frame per turn of each motor, as a fraction
     std::int64_t turn_denominator[AXES];
     alignas(64) double line[MESHES][ENTRIES];  // turn of the line of action per displacement [1/m]

@@ -36,6 +36,8 @@ def read_mat(stream: BinaryIO) -> pa.Table:
     try:
         found = loadmat(file, squeeze_me=True)
     except Exception as reason:  # of many kinds, if the file is damaged
+        if isinstance(reason, OSError) and reason.errno is not None:  # of the system
+            raise
         line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
         raise MatError(f"not a MAT file of version 4 to 7.2 (save -v7): {line}") from None
     columns = {
@@ -51,5 +53,5 @@ def read_mat(stream: BinaryIO) -> pa.Table:
             raise MatError(f"{name}: must be a vector as long as {first}, {length} and not "
                            f"{len(values)}")  # fmt: skip
         if values.dtype.kind == "c":
-            raise MatError(f"{name}: must be real")
+            raise MatError(f"{name}: must be a vector of real numbers")
     return pa.table({name: np.ascontiguousarray(one) for name, one in columns.items()})

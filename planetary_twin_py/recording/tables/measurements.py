@@ -15,7 +15,7 @@ from pyarrow import csv, parquet
 
 from ...printable import one_line
 from ...scene.names import did_you_mean
-from ...units import column_to_si
+from ...units import LARGEST, column_to_si
 from .mat_file import MatError, read_mat
 
 Array = NDArray[np.float64]
@@ -25,13 +25,13 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that an import ignores, because it numbers its own messages."""
 _LONGEST_REASON = 200  # characters
-LARGEST = 2.0**53  # magnitude in SI, up to which counts are exact and sums of squares are finite
+_MOST_COLUMNS = 2000
 UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
 )
-_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
+_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\]|\(([^()]*)\))?", re.DOTALL)
 
 
 class Column(NamedTuple):
@@ -39,7 +39,7 @@ class Column(NamedTuple):
 
     heading: str
     unit: str | None
-    """In brackets in the heading; None without."""
+    """In brackets or parentheses in the heading; None without."""
     values: pa.ChunkedArray
     """(rows,)."""
 
@@ -132,6 +132,8 @@ def read_columns(path: Path) -> dict[str, Column]:
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
             raise
         raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
+    except ValueError as reason:
+        raise ValueError(f"{path}: {reason}") from None
     found: dict[str, Column] = {}
     for heading, values in zip(table.column_names, table.columns, strict=True):
         name, unit = name_and_unit(heading)
@@ -142,22 +144,26 @@ def read_columns(path: Path) -> dict[str, Column]:
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
-    """Name and unit in a heading; the unit is None without brackets.
+    """Name and unit in a heading; the unit is None without brackets or parentheses.
 
     Args:
-        heading: such as `speed [rpm]`. Every name of `TIME` is that of the time.
+        heading: such as `speed [rpm]` or `speed (rpm)`. Every name of `TIME` is that of the time,
+            also with capital letters.
     """
     parts = _HEADING.fullmatch(heading.strip())
     assert parts is not None  # the pattern matches every text
-    return TIME[0] if parts[1] in TIME else parts[1], parts[2]
+    name, in_brackets, in_parentheses = parts.groups()
+    unit = in_parentheses if in_brackets is None else in_brackets
+    return TIME[0] if name.lower() in TIME else name, unit
 
 
 def _read_csv(stream: BinaryIO) -> pa.Table:
     """Read CSV separated by commas, semicolons or tabs; decimal commas unless commas separate."""
     text = stream.read().decode()
     stream.seek(0)
-    heading, _, body = text.partition("\n")
+    heading, body = re.split(r"[\r\n]|$", text, maxsplit=1)
     separator = max(";\t,", key=heading.count)
+    _check_columns(heading.count(separator) + 1)
     commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
     decimal = "," if commas else "."
     return csv.read_csv(
@@ -167,9 +173,21 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
     )
 
 
+def _read_parquet(stream: BinaryIO) -> pa.Table:
+    file = parquet.ParquetFile(stream)
+    _check_columns(file.metadata.num_columns)
+    return file.read()
+
+
+def _check_columns(number: int) -> None:
+    """Refuse a table before its columns take memory: 10 kB each, whatever they hold."""
+    if number > _MOST_COLUMNS:
+        raise ValueError(f"has {number} columns: must be at most {_MOST_COLUMNS}")
+
+
 _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
     ".csv": _read_csv,
-    ".parquet": parquet.read_table,
+    ".parquet": _read_parquet,
     ".mat": read_mat,
 }
 SUFFIXES = tuple(_READERS)
@@ -219,6 +237,8 @@ def _stamps(dates: pa.ChunkedArray) -> NDArray[np.datetime64]:
 
 def _numbers(name: str, column: pa.ChunkedArray) -> Array:
     """Values (rows,) of a column, NaN where it is empty."""
+    if pa.types.is_boolean(column.type):
+        raise ValueError(f"{name}: must be numbers, not true or false")
     try:
         return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row

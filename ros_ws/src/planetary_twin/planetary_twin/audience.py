@@ -16,7 +16,9 @@ _POLL = 0.05  # [s]
 
 class Audience:
     """
-    Reports whether the node `name`, in the namespace of `node`, has subscribed to `node`'s topics.
+    Reports whether the node `name` has subscribed to `node`'s topics.
+
+    A name that does not start with a slash is relative to the namespace of `node`.
 
     Nodes that start together discover each other after some tenths of a second, or after three
     seconds if a discovery message of the middleware is lost. The name of a subscription's node
@@ -63,12 +65,19 @@ class Audience:
 
     def _subscriptions(self) -> tuple[int, int]:
         """Count the matched topics of `node` to which `name`, or an unknown node, subscribes."""
-        wanted = self._name, self._node.get_namespace()
+        wanted = full_name(self._node.get_namespace(), self._name)
         named = unnamed = 0
         for publisher in self._node.publishers:
             if not publisher.get_subscription_count():
                 continue
             subscribers = self._node.get_subscriptions_info_by_topic(publisher.topic_name)
-            named += any((one.node_name, one.node_namespace) == wanted for one in subscribers)
+            named += any(
+                full_name(one.node_namespace, one.node_name) == wanted for one in subscribers
+            )
             unnamed += any(one.node_name == UNKNOWN_NODE for one in subscribers)
         return named, unnamed
+
+
+def full_name(namespace: str, name: str) -> str:
+    """Return the name of a node with its namespace; a name that starts with a slash has it."""
+    return name if name.startswith("/") else f"{namespace.rstrip('/')}/{name}"

@@ -28,7 +28,9 @@ class _Polled(CallbackGroup):  # type: ignore[misc]
 
 class Backlog:
     """
-    Messages that the node `name`, in the namespace of `node`, has not recorded yet.
+    Messages that the node `name` has not recorded yet.
+
+    A name that does not start with a slash is relative to the namespace of `node`.
 
     A recorder that publishes `RecorderStatus` on `NAME/status` may lag by `room` messages per
     topic. Other recorders, and one whose last status is 20 s old, do not report what they have

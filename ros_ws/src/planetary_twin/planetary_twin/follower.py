@@ -29,6 +29,7 @@ from .follower_messages import (
 from .follower_parameters import declare_options, options_of
 from .follower_reports import Feed, Limits, statuses
 from .following import LiveFollower
+from .heap import return_large_blocks
 from .intake import Intake
 from .managed import ManagedNode, run_node
 from .messages import set_stamp
@@ -59,6 +60,7 @@ class Follower(ManagedNode):
 
     def __init__(self) -> None:
         super().__init__("follower")
+        return_large_blocks()
         declare_options(self)
         self._options = options_of(self)
         self._intake: Intake | None = None

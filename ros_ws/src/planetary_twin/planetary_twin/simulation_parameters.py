@@ -189,8 +189,8 @@ def _declare_settings(node: ParameterNode) -> None:
         node,
         "wait_for",
         "",
-        f"node that records, such as the logger: the twin starts when it has subscribed, "
-        f"after {PATIENCE:g} s at most, and waits for it above real time and in steps",
+        f"node that records, such as logger or /rosbag2_recorder: the twin starts when it has "
+        f"subscribed, after {PATIENCE:g} s at most, and waits for it above real time and in steps",
     )
     declare_fixed(node, "clock", False, "publish simulated time on /clock")
     declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "sample rate of mesh_waveform [Hz]")

@@ -1,0 +1,55 @@
+#pragma once
+
+// Torques of the machines in static equilibrium: they balance what else acts along the rigid
+// motions.
+
+#include <cstdint>
+#include <numbers>
+
+#include "quasi_static/equilibrium_record.hpp"
+#include "train/body_speed.hpp"
+#include "train/model.hpp"
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+// Add the inertia of a changing speed, and the torques of the machines, to the forces in
+// `run.external`, which are those that meshes and couplings do not have.
+inline void balance_torques(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    const Load& load = model.load;
+    std::int64_t axes = train.axes;
+    for (double& balance : run.balance) balance = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double speeding = 0.0;
+        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.step.slew[a];
+        run.external[j] -= train.mass[j] * train.radius[j] * speeding;
+        for (std::int64_t a = 0; a < axes; ++a)
+            run.balance[a] += train.ratio[j][a] * train.radius[j] * run.external[j];
+    }
+    double torque = load.torque[MOTOR];
+    torque += load.ripple *
+              sin_cos(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]).sine;
+    for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
+    run.torque[MOTOR] = torque;
+    std::int64_t loaded = train.coupling[LOAD_MACHINE][0];
+    run.torque[LOAD_MACHINE] = -(torque + run.balance[0]) / train.ratio[loaded][0];
+    if (axes > 1) {
+        double taken = train.ratio[loaded][1] * run.torque[LOAD_MACHINE];
+        run.torque[SECOND_MOTOR] = -(taken + run.balance[1]);
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        run.external[train.coupling[c][0]] += run.torque[c] / train.radius[train.coupling[c][0]];
+}
+
+// Book what the machines give in the equilibrium that has been found.
+inline void book_machines(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        double speed = body_speed(train, run.state, run.state.v, train.coupling[c][0]);
+        run.evaluation.power[WORK + c] = run.torque[c] * speed;
+        run.evaluation.power[IMPULSE + c] = run.torque[c];
+    }
+}
+
+}  // namespace gearbox

@@ -1,0 +1,296 @@
+// Static equilibrium of a train whose axes move: flanks that only push, bearings, friction.
+//
+// All forces are those of the dynamic model, on bodies at rest in the frame that turns with the
+// motors. Springs of flanks and bearings are piecewise smooth and their energy is convex, so
+// Newton's method finds the equilibrium (see planar/statics.py); friction follows pass by pass, as
+// it is some hundredths of the forces.
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "mesh/cycle.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/form_errors.hpp"
+#include "mesh/join_flanks.hpp"
+#include "mesh/slope.hpp"
+#include "quasi_static/equilibrium.hpp"
+#include "quasi_static/machines.hpp"
+#include "train/bearings.hpp"
+#include "train/equations.hpp"
+#include "train/observe.hpp"
+#include "train/set_step_constants.hpp"
+#include "vector/cholesky.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr int MOST_PASSES = 100;
+constexpr int BRISK_PASSES = 30;         // then oscillating friction is under-relaxed
+constexpr double PULLED_BACK = 0.5;      // of the force along a step, at which it is shortened
+constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
+constexpr double LOOSE = 1e-9;  // of the stiffness of a tooth pair: holds what nothing else does
+constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
+
+// What flanks and bearings without load resist in a step, of their stiffness: so that no step is
+// much longer than play and clearance, at the price of a few more of them.
+constexpr double IDLE_MESH = 1e-3, IDLE_BEARING = 1e-2;
+
+using Room = double[BODIES][BODIES];
+
+// Let every mesh in contact have the tooth pairs that are at its place in the cycle.
+void place_pairs(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    State& state = run.state;
+    const double rate = frame_cycle_rate(train, state);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const std::int64_t side = state.side[i];
+        if (side == OPEN) continue;
+        const double direction = std::copysign(1.0, static_cast<double>(side) * rate);
+        state.segment[i] =
+            find_segment(train, train.kind[i], mesh_cycle(train, state, i, side), direction);
+    }
+    set_step_constants(model, state, run.step);
+}
+
+// Let the flanks on one side touch, the bodies being where the frame has them.
+void close_side(const Model& model, Equilibrium& run, std::int64_t side) {
+    State& state = run.state;
+    std::fill(std::begin(state.x), std::end(state.x), 0.0);
+    std::fill(std::begin(run.evaluation.rubbing), std::end(run.evaluation.rubbing), 0.0);
+    for (std::int64_t i = 0; i < model.train.meshes; ++i)
+        state.side[i] = only_side(model.train, i) == side ? side : OPEN;
+}
+
+bool any_touches(const Train& train, const State& state) {
+    return std::any_of(state.side, state.side + train.meshes,
+                       [](std::int64_t side) { return side != OPEN; });
+}
+
+// Let those flanks touch that are squeezed where the bodies are; whether any of them changes.
+bool touch_flanks(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    State& state = run.state;
+    bool changes = false;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const std::int64_t only = only_side(train, i);
+        const auto side = static_cast<double>(only);
+        const double error = form_error(train, i, side, run.step.line_angle, 0.0, 0.0).length;
+        const bool touches = side * (mesh_motion(train, i, state.x) - error) > model.load.offset;
+        changes |= touches != (state.side[i] != OPEN);
+        state.side[i] = touches ? only : OPEN;
+    }
+    return changes;
+}
+
+// Find friction and drag of the forces in `run.evaluation`; the largest change of it [N].
+double rub(const Model& model, Equilibrium& run, bool midway) {
+    const Train& train = model.train;
+    Evaluation& evaluation = run.evaluation;
+    std::copy_n(evaluation.rubbing, BODIES, run.before);
+    std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
+    double push[MESHES];  // negative in the first guess, from which flanks have yet to close
+    std::copy_n(evaluation.now.push, MESHES, push);
+    for (std::int64_t i = 0; i < train.meshes; ++i) evaluation.now.push[i] = std::max(push[i], 0.0);
+    apply_friction(model, run.state, run.step, run.state.v, evaluation);
+    std::copy_n(push, MESHES, evaluation.now.push);
+    double change = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double &now = evaluation.rubbing[j], before = run.before[j];
+        change = std::max(change, std::fabs(now - before));
+        if (midway) now = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
+    }
+    return change;
+}
+
+// Forces on all bodies, the motors apart, which stay with their frame.
+void find_forces(const Model& model, Equilibrium& run, double* force) {
+    const Train& train = model.train;
+    const State& state = run.state;
+    const Evaluation& evaluation = run.evaluation;
+    double ignored[LEDGER] = {};
+    std::copy_n(evaluation.rubbing, BODIES, run.external);
+    apply_axes(train, state, run.step.rigid, 0.0, state.x, state.v, run.external, ignored);
+    balance_torques(model, run);
+    std::copy_n(run.external, BODIES, force);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const double push =
+            train.copies[i] * static_cast<double>(state.side[i]) * evaluation.now.push[i];
+        for (int j = 0; j < entries_of(train); ++j)
+            force[train.body[i][j]] -= push * train.sign[i][j];
+    }
+    if (tilts(train)) add_slope_moments(train, evaluation.now, force);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        const std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        const double pull = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] -= pull;
+        force[member] += pull;
+    }
+    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
+    force[train.bodies] = 0.0;  // the ground
+}
+
+// Rows of bearing b with its stiffness at x: along the eccentricity, and across it that by which
+// its force turns.
+BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
+    BearingRows rows = rows_of_bearing(train, b);
+    const MovingAxes& axes = train.moving;
+    if (is_linear(axes, b)) return rows;
+    InPlane r = across_bearing(train, b, x);
+    r.along -= axes.centre[b][0];
+    r.across -= axes.centre[b][1];
+    const double size = std::sqrt(r.along * r.along + r.across * r.across);
+    const Pressed at = press(axes, b, size);
+    BearingRow first = rows.row[0], second = rows.row[1];
+    const double cosine = size > 0.0 ? r.along / size : 1.0;
+    const double sine = size > 0.0 ? r.across / size : 0.0;
+    for (int e = 0; e < first.size; ++e) {
+        rows.row[0].factor[e] = cosine * first.factor[e] + sine * second.factor[e];
+        rows.row[1].factor[e] = cosine * second.factor[e] - sine * first.factor[e];
+    }
+    const double least = IDLE_BEARING * axes.stiffness[b];
+    rows.row[0].stiffness = std::max(at.stiffness, least);
+    rows.row[1].stiffness = std::max(size > 0.0 ? at.push / size : 0.0, least);
+    return rows;
+}
+
+// Stiffness of all springs at x, the motors held.
+void assemble(const Train& train, const Equilibrium& run, Room& stiffness) {
+    std::memset(stiffness, 0, sizeof stiffness);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double k = train.copies[i] * run.evaluation.now.stiffness[i];
+        if (run.state.side[i] == OPEN) {
+            if (run.state.side[other_flank(train, i)] != OPEN) continue;
+            k = IDLE_MESH * train.copies[i] * train.stiffness[train.kind[i]];
+        }
+        add_outer(stiffness, train.body[i], train.sign[i], entries_of(train), k);
+        add_slope_stiffness(train, i, k, stiffness);
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        add_outer(stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b)
+        for (const BearingRow& row : tangent_rows(train, b, run.state.x))
+            add_outer(stiffness, row.place, row.factor, row.size, row.stiffness);
+    const double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        const std::int64_t motor = train.coupling[2 * a][0];
+        for (int j = 0; j < BODIES; ++j) stiffness[motor][j] = stiffness[j][motor] = 0.0;
+        stiffness[motor][motor] = 1.0;
+    }
+}
+
+// Mean force of the meshes of one kind [N].
+double mean_force(const Train& train, const double (*shown)[MESHES]) {
+    double total = 0.0, copies = 0.0;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        total += train.copies[i] * std::fabs(shown[MESH_FORCE][i]);
+        copies += train.copies[i];
+    }
+    return FLANKS * total / copies;
+}
+
+// Largest force that is not balanced, of one of the bodies with the same motion [N].
+double largest(const Train& train, const double* force) {
+    double found = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j)
+        found = std::max(found, std::fabs(force[j]) / train.body_copies[j]);
+    return found;
+}
+
+// A step of Newton's method, and how far along it the bodies are.
+//
+// Along a line the forces of a convex energy fall. Where they have turned round and pull back by
+// more than a part of what they were, the secant finds where they vanish.
+class Line {
+public:
+    bool overshoots(const Train& train, const double* force) const {
+        return along(train, force) < -PULLED_BACK * first_;
+    }
+
+    // Aim at where the springs of `run` balance the forces.
+    void start(const Train& train, const Equilibrium& run, const double* force) {
+        alignas(64) Room stiffness;
+        assemble(train, run, stiffness);
+        factorise(stiffness, train.bodies);
+        std::copy_n(run.state.x, BODIES, from_);
+        std::copy_n(force, BODIES, way_);
+        solve(stiffness, train.bodies, way_);
+        first_ = along(train, force);
+        part_ = 1.0;
+    }
+
+    void step(const Train& train, double* x) const {
+        for (std::int64_t j = 0; j < train.bodies; ++j) x[j] = from_[j] + part_ * way_[j];
+    }
+
+    void step_back(const Train& train, const double* force, double* x) {
+        part_ *= first_ / (first_ - along(train, force));
+        step(train, x);
+    }
+
+private:
+    double along(const Train& train, const double* force) const {
+        double sum = 0.0;
+        for (std::int64_t j = 0; j < train.bodies; ++j) sum += force[j] * way_[j];
+        return sum;
+    }
+
+    alignas(64) double from_[BODIES];
+    alignas(64) double way_[BODIES];
+    double first_;  // force along the way at its start, times its length [J]
+    double part_;   // of the way
+};
+
+// Newton's method from where the bodies are; whether it ends in equilibrium.
+bool converges(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
+    const Train& train = model.train;
+    State& state = run.state;
+    alignas(64) double force[BODIES];
+    Line line;
+    place_pairs(model, run);
+    for (int n = 0; n < MOST_PASSES; ++n) {
+        const bool changes = n > 0 && touch_flanks(model, run);
+        if (n > 0) place_pairs(model, run);
+        observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
+        double slack = tolerance * std::max(mean_force(train, shown), LIGHTEST_FORCE);
+        const bool brisk = n < BRISK_PASSES;
+        if (!brisk) slack = std::max(slack, DITHER);
+        const double change = rub(model, run, !brisk);
+        find_forces(model, run, force);
+        if (n > 0 && !changes && largest(train, force) <= slack && (brisk || change <= slack)) {
+            if (!brisk) {  // friction as it is, with its losses
+                rub(model, run, false);
+                find_forces(model, run, force);
+            }
+            book_machines(model, run);
+            return true;
+        }
+        if (n > 0 && line.overshoots(train, force)) {
+            line.step_back(train, force, state.x);
+        } else {
+            line.start(train, run, force);
+            line.step(train, state.x);
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
+    if (!any_touches(model.train, run.state)) close_side(model, run, run.lean[0]);
+    if (converges(model, tolerance, run, shown)) return;
+    for (std::int64_t side : {run.lean[0], -run.lean[0]}) {
+        close_side(model, run, side);
+        if (converges(model, tolerance, run, shown)) return;
+    }
+    throw std::invalid_argument(
+        "dynamics: no static equilibrium is found, bearings or meshes cannot balance the load; "
+        "soften the entry of teeth (mesh.ramp), load the train more, or choose dynamics = "
+        "'planar'");
+}
+
+}  // namespace gearbox

@@ -1,0 +1,21 @@
+#pragma once
+
+// What bearings show in a row of samples.
+
+#include "run/samples.hpp"
+#include "train/bearings.hpp"
+#include "train/body_speed.hpp"
+
+namespace gearbox {
+
+inline void sample_axes(const Train& train, const State& begin, const double* x, const double* v,
+                        const Samples& out, std::int64_t row) {
+    const double turning = body_speed(train, begin, v, train.moving.frame);
+    for (std::int64_t b = 0; b < out.bearings; ++b)
+        show_bearing(train, b, turning, x, v, out.moved + (row * out.bearings + b) * SAMPLE_AXES);
+    if (!out.lean || !tilts(train)) return;
+    for (std::int64_t b = 0; b < out.bearings; ++b)
+        show_lean(train, b, turning, x, v, out.lean + (row * out.bearings + b) * SAMPLE_LEAN);
+}
+
+}  // namespace gearbox

@@ -1,0 +1,58 @@
+#pragma once
+
+// Radial force of a rolling bearing whose elements share its load (Palmgren 1959; Sjovall 1933).
+//
+// An element pressed together by d between both raceways carries K d^n: n = 10/9 for rollers, 3/2
+// for balls. Under an eccentricity r and a radial clearance c, the element at the angle phi from
+// the load has d = r cos(phi) - c where this is above 0. Their sum over Z elements is written as an
+// integral over phi, the mean over all positions of the cage. So the bearing has the same stiffness
+// in all directions, and its stored energy depends on r alone:
+//     U = Z K x^(n + 1) sqrt(e) E(e),   x = r - c,   e = x/(2 r),
+//     E(e) = B(1/2, n + 2)/(pi (n + 1)) F(1/2, 1/2; n + 5/2; e),
+// with the beta and the hypergeometric function, and e half the share of the diameter in the load
+// zone. The force is U' and the stiffness along the load U'': they conserve energy whatever
+// polynomial stands for E.
+
+#include <cmath>
+
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+constexpr int LOAD_ZONE_TERMS = 14;
+
+struct RollingBearing {
+    double strength;                    // Z K [N/m^n], 0 if the bearing is another one
+    double exponent;                    // n
+    double load_zone[LOAD_ZONE_TERMS];  // coefficients of E, the lowest first
+    double damping_time;                // damping over stiffness [s]
+};
+
+// What a bearing does along its eccentricity.
+struct Pressed {
+    double energy;     // [J]
+    double push;       // [N]
+    double stiffness;  // along the load [N/m]
+};
+
+// Of a rolling bearing with a radial clearance [m] under an eccentricity [m].
+inline Pressed press_rolling(const RollingBearing& bearing, double clearance, double size) {
+    const double x = size - clearance;
+    if (!(x > 0.0)) return {0.0, 0.0, 0.0};
+    const double n = bearing.exponent, e = 0.5 * x / size, open = 1.0 - 2.0 * e;
+    double zone = 0.0, slope = 0.0, half_bend = 0.0;  // E, E' and E''/2
+    for (int k = LOAD_ZONE_TERMS - 1; k >= 0; --k) {
+        half_bend = half_bend * e + slope;
+        slope = slope * e + zone;
+        zone = zone * e + bearing.load_zone[k];
+    }
+    const double by_zone = 0.5 * zone + e * slope;
+    const double push = (n + 1.0) * zone + open * by_zone;
+    const double push_slope =
+        (n + 1.0) * slope - 2.0 * by_zone + open * (1.5 * slope + 2.0 * e * half_bend);
+    const double rising = n * push + open * (0.5 * push + e * push_slope);
+    const double scale = bearing.strength * power(x, n - 1.0) * std::sqrt(e);
+    return {scale * x * x * zone, scale * x * push, scale * rising};
+}
+
+}  // namespace gearbox

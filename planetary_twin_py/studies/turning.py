@@ -1,0 +1,95 @@
+"""Runs too short for means, and gears that turn at another speed than the operating point's."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ..dynamics.bodies import rigid_ratios
+from ..gearset.kinematics import mesh_frequency
+from ..quantities import SPEED_SHARE
+from ..scene import Scene
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+ALLOWED = 0.05  # relative deviation of the mean speed
+WHOLE = 0.99  # part of a mesh cycle that counts as one: vibration delays gears by less
+STANDSTILL = 1e-6  # [Hz] of the mesh
+ADVICE = (
+    "the speed loop has not settled or yields to the meshes: exclude more with --settling, "
+    "simulate longer, or raise drive.speed_control.bandwidth"
+)
+
+
+def wanted_mesh_frequency(scene: Scene) -> float:
+    """Mesh frequency of rigid gears at the speeds of the operating point [Hz].
+
+    Args:
+        scene: the scene.
+    """
+    teeth, ratios = scene.gearset.tooth_numbers, rigid_ratios(scene)
+    point = scene.operating_point
+    inputs = point.input_speed, point.second_input_speed
+    sun, carrier = (
+        sum(float(ratio) * speed for ratio, speed in zip(ratios[member], inputs, strict=False))
+        for member in ("sun", "carrier")
+    )
+    return mesh_frequency(teeth, sun, carrier)
+
+
+def speed_share(scene: Scene, found: float) -> float:
+    """Mean mesh frequency/that of the operating point.
+
+    Args:
+        scene: the scene.
+        found: mean mesh frequency of a run of it [Hz].
+
+    Returns:
+        The ratio; NaN where the gears are to stand still, or start at a speed of their own.
+    """
+    wanted = wanted_mesh_frequency(scene)
+    runs_up = scene.drive.speed_control.start_speed is not None
+    return math.nan if runs_up or not wanted > STANDSTILL else found / wanted
+
+
+def off_speed(share: float) -> bool:
+    """Whether gears turn at another speed than asked for, by their `speed_share`."""
+    return abs(share - 1.0) > ALLOWED  # NaN is no deviation
+
+
+def turning_of_study(table: pa.Table) -> Iterator[str]:
+    """Warnings of a study about the mesh cycles and the mean speeds of its points.
+
+    Args:
+        table: from `tabulate`, with its settings.
+
+    Returns:
+        A sentence about the points with less than a mesh cycle, another about those at a mean
+        speed that is not that of their operating point.
+    """
+    settings = json.loads(table.schema.metadata[b"settings"])
+    duration = settings.get("duration", math.inf)  # a Stribeck curve has whole mesh cycles
+    rows = zip(table["mesh_frequency"].to_pylist(), table[SPEED_SHARE].to_pylist(), strict=True)
+    short, shares = [], []
+    for frequency, share in rows:
+        if share is None or math.isnan(share):
+            continue
+        if frequency * duration < WHOLE:
+            short.append(frequency * duration)
+        elif off_speed(share):
+            shares.append(share)
+    if short:
+        yield (
+            f"{len(short)} of {len(table)} points cover less than a mesh cycle, down to "
+            f"{min(short):.2g}: their means depend on where the teeth are; increase --duration"
+        )
+    if shares:
+        worst = max(shares, key=lambda share: abs(math.log(max(share, 1e-12))))
+        yield (
+            f"at {len(shares)} of {len(table)} points ({SPEED_SHARE}) the gears turn at another "
+            f"speed than that of the operating point on average, at worst {worst:.3g} times it, "
+            f"because {ADVICE}"
+        )

@@ -1,0 +1,64 @@
+"""Points of a study whose gears turn too little for means, or at another speed, are reported."""
+
+import math
+
+import pyarrow as pa
+import pytest
+from studies.small import PAPER
+
+import planetary_twin_py as pt
+from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.local import Threads
+from planetary_twin_py.studies.plan import Settings, grid
+from planetary_twin_py.studies.stribeck import stribeck
+from planetary_twin_py.studies.sweep import sweep
+from planetary_twin_py.studies.turning import speed_share, turning_of_study, wanted_mesh_frequency
+
+SPEEDS = Axis("input_speed", (0.0, pt.rpm(100.0), pt.rpm(1000.0)))
+
+
+def of_speeds(duration):
+    return sweep(grid(PAPER, [SPEEDS], Settings(duration=duration, settling=0.0)), Threads())
+
+
+def test_points_with_less_than_a_mesh_cycle_are_reported_and_standstill_is_not():
+    """500 Hz at 1000 rpm."""
+    (line,) = turning_of_study(of_speeds(0.004))
+    assert line.startswith("1 of 3 points cover less than a mesh cycle, down to 0.1")
+    assert list(turning_of_study(of_speeds(0.03))) == []
+
+
+def test_points_at_another_speed_than_asked_for_are_reported_with_the_worst():
+    table = of_speeds(0.03)
+    place = table.column_names.index("speed_share")
+    shares = table["speed_share"].to_pylist()
+    assert math.isnan(shares[0]) and shares[1:] == pytest.approx([1.0, 1.0], abs=0.05)
+    # As where friction stops one of the two.
+    found = pa.chunked_array([[math.nan, 1.04, 0.3]])
+    table = table.set_column(place, "speed_share", found)
+    (line,) = turning_of_study(table)
+    assert line.startswith("at 1 of 3 points (speed_share)") and "at worst 0.3 times it" in line
+
+
+def test_gears_that_stick_show_in_the_table_of_a_sweep():
+    """Slow gears under load stop where the mesh gets stiffer, until the loop pushes them on."""
+    scene = PAPER.replace(input_torque=150.0)
+    settings = Settings(duration=0.6, settling=0.6)
+    table = sweep(grid(scene, [Axis("input_speed", (pt.rpm(10.0),))], settings), Threads())
+    (share,), (found,) = table["speed_share"].to_pylist(), table["mesh_frequency"].to_pylist()
+    assert share == pytest.approx(found / 5.0, rel=1e-9)
+    assert abs(share - 1.0) > 0.05
+    assert any("speed_share" in line for line in turning_of_study(table))
+
+
+def test_a_run_up_has_no_share():
+    scene = PAPER.replace(**{"drive.speed_control.start_speed": 0.0})
+    assert wanted_mesh_frequency(scene) == pytest.approx(500.0)
+    assert math.isnan(speed_share(scene, 250.0))
+    assert speed_share(PAPER, 250.0) == pytest.approx(0.5)
+
+
+def test_a_stribeck_curve_has_whole_mesh_cycles_at_the_speeds_asked_for():
+    table = stribeck(PAPER, Axis("input_speed", (0.01, 1.0)), Threads(), lambda *_: None)
+    assert table["speed_share"].to_pylist() == pytest.approx([1.0, 1.0])
+    assert list(turning_of_study(table)) == []
