@@ -3,21 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from ._core import PortRanges, Train
+from ._core import PortRanges, PortStates, Train
 from .dynamics.bodies import LOAD_MACHINE, MOTOR
 from .dynamics.library import library
 from .dynamics.static_load import static_torques
 from .integrators.clock import TICKS
 from .scene import Scene
+from .scene.drive import Causality
 
-NAMES = ("input_torque", "output_torque", "input_speed", "output_speed")
+NAMES = (
+    "input_torque",
+    "output_torque",
+    "input_speed",
+    "output_speed",
+    "input_position",
+    "output_position",
+)
 """Of the values of a command."""
+SIDES = ("input", "output")
 
 
 class Command(NamedTuple):
@@ -31,6 +40,10 @@ class Command(NamedTuple):
     """Of the input shaft [rad/s]."""
     output_speed: float | None = None
     """Of the output shaft [rad/s]."""
+    input_position: float | None = None
+    """Angle that the input shaft reaches at the end of the step [rad]."""
+    output_position: float | None = None
+    """Angle that the output shaft reaches at the end of the step [rad]."""
 
     @property
     def values(self) -> dict[str, float]:
@@ -52,20 +65,52 @@ class Command(NamedTuple):
             if value is None:
                 continue
             side, quantity = name.split("_")
-            field, needed = f"drive.{side}.port", {"torque": "torque", "speed": "motion"}[quantity]
+            field, needed = f"drive.{side}.port", CAUSALITIES[quantity]
             port = getattr(scene.drive.ports, side)
             if port != needed:
                 raise ValueError(f"{name} = {value!r}: requires {field} = {needed!r}, not {port!r}")
+            if quantity == "position":
+                if not math.isfinite(value):
+                    raise ValueError(f"{name} = {value!r} rad: must be finite")
+                continue
             place = MOTOR if side == "input" else LOAD_MACHINE
-            most, unit = float(getattr(ranges, quantity)[place]), _UNITS[quantity]
+            most, unit = float(getattr(ranges, quantity)[place]), UNITS[quantity]
             if not abs(value) <= most:
                 raise ValueError(
                     f"{name} = {value!r} {unit}: must be within {-most:g} and {most:g} {unit}, "
                     f"from drive.{quantity}_limit"
                 )
 
+    def check_positions(self, states: PortStates, duration: float, ranges: PortRanges) -> None:
+        """Check that the shafts can reach the positions of this command.
 
-_UNITS = {"torque": "N m", "speed": "rad/s"}
+        Args:
+            states: present state of the ports.
+            duration: time in which the positions are reached [s].
+            ranges: from `port_ranges`.
+
+        Raises:
+            ValueError: a shaft would exceed its largest speed.
+        """
+        for side, place in zip(SIDES, (MOTOR, LOAD_MACHINE), strict=True):
+            name = f"{side}_position"
+            value = getattr(self, name)
+            if value is None:
+                continue
+            angle, most = getattr(states, f"{side}_angle"), float(ranges.speed[place])
+            if not abs(value - angle) <= most * duration:
+                raise ValueError(
+                    f"{name} = {value!r} rad: must be within {angle - most * duration:g} and "
+                    f"{angle + most * duration:g} rad, {duration:g} s from {angle:g} rad, from "
+                    "drive.speed_limit"
+                )
+
+
+NOTHING = Command()  # gives no value
+CAUSALITIES: dict[str, Causality] = {"torque": "torque", "speed": "motion", "position": "motion"}
+"""Port at which a quantity is given."""
+UNITS = {"torque": "N m", "speed": "rad/s", "position": "rad"}
+"""SI unit of a quantity."""
 
 
 def port_ranges(scene: Scene, train: Train) -> PortRanges:
@@ -81,7 +126,7 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
     drive, bodies = scene.drive, train.coupling[[MOTOR, LOAD_MACHINE], 0]
     ranges: PortRanges = library(scene).PortRanges(
         torque=drive.torque_limit * np.abs(static_torques(scene)[[MOTOR, LOAD_MACHINE]]),
-        speed=drive.speed_limit * np.abs(train.ratio[bodies, 0]),
+        speed=drive.speed_limit * np.abs(train.ratio[bodies]).sum(axis=1),
     )
     return ranges
 
@@ -90,12 +135,14 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
 class Commands:
     """A course of commands: what is given at the ports of a run, over simulated time.
 
-    With `drive.interpolation = hold`, each value acts from its time on. With `linear`, it is
-    reached at its time along a straight line from what acted before; a value at time 0 acts at
-    once. NaN, like an array that is left out, leaves the port as it is.
+    With `drive.interpolation = hold`, torques and speeds act from their time on. With `linear`,
+    they are reached at their time along a straight line from what acted before; a value at time 0
+    acts at once. A position is reached at its time, at constant speed from the time of the command
+    before it; then the shaft has the speed of the same command, or stops. NaN, like an array that
+    is left out, leaves the port as it is.
 
     Raises:
-        ValueError: times do not increase, or shapes differ.
+        ValueError: times do not increase, shapes differ, or a position is given at time 0.
     """
 
     time: np.ndarray
@@ -108,6 +155,10 @@ class Commands:
     """Of the input shaft [rad/s], (commands,)."""
     output_speed: np.ndarray | None = None
     """Of the output shaft [rad/s], (commands,)."""
+    input_position: np.ndarray | None = None
+    """Of the input shaft, an angle as in `PortStates` [rad], (commands,)."""
+    output_position: np.ndarray | None = None
+    """Of the output shaft, an angle as in `PortStates` [rad], (commands,)."""
 
     def __post_init__(self) -> None:
         time = np.asarray(self.time, dtype=float)
@@ -126,6 +177,17 @@ class Commands:
                 raise ValueError(
                     f"commands.{name}: has shape {values.shape}: must be {time.shape}, as time"
                 )
+            at_once = time.size > 0 and time[0] == 0.0 and not math.isnan(values[0])
+            if name.endswith("position") and at_once:
+                raise ValueError(
+                    f"commands.{name} = {float(values[0])!r} rad at time 0: must be NaN, because a "
+                    "position is reached at its time"
+                )
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the quantities that are given."""
+        return [name for name in NAMES if getattr(self, name) is not None]
 
     def __len__(self) -> int:
         """Number of commands."""
@@ -143,29 +205,15 @@ def _value(value: float) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-def course_of(ticks: Sequence[int], given: Sequence[Command]) -> Commands:
-    """The course of commands that were given at these times [ticks]."""
-    columns = np.array(
-        [[math.nan if value is None else value for value in command] for command in given],
-        dtype=float,
-    ).reshape(-1, len(NAMES))
-    used = {
-        name: column
-        for name, column in zip(NAMES, columns.T, strict=True)
-        if not np.isnan(column).all()
-    }
-    return Commands(np.array([tick / TICKS for tick in ticks]), **used)
-
-
 class Action(NamedTuple):
     """A command of a course that begins to act."""
 
-    ticks: int
+    begin: int
     """Time from which it acts, in ticks of the clock."""
+    end: int
+    """Time at which its positions are reached, and its values along straight lines, in ticks."""
     command: Command
     """What is given."""
-    reaching: float
-    """Time in which its values are reached along straight lines [s]; 0: at once."""
 
 
 def actions(commands: Commands, linear: bool) -> Iterator[Action]:
@@ -178,11 +226,71 @@ def actions(commands: Commands, linear: bool) -> Iterator[Action]:
     Yields:
         The actions.
     """
-    if not linear:
-        yield from (Action(ticks, command, 0.0) for ticks, command in commands)
-        return
-    before = 0
+    now, held = 0, NOTHING
     for ticks, command in commands:
-        yield Action(before, command, (ticks - before) / TICKS)
-        before = ticks
-    yield Action(before, Command(), 0.0)  # the last values stay
+        yield Action(now, ticks, command if linear else _heading_for(command, held))
+        now, held = ticks, command
+    yield Action(now, now, NOTHING if linear else _heading_for(NOTHING, held))
+
+
+def _heading_for(following: Command, held: Command) -> Command:
+    """What acts after `held` until `following`, whose positions are reached."""
+    change: dict[str, float | None] = {}
+    for side in SIDES:
+        position = change[f"{side}_position"] = getattr(following, f"{side}_position")
+        if position is not None:
+            change[f"{side}_speed"] = None
+    return held._replace(**change)
+
+
+class CommandLog:
+    """Commands of a twin, and the course that repeats them.
+
+    Args:
+        linear: whether torques and speeds are reached along straight lines, see `Commands`.
+    """
+
+    def __init__(self, linear: bool) -> None:
+        self._linear = linear
+        self._given: dict[int, Command] = {}  # by time in ticks, in order
+
+    def keep(self, begin: int, end: int, command: Command) -> None:
+        """Keep the command of a step.
+
+        Args:
+            begin: start of the step, in ticks of the clock.
+            end: end of the step, in ticks of the clock.
+            command: what was given for it.
+        """
+        if self._linear:
+            self._add(end, command)
+            return
+        values, arriving = command.values, dict[str, float]()
+        for side in SIDES:
+            if f"{side}_position" in values:
+                named = (f"{side}_position", f"{side}_speed")
+                arriving |= {name: values.pop(name) for name in named if name in values}
+        if command != NOTHING:
+            self._add(begin, Command(**values))
+        if arriving:
+            self._add(end, Command(**arriving))
+
+    def _add(self, ticks: int, command: Command) -> None:
+        before = self._given.get(ticks, NOTHING)
+        self._given[ticks] = before._replace(**command.values)
+
+    def course(self) -> Commands:
+        """Return the course of all commands."""
+        columns = np.array(
+            [
+                [math.nan if value is None else value for value in command]
+                for command in self._given.values()
+            ],
+            dtype=float,
+        ).reshape(-1, len(NAMES))
+        used = {
+            name: column
+            for name, column in zip(NAMES, columns.T, strict=True)
+            if not np.isnan(column).all()
+        }
+        return Commands(np.array([tick / TICKS for tick in self._given]), **used)

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from .commands import Command, Commands, actions
+from .commands import Action, Commands, actions
 from .driven_engine import DrivenEngine
 from .integrators.clock import TICKS
 from .integrators.interpolant import Samples
@@ -35,7 +35,7 @@ class DrivenRun:
         if not self._pending:
             return
         if not isinstance(run, DrivenEngine):
-            raise SceneError(f"dynamics = {scene.dynamics!r}: must be torsional for commands")
+            raise SceneError(f"dynamics = {scene.dynamics!r}: does not allow commands")
         for action in self._pending:
             action.command.check(scene, run.port_ranges)
 
@@ -52,19 +52,20 @@ class DrivenRun:
             The samples.
 
         Raises:
+            ValueError: a shaft cannot reach a position in time.
             RunawayError: the run exceeds physical limits.
         """
         parts, done = list[Samples](), 0
-        while self._pending and Fraction(self._pending[0].ticks, TICKS) < until:
-            ticks, command, reaching = self._pending.popleft()
-            time = Fraction(ticks, TICKS)
+        while self._pending and Fraction(self._pending[0].begin, TICKS) < until:
+            action = self._pending.popleft()
+            time = Fraction(action.begin, TICKS)
             due = min(max(math.floor(time * Fraction(sample_rate)) + 1 - first_sample, done), room)
             parts.append(self._run.advance(time, first_sample + done, sample_rate, due - done))
             done = due
-            self._give(ticks, command, reaching)
+            self._give(action)
         parts.append(self._run.advance(until, first_sample + done, sample_rate, room - done))
         return Samples(*map(np.concatenate, zip(*parts, strict=True)))
 
-    def _give(self, ticks: int, command: Command, reaching: float) -> None:
+    def _give(self, action: Action) -> None:
         assert isinstance(self._run, DrivenEngine)
-        self._run.give(command, ticks, reaching)
+        self._run.give(action.begin, action.end, action.command)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ._core import AXES, REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
-from .commands import Command, port_ranges
+from .commands import NOTHING, Command, port_ranges
 from .dynamics.speed_loop import SpeedLoopCheck
 from .dynamics.start import LoadBuilder, begin_given
 from .dynamics.train import build_train, held_axes
 from .engine import Engine
-from .integrators.clock import instant, instant_of_ticks
+from .integrators.clock import TICKS, instant, instant_of_ticks
 from .scene import OperatingPoint, Scene
 
 
@@ -51,8 +51,9 @@ class DrivenEngine(Engine):
         speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
         loads = LoadBuilder(scene, self.train)
         speed_loop.check(point)
-        shown = self._core.PortStates()
-        self._core.read_ports(self.model, self.march, instant(time), shown)
+        ticks = int(time * TICKS)
+        self.give(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
+        shown = self.port_states(ticks)
         self._cut(time)
         self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
         self._given = False
@@ -76,24 +77,45 @@ class DrivenEngine(Engine):
         self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
         return shown
 
-    def give(self, command: Command, ticks: int, reaching: float) -> None:
+    def give(self, begin: int, end: int, command: Command) -> None:
         """Apply a command from the end of the last window on.
 
         Args:
-            command: torques and speeds at the ports.
-            ticks: end of the last window, in ticks of the clock.
-            reaching: duration of the linear ramp to the new values [s]; 0: no ramp.
+            begin: end of the last window, in ticks of the clock.
+            end: time at which positions are reached, in ticks of the clock; with
+                `drive.interpolation = linear`, torques and speeds, too.
+            command: torques and motions at the ports.
 
         Raises:
+            ValueError: the ports do not accept the command; the run is unchanged.
             RunawayError: the run has been stopped, or no step is possible.
         """
         if self._failure is not None:
             raise self._failure
         try:
-            self._core.give(self.model, self.march, instant_of_ticks(ticks), *command, reaching)
+            accepted = self._core.give(
+                self.model, self.march, begin, end, *command, self._linear, self.port_ranges
+            )
         except ArithmeticError as reason:
             self._fail(reason)
+        if not accepted:
+            self.refuse(begin, end, command)
         self._shown = None
+
+    def refuse(self, begin: int, end: int, command: Command) -> None:
+        """Raise the error of a command that the ports do not accept.
+
+        Args:
+            begin: end of the last window, in ticks of the clock.
+            end: end of the step, in ticks of the clock.
+            command: torques and motions at the ports.
+
+        Raises:
+            ValueError: a value is out of range, or is not given at its port.
+        """
+        command.check(self.scene, self.port_ranges)
+        duration = (end - begin) / TICKS
+        command.check_positions(self.port_states(begin), duration, self.port_ranges)
 
     def step(
         self, begin: int, end: int, command: Command, out: PortStates, reached: WindowEnd
@@ -103,7 +125,7 @@ class DrivenEngine(Engine):
         Args:
             begin: present time, in ticks of the clock.
             end: end of the step, in ticks of the clock.
-            command: torques and speeds at the ports.
+            command: torques and motions at the ports.
             out: receives the state of the ports at the end.
             reached: receives the quantities that are compared with the limits of the run.
 

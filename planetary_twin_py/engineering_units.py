@@ -8,6 +8,19 @@ _KILO_FROM = 1e4
 """Magnitude from which a force, a torque or a power is printed in kilo."""
 _KILO = ("N", "N m", "W")
 
+_ROUNDING = 1e-11
+"""Relative error of sums of forces and displacements in 64-bit numbers."""
+
+
+def without_rounding(value: float, scale: float) -> float:
+    """The value, or 0 if it can be a rounding error of a sum.
+
+    Args:
+        value: in any unit.
+        scale: size of the terms of the sum, in the same unit.
+    """
+    return value if abs(value) > _ROUNDING * scale else 0.0
+
 
 def figure(value: float, unit: str, digits: int = 4) -> str:
     """Format a quantity in the unit that engineers use for its size.

@@ -128,9 +128,9 @@ class QualityControl:
             self._descend(late)
         elif len(self._loads) >= self._windows:
             self.load = sum(self._loads) / len(self._loads)
-            self._judge(self.load)
+            self._decide(self.load)
 
-    def _judge(self, mean: float) -> None:
+    def _decide(self, mean: float) -> None:
         """Decide by a mean load."""
         if mean > self._grant(self._rung):
             self._descend(mean)

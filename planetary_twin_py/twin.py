@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ._core import PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
-from .commands import Command, Commands, course_of
+from .commands import NOTHING, Command, CommandLog, Commands
 from .driven_engine import DrivenEngine
 from .dynamics.bodies import body_names, build_report, mesh_names
 from .dynamics.library import library
@@ -23,9 +23,6 @@ from .window_plan import Plan, check_sample_rate, samples_until, window_end
 from .window_results import WindowResults
 
 LONGEST_STEP = 1.0  # [s] of `Twin.step`, which cannot be interrupted
-
-
-NOTHING = Command()  # gives no value
 
 
 class Change(NamedTuple):
@@ -84,8 +81,8 @@ class Twin:
         self._forgetting, self._settled = Settling(scene), 0.0
         self._settling = self._forgetting.rate(scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
-        self._kept: tuple[list[int], list[Command]] | None = ([], []) if keep_commands else None
-        self._linear = scene.drive.interpolation == "linear"
+        linear = scene.drive.interpolation == "linear"
+        self._kept = CommandLog(linear) if keep_commands else None
         self._given = scene.drive.ports.given
         self._stepped = False  # since the last window, without sums of the meshes
         self._shown, self._reached = self._core.PortStates(), self._core.WindowEnd()
@@ -134,14 +131,14 @@ class Twin:
         """
         if self._kept is None:
             raise ValueError("keep_commands = False: must be True to keep commands")
-        return course_of(*self._kept)
+        return self._kept.course()
 
     @property
     def port_states(self) -> PortStates:
         """Angles, speeds and torques of the input and the output shaft at the current time.
 
         Raises:
-            ValueError: the dynamics of the scene are not torsional.
+            ValueError: the scene is quasi-static.
         """
         return self._driven().port_states(self._ticks)
 
@@ -233,13 +230,16 @@ class Twin:
         output_torque: float | None = None,
         input_speed: float | None = None,
         output_speed: float | None = None,
+        input_position: float | None = None,
+        output_position: float | None = None,
     ) -> PortStates:
         """Apply torques or motions at the ports, and simulate without waveform or statistics.
 
         Omitted arguments keep their last values. With `drive.interpolation = hold`, values act from
-        the present time on; with `linear`, they are reached at the end of the step. Positive
-        torques act on the shafts in the positive direction, so a brake on a shaft that turns
-        forwards has a negative torque.
+        the present time on; with `linear`, they are reached at the end of the step. A position is
+        reached at the end of the step at constant speed, whatever the interpolation. Then the shaft
+        has the speed that is given with the position, or stops. Positive torques act on the shafts
+        in the positive direction, so a brake on a shaft that turns forwards has a negative torque.
 
         Args:
             dt: simulated time [s], above 0 and at most 1 s.
@@ -247,6 +247,9 @@ class Twin:
             output_torque: torque on the output shaft [N m]; requires `drive.output.port = torque`.
             input_speed: speed of the input shaft [rad/s]; requires `drive.input.port = motion`.
             output_speed: speed of the output shaft [rad/s]; requires `drive.output.port = motion`.
+            input_position: angle of the input shaft, as in the returned state [rad]; requires
+                `drive.input.port = motion`.
+            output_position: angle of the output shaft [rad]; requires `drive.output.port = motion`.
 
         Returns:
             Angles, speeds and torques of the shafts at the end. It is the same object in every
@@ -259,35 +262,28 @@ class Twin:
         """
         if not 0.0 < dt <= LONGEST_STEP:
             raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
-        command = Command(input_torque, output_torque, input_speed, output_speed)
+        command = Command(
+            input_torque, output_torque, input_speed, output_speed, input_position, output_position
+        )
         begin, engine = self._ticks, self._engine
         end = begin + (round(dt * TICKS) or 1)
         if not (
             isinstance(engine, DrivenEngine)
             and engine.step(begin, end, command, self._shown, self._reached)
         ):
-            self._refuse(command)
+            self._driven().refuse(begin, end, command)
         if self._kept is not None:
-            self._keep(end if self._linear else begin, command)
+            self._kept.keep(begin, end, command)
         self._ticks, self._stepped = end, True
         return self._shown
-
-    def _refuse(self, command: Command) -> None:
-        """Raise the error of a command that the ports do not accept."""
-        engine = self._driven()
-        command.check(engine.scene, engine.port_ranges)
 
     def _driven(self) -> DrivenEngine:
         """The engine, if its ports can be given."""
         if not isinstance(self._engine, DrivenEngine):
-            raise SceneError(f"dynamics = {self.scene.dynamics!r}: must be torsional for ports")
+            raise SceneError(
+                f"dynamics = {self.scene.dynamics!r}: does not allow commands at ports"
+            )
         return self._engine
-
-    def _keep(self, ticks: int, command: Command) -> None:
-        assert self._kept is not None
-        if any(value is not None for value in command) or self._linear:
-            self._kept[0].append(ticks)
-            self._kept[1].append(command)
 
     def _end_steps(self) -> None:
         """Begin a window after steps, which have no sums of the meshes."""
@@ -304,6 +300,8 @@ class Twin:
         output_torque: float | None = None,
         input_speed: float | None = None,
         output_speed: float | None = None,
+        input_position: float | None = None,
+        output_position: float | None = None,
     ) -> Window:
         """Simulate one window.
 
@@ -314,6 +312,8 @@ class Twin:
             output_torque: torque on the output shaft [N m].
             input_speed: speed of the input shaft [rad/s].
             output_speed: speed of the output shaft [rad/s].
+            input_position: angle of the input shaft at the end of the window [rad].
+            output_position: angle of the output shaft at the end of the window [rad].
 
         Returns:
             Statistics and waveform of the window.
@@ -323,7 +323,9 @@ class Twin:
                 nothing has changed.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
-        command = Command(input_torque, output_torque, input_speed, output_speed)
+        command = Command(
+            input_torque, output_torque, input_speed, output_speed, input_position, output_position
+        )
         plan = self._plan(duration)
         self._begin(plan, command)
         if command != NOTHING:
@@ -339,12 +341,9 @@ class Twin:
 
     def _give(self, command: Command, end: int) -> None:
         """Apply a command from the present time to `end` [ticks]."""
-        engine = self._driven()
-        command.check(engine.scene, engine.port_ranges)
-        reaching = (end - self._ticks) / TICKS if self._linear else 0.0
-        engine.give(command, self._ticks, reaching)
+        self._driven().give(self._ticks, end, command)
         if self._kept is not None:
-            self._keep(end if self._linear else self._ticks, command)
+            self._kept.keep(self._ticks, end, command)
 
     def _jobs(self, plan: Plan) -> WindowJobs:
         """Jobs of the core for a window."""

@@ -41,8 +41,8 @@ def rig_lost_motion() -> Iterator[Row]:
         f"{math.degrees(predicted):.3f} deg from a backlash of {1e3 * backlash:.3f} mm, which "
         "gives the range of the first half",
         verdict(abs(predicted / second - 1.0) < 0.1),
-        "bound: 10 %. One figure of one test: it shows that the play is the same ten seconds "
-        "later.",
+        "bound: 10 %. One figure of one test: it shows that the lost motion is the same ten "
+        "seconds later.",
     )
     whole = lost_motion_in(0.0, 1.0)
     backlash = scene.operating_point.backlash
@@ -61,8 +61,8 @@ def rig_lost_motion() -> Iterator[Row]:
         f"{math.degrees(_play(scene)):.3f} deg",
         MISSES,
         "the published range is the distance of the two outermost of 6492 readings. Most readings "
-        "are closer together: the play varies over the turn, or teeth do not reach the flank. The "
-        "twin has one backlash for all teeth.",
+        "are closer together: the lost motion varies over the turn, or teeth do not reach the "
+        "flank. The twin has one backlash for all teeth.",
     )
 
 

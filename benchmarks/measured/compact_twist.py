@@ -12,7 +12,7 @@ from .compact_readings import RIG
 
 RATIO = 7.2
 STIFFNESS_SPAN = 10.0  # [N m] from which to the largest torque slopes are taken
-BINS = 40  # of the play, for the places where the output rests
+BINS = 40  # of the lost motion, for the places where the output rests
 
 
 class TwistLoop(NamedTuple):

@@ -1,36 +1,49 @@
-"""Signal of a sensor on a gearbox, with the angles of a scene at constant speed."""
+"""Signal of a sensor on a gearbox, with the angle of its shaft."""
 
 from __future__ import annotations
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from ..dynamics.bodies import rigid_ratios
 from ..recording.tables.sensor import Sensor
 from ..scene import Scene
-from .signals import Signal
+from .signals import Array, Signal
 
 
 def sensor_signal(sensor: Sensor, scene: Scene | None) -> Signal:
     """Signal of a sensor.
 
     Args:
-        sensor: uniformly spaced samples.
+        sensor: uniformly spaced samples. A measured speed is that of the input shaft, and replaces
+            that of the scene.
         scene: gears and speeds of the gearbox, which define mesh frequency and orders; None if they
             are unknown.
 
     Returns:
-        The signal; without a scene its angle is zero.
+        The signal. Its angle is that of the sun relative to the carrier; without a scene that of
+        the shaft whose speed is measured, or zero.
     """
-    speed = 0.0 if scene is None else _relative_sun_speed(scene)
-    angle = speed * (sensor.time - sensor.time[:1])
+    speed = np.zeros(len(sensor.time))
+    if sensor.speed is not None:
+        speed = sensor.speed
+    elif scene is not None:
+        speed += scene.operating_point.input_speed
+    if scene is not None:
+        speed = _relative_sun_speed(scene, speed)
+    angle = cumulative_trapezoid(speed, sensor.time, initial=0).astype(np.float64)
     text = None if scene is None else scene.model_dump_json()
     return Signal(sensor.samples, sensor.time, angle, text)
 
 
-def _relative_sun_speed(scene: Scene) -> float:
-    """Speed [rad/s] of the sun relative to the carrier at the operating point."""
-    ratios, point = rigid_ratios(scene), scene.operating_point
+def _relative_sun_speed(scene: Scene, input_speed: Array) -> Array:
+    """Speed of the sun relative to the carrier [rad/s], (n,).
+
+    Args:
+        scene: gears, and the speed of a second input.
+        input_speed: of the input shaft [rad/s], (n,).
+    """
+    ratios, second = rigid_ratios(scene), scene.operating_point.second_input_speed
     pairs = zip(ratios["sun"], ratios["carrier"], strict=True)
-    per_input = np.array([float(sun - carrier) for sun, carrier in pairs])
-    inputs = (point.input_speed, point.second_input_speed)[: len(per_input)]
-    return float(per_input @ inputs)
+    of_input, *of_second = (float(sun - carrier) for sun, carrier in pairs)
+    return of_input * input_speed + sum(of_second) * second

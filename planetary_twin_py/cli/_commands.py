@@ -59,7 +59,7 @@ class Commands(Mapping[str, Any]):
     def __init__(self) -> None:
         package = importlib.import_module(__package__)
         own = {
-            module.name.rstrip("_").replace("_", "-"): partial(_own, module.name)
+            _command_name(module.name): partial(_own, module.name)
             for module in pkgutil.iter_modules(package.__path__)
             if not module.name.startswith("_")
         }
@@ -76,10 +76,15 @@ class Commands(Mapping[str, Any]):
         return len(self._loaders)
 
 
+def _command_name(module: str) -> str:
+    """Name of the command of a module."""
+    return module.rstrip("_").replace("_", "-")
+
+
 def _own(name: str) -> Any:
     module = importlib.import_module(f"{__package__}.{name}")
     # `import` is a keyword, so the file and the function are named `import_`.
-    return _as_click(name.rstrip("_"), getattr(module, name), getattr(module, "CONTEXT", None))
+    return _as_click(_command_name(name), getattr(module, name), getattr(module, "CONTEXT", None))
 
 
 def _added(entry: EntryPoint) -> Any:

@@ -57,7 +57,7 @@ def view_live(
         view = LiveView(namespace, open_stream, chosen)
         try:
             for records in follow.load()(namespace, duration):
-                view.take(records)
+                view.add(records)
                 if closed():
                     return
         finally:

@@ -63,7 +63,7 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span:
     return found
 
 
-def put(
+def write_results(
     table: pa.Table,
     out: Path,
     x: str | None = None,

@@ -12,7 +12,7 @@ from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import TABLES, axis, check_suffix, progress, put
+from ._study import TABLES, axis, check_suffix, progress, write_results
 
 
 def bifurcation(
@@ -63,7 +63,7 @@ def bifurcation(
                     remark(failure)
 
             table = run(loaded, speeds.values, dwell, report)
-        put(table, out)
+        write_results(table, out)
     except (ValueError, OSError) as error:
         fail(error)
     runs = table.filter(pc.equal(table["cycle"], 0))

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..engineering_units import figure
-from ..terminal.arguments import JsonOption, SceneArgument
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.console import print_list
 from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, remark
+from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -22,12 +23,13 @@ if TYPE_CHECKING:
     from ..explanation.measure import Explanation
     from ..explanation.meshes import Meshes
     from ..scene import Scene
-    from ..studies.measures import Glance
+    from ..studies.measures import RunSummary
 
 
 def explain(
     scene: SceneArgument = "paper",
     duration: Annotated[float, typer.Option(help="Simulated time of each run.", **SECONDS)] = 0.1,
+    set_: SetOption = None,
     json_: JsonOption = None,
 ) -> None:
     """List the terms that SCENE models, and simulate it without each of them.
@@ -39,14 +41,13 @@ def explain(
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
     from ..ledger_check import LedgerWarning
-    from ..scene import load_scene
     from ..scene.summary import gears
 
     console = console_beside(json_)
     for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
         warnings.simplefilter("ignore", kind)
     try:
-        loaded = load_scene(scene)
+        loaded = changed_scene(scene, settings(set_ or []))
         meshes = describe_meshes(loaded)
         with console.status("simulating the scene") as status:
             found = interruptible(
@@ -95,7 +96,7 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     for (label, unit), *values in zip(
         _MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True
     ):
-        table.add_row(label, *(_shown(value, unit) for value in values))
+        table.add_row(label, *(_text(value, unit) for value in values))
     return table
 
 
@@ -107,7 +108,7 @@ _MESH_ROWS = (
     ("overlap ratio", ""),
     ("length of approach in base pitches", ""),
     ("length of recess in base pitches", ""),
-    ("play of the teeth by profile shift and centre distance", "m"),
+    ("backlash by profile shift and centre distance", "m"),
     ("clearance of both tips from the mating root", "m"),
     ("stiffness of one pair", "N/m"),
     ("stiffness, mean over the mesh cycle", "N/m"),
@@ -127,9 +128,11 @@ _MESH_ROWS = (
 )
 
 
-def _shown(value: Any, unit: str) -> str:
+def _text(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
-        return "/".join(_shown(part, unit) for part in value)
+        return "/".join(_text(part, unit) for part in value)
+    if value is None:
+        return "out of range"
     return figure(value, unit) if isinstance(value, float) else str(value)
 
 
@@ -190,7 +193,7 @@ def _table(scene: Scene, found: Explanation) -> Table:
     return table
 
 
-# Fields of a glance: name and SI unit. Means and rms are over all meshes, peaks are the largest of
+# Fields of a summary: name and SI unit. Means and rms are over all meshes, peaks are the largest of
 # any mesh.
 _JUDGED = {
     "dte_mean": ("DTE mean", "m"),
@@ -201,7 +204,7 @@ _JUDGED = {
 }
 
 
-def _change(with_: Glance, without: Glance, name: str) -> str:
+def _change(with_: RunSummary, without: RunSummary, name: str) -> str:
     before, after = getattr(with_, name), getattr(without, name)
     return f"{100 * (after / before - 1.0):+.2f}" if before != 0.0 else "-"
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
@@ -79,20 +80,20 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     pins = np.linalg.norm(found.planet_bearing, axis=2)
     table = Table(
         title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
-        caption="Share: torque of a planet over the mean of all planets",
+        caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
+        "and coast flanks of the sun mesh, on the pin, and on an element of a rolling bearing",
     )
     for heading in (
-        "planet", "share, mean", "smallest", "largest", r"sun mesh, drive \[N]", r"coast \[N]",
-        r"pin, largest \[N]",
+        "planet", "share, mean", "smallest", "largest", "drive flank", "coast flank", "pin"
     ):  # fmt: skip
-        table.add_column(heading, justify="right")
+        table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
     if not np.isnan(found.element_load[:, len(CENTRAL) :]).all():
-        table.add_column(r"rolling element, largest \[N]", justify="right")
+        table.add_column("rolling\nelement", justify="right", no_wrap=True)
     for i in range(planets):
         share, element = found.share[:, i], found.element_load[:, len(CENTRAL) + i].max()
         figures = (f"{value:.4f}" for value in (share.mean(), share.min(), share.max()))
-        forces = (f"{v:.4g}" for v in (largest[0, i], largest[1, i], pins[:, i].max()))
-        elements = [] if np.isnan(element) else [f"{element:.4g}"]
+        forces = (figure(v, "N") for v in (largest[0, i], largest[1, i], pins[:, i].max()))
+        elements = [] if np.isnan(element) else [figure(float(element), "N")]
         table.add_row(str(i + 1), *figures, *forces, *elements)
     return table
 
@@ -105,18 +106,22 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     from ..planar.rows import CENTRAL
 
     table = Table(title="Axes", caption="Orbit: largest distance of the axis from its mean place")
-    for heading in ("member", "bearing", r"displacement, largest \[m]", r"orbit \[m]",
-                    r"bearing force, largest \[N]"):  # fmt: skip
+    for heading in ("member", "bearing", "largest displacement", "orbit", "largest bearing force"):
         table.add_column(heading, justify="right")
+    largest_force = float(found.mesh_force.max())
+    largest_move = float(np.linalg.norm(found.displacement, axis=2).max())
     for k, body in enumerate(CENTRAL):
-        moved, force = found.displacement[:, k], np.linalg.norm(found.bearing[:, k], axis=1)
+        moved = found.displacement[:, k]
+        displaced = float(np.linalg.norm(moved, axis=1).max())
+        orbit = float(np.linalg.norm(moved - moved.mean(axis=0), axis=1).max())
+        force = float(np.linalg.norm(found.bearing[:, k], axis=1).max())
         support = getattr(scene.supports, body, None)
         table.add_row(
             body,
             _bearing_text(support),
-            f"{np.linalg.norm(moved, axis=1).max():.4g}",
-            f"{np.linalg.norm(moved - moved.mean(axis=0), axis=1).max():.4g}",
-            f"{force.max():.4g}",
+            figure(without_rounding(displaced, largest_move), "m"),
+            figure(without_rounding(orbit, largest_move), "m"),
+            figure(without_rounding(force, largest_force), "N"),
         )
     return table
 
@@ -126,14 +131,14 @@ def _bearing_text(support: Support | None) -> str:
         return "held"
     if support.rolling is not None:
         return support.rolling.text
-    return f"{support.bearing:g} N/m" if support.bearing else "none: floats"
+    return figure(support.bearing, "N/m") if support.bearing else "none: floats"
 
 
 def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
     lines = []
     if found.both_flanks:
         lines.append(
-            "warning: both flanks of a mesh touch at some positions: the play is used up, "
+            "warning: both flanks of a mesh touch at some positions: the backlash is used up, "
             "and planets are wedged between sun and ring"
         )
     if scene.faults:

@@ -63,7 +63,7 @@ def lost_motion(
             found = measure(loaded, largest, share, report=advance)
     except (ValueError, ArithmeticError) as error:
         fail(error)
-    _show(console_beside(json_), found, largest)
+    _print(console_beside(json_), found, largest)
     if not found.settled:
         remark(
             "warning: the twist had not come to rest at some torques: the loop is wider than that "
@@ -81,7 +81,7 @@ def lost_motion(
         put_figures(_figures(found), json_)
 
 
-def _show(console: Console, found: LostMotion, largest: float) -> None:
+def _print(console: Console, found: LostMotion, largest: float) -> None:
     for name, value in (
         ("largest torque on the output [N m]", largest),
         (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),

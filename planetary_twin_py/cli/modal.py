@@ -146,13 +146,13 @@ def _mode_table(
         slopes = frequency_sensitivities(springs)
         stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
         for m, row in enumerate(rows):
-            row.append(_shown({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in slopes}))
+            row.append(_text({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in slopes}))
     for row in rows:
         table.add_row(*row)
     return table
 
 
-def _shown(changes: dict[str, float]) -> str:
+def _text(changes: dict[str, float]) -> str:
     """Changes [Hz] by kind of spring, largest first, without those that round to 0."""
     ordered = sorted(changes.items(), key=lambda change: -abs(change[1]))
     felt = (

@@ -9,7 +9,7 @@ import typer
 
 from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
-from ._study import TABLES, check_suffix, put
+from ._study import TABLES, check_suffix, write_results
 
 
 def plot(
@@ -54,7 +54,7 @@ def plot(
         fail(f"{study}: {str(error).splitlines()[0]}")
     measures = y.split(",") if y else ()
     try:
-        put(table, out, x, measures, by, kind)
+        write_results(table, out, x, measures, by, kind)
     except (ValueError, OSError) as error:
         fail(error)
     if failed := failures(table):

@@ -22,6 +22,13 @@ def resimulate(
         float,
         typer.Option("--from", help="Simulated time from which the new values apply.", **SECONDS),
     ] = 0.0,
+    commands: Annotated[
+        Path | None,
+        typer.Option(
+            help="Table (.csv, .parquet) of commands at the ports, in place of the recorded ones "
+            "of the same shafts: time, input_torque, output_speed, ..."
+        ),
+    ] = None,
     duration: Annotated[
         float | None,
         typer.Option(help="Length of the new run.", show_default="as recorded", **SECONDS),
@@ -38,7 +45,8 @@ def resimulate(
 ) -> None:
     """What if: simulate FILE again with other values, and write a second recording.
 
-    The values of --set stay constant; all other values change as they did in FILE.
+    The values of --set stay constant; all other values change as they did in FILE. A command of
+    --commands acts from the start of the first interval at or after its time.
 
     Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 3.0
     """
@@ -49,13 +57,15 @@ def resimulate(
     from ..recording.ros2.tape import Tape
     from ..recording.runs.branch import Branch
     from ..recording.runs.what_if import resimulate as simulate_again
+    from ..recording.tables.command_table import read_commands
 
     folder = out or file.with_name(f"{file.stem}_again")
     check_recording("--out", folder)
     console = make_console()
     try:
         changes = settings(set_ or [])
-        branch = Branch(changes, from_, duration, run)
+        course = None if commands is None else read_commands(commands)
+        branch = Branch(changes, from_, duration, run, course)
         chosen = choose_namespace(Tape(file).topics, namespace, file)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
             task = progress.add_task("simulating", total=None)

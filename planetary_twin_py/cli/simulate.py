@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..engineering_units import figure
+from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import (
     DurationOption,
     JsonOption,
@@ -150,9 +150,9 @@ _TRAIN = {
 def _train(scene: Scene, result: Result) -> dict[str, float]:
     """Results of the whole train, and means over all its meshes, by JSON name."""
     from ..gearset.kinematics import mesh_frequency
-    from ..studies.measures import glance
+    from ..studies.measures import summary_of
 
-    energy, seen = result.energy, glance(result)
+    energy, seen = result.energy, summary_of(result)
     sun, carrier = (
         float(result.mean_speed[result.bodies.index(member)]) for member in ("sun", "carrier")
     )
@@ -255,7 +255,9 @@ def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
         table.add_column(body, justify="right")
     rows = _AXES if motion.tilting is None else _AXES | _TILTING
     for key, (text, unit) in rows.items():
-        table.add_row(text, *(figure(value, unit) for value in found[key].values()))
+        values = [*found[key].values()]
+        scale = max(map(abs, values))
+        table.add_row(text, *(figure(without_rounding(value, scale), unit) for value in values))
     share = found.get("load_share", {})
     shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
     table.add_row("share of the load, mean", *shares)

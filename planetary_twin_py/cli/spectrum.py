@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -42,7 +43,11 @@ class Options:
     ]
     order: Annotated[
         bool,
-        typer.Option("--order", help="Orders: cycles per turn of the sun relative to the carrier."),
+        typer.Option(
+            "--order",
+            help="Orders: cycles per turn of the sun relative to the carrier. Of a table with "
+            "--speed and without --scene: per turn of that shaft.",
+        ),
     ] = False
     mesh: Annotated[str, typer.Option(help="Name of the mesh.")] = "sun_planet_1"
     quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte"
@@ -71,6 +76,13 @@ class Options:
         str | None,
         typer.Option(help="Of a table: the column with the signal, if there are several."),
     ] = None
+    speed: Annotated[
+        str | None,
+        typer.Option(
+            help="Of a table: the column with the measured speed of the input shaft, for orders "
+            "while the speed varies."
+        ),
+    ] = None
     sample_rate: Annotated[
         float | None,
         typer.Option(help="Of a table: samples per second, in place of a column time."),
@@ -97,8 +109,8 @@ def spectrum(**given: Any) -> None:
     """List the largest lines in the spectrum of one mesh, and identify mesh harmonics.
 
     Also of a vibration in a table with columns such as `time` and `acceleration [m/s^2]`; --scene
-    and --set define the gears and the speed: `spectrum vibration.csv --scene paper --set
-    input_speed=998rpm`.
+    defines the gears, and --set the speed: `spectrum vibration.csv --scene paper --set
+    input_speed=998rpm`. If the speed varies, --speed names its column.
 
     Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
@@ -111,7 +123,7 @@ def spectrum(**given: Any) -> None:
             _write(asked.out, found, _title(asked, subject, signal), _labels(asked, subject))
     except (ValueError, OSError) as error:
         fail(error)
-    for line in (*signal.remarks, *_aliases(asked, signal, found)):
+    for line in (*signal.remarks, *_constant_speed(asked, signal), *_aliases(asked, signal, found)):
         remark(line)
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
     figures |= _figures(asked, signal, found)
@@ -132,21 +144,21 @@ def _check(asked: Options) -> None:
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
     if out is not None and out.suffix == ".png":
         need("plots", "matplotlib")
-    given = (asked.column, asked.sample_rate, asked.scene, asked.set_)
+    given = (asked.column, asked.speed, asked.sample_rate, asked.scene, asked.set_)
     if asked.is_table:
         need("analysis", "pyarrow")
-        if asked.order and asked.scene is None:
-            fail("--order: needs --scene, which defines the speed of the gears")
+        if asked.order and asked.scene is None and asked.speed is None:
+            fail("--order: needs --speed, or --scene, which defines a constant speed")
         if asked.set_ and asked.scene is None:
             fail("--set: needs --scene")
     elif any(each is not None for each in given):
-        fail(f"{asked.file}: --column, --sample-rate, --scene and --set are for tables")
+        fail(f"{asked.file}: --column, --speed, --sample-rate, --scene and --set are for tables")
     elif asked.file.suffix != ".npz":
         need("recording", "mcap", "rosbags")
 
 
 class _Subject(NamedTuple):
-    """Names of what is analysed."""
+    """Names of the analysed signal."""
 
     mesh: str | None
     """None for a sensor."""
@@ -163,7 +175,7 @@ def _read(asked: Options) -> tuple[Signal, _Subject]:
     from ..analysis.sensor import sensor_signal
     from ..recording.tables.sensor import read_sensor
 
-    sensor = read_sensor(asked.file, asked.column, asked.sample_rate)
+    sensor = read_sensor(asked.file, asked.column, asked.sample_rate, asked.speed)
     scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
     return sensor_signal(sensor, scene), _Subject(None, sensor.name, sensor.unit)
 
@@ -214,6 +226,15 @@ def _sun_teeth(signal: Signal) -> int | None:
     if signal.scene_yaml is None:
         return None
     return parse_scene(signal.scene_yaml).gearset.teeth.sun
+
+
+def _constant_speed(asked: Options, signal: Signal) -> Iterator[str]:
+    """A remark if orders rest on a constant speed, which a table may contradict."""
+    if asked.is_table and asked.order and asked.speed is None:
+        yield (
+            f"--order: the speed is assumed to be constant, {signal.speed / math.tau:.6g} turns of "
+            "the sun per second relative to the carrier; if it varies, give --speed COLUMN"
+        )
 
 
 def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
@@ -280,7 +301,7 @@ def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None
         f"{subject.quantity}{f' of {subject.mesh}' if subject.mesh else ''}, "
         f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolution "
         f"{figures['resolution']:.4g} {'orders' if axis == 'order' else 'Hz'}, "
-        f"mean {figures['mean']:.6g} {subject.unit}",
+        f"mean {figures['mean']:.6g} {subject.unit}".removesuffix(" -"),
         highlight=False,
     )
 

@@ -11,7 +11,7 @@ from ..terminal.arguments import SceneArgument, SetOption
 from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import TABLES, axis, check_suffix, progress, put, warn
+from ._study import TABLES, axis, check_suffix, progress, warn, write_results
 
 
 def stribeck(
@@ -47,7 +47,7 @@ def stribeck(
                     remark(failure.reason)
 
             table = run(loaded, speeds, Threads(), report)
-        put(table, out, kind="stribeck")
+        write_results(table, out, kind="stribeck")
     except (ValueError, OSError) as error:
         fail(error)
     warn(table)

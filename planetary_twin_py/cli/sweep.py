@@ -14,7 +14,7 @@ from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import TABLES, axis, check_suffix, progress, put, warn
+from ._study import TABLES, axis, check_suffix, progress, warn, write_results
 
 if TYPE_CHECKING:
     from ..studies.plan import Study
@@ -77,7 +77,7 @@ def sweep(
         journal = out.with_name(f"{out.name}.journal")
         with _executor(scheduler) as executor, _progress(study) as report:
             table = run(study, executor, journal, report)
-        put(table, out)
+        write_results(table, out)
         journal.unlink()
     except (ValueError, OSError) as error:
         fail(error)

@@ -25,10 +25,10 @@ def check() -> Iterator[Finding]:
         fix = "make setup in a clone of the repository, see docs/installing.md"
         yield Finding("nodes", "absent", "the package planetary_twin is not installed", fix)
     for name in names:
-        yield from _ask(name)
+        yield from _findings_of(name)
 
 
-def _ask(name: str) -> Iterator[Finding]:
+def _findings_of(name: str) -> Iterator[Finding]:
     command = [sys.executable, "-m", __name__, name]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT)

@@ -20,12 +20,12 @@ MEMBERS = ("sun", "ring", "carrier")
 class _Joint(NamedTuple):
     """Resistance to the rotation of one body relative to another; see `Train`."""
 
-    body: tuple[int, int]
-    planet: int = NO_PLANET
-    idle: float = 0.0
-    rubbing: float = 0.0
-    coulomb: float = 0.0
-    viscous: float = 0.0
+    body: tuple[int, int]  # indices of the rotating body, and of the one that it rotates against
+    planet: int = NO_PLANET  # whose pin loads it
+    idle: float = 0.0  # f0 dm^3 [m^3]
+    rubbing: float = 0.0  # f1 dm [m]
+    coulomb: float = 0.0  # [N m]
+    viscous: float = 0.0  # [N m s/rad]
 
 
 def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:

@@ -87,7 +87,7 @@ def _harmonics(error: TransmissionError, count: int) -> list[_Line]:
 
 
 def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
-    """Lines a sin(turn + side lean phi) of the gears of a mesh with working pressure angle phi.
+    """Lines a sin(turn + side sign phi) of the gears of a mesh with working pressure angle phi.
 
     If the toothing is displaced from the axis by a, in the direction phi_g from the radius of the
     planet, the sun has e_T = -a cos(phi) sin(phi_g) and e_R = -a sin(phi) cos(phi_g). The ring has
@@ -102,24 +102,24 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
         "sun", 1.0, errors.sun_runout_phase * one
     )  # fmt: skip
     found = []
-    for gear, lean, phase in (central, ("planet", 1.0 if kind else -1.0, own)):
+    for gear, sign, phase in (central, ("planet", 1.0 if kind else -1.0, own)):
         size = getattr(runout, gear)
         if size != 0.0:
-            across, along = size * math.cos(angle), lean * size * math.sin(angle)
+            across, along = size * math.cos(angle), sign * size * math.sin(angle)
             period, of_planet = getattr(teeth, gear), gear == "planet"
             found.append(_Line(1.0, period, across * one, along * one, phase, of_planet))
     return found
 
 
 def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
-    """Lines of pins and axes off their places, and of thicker teeth; the axes are held there."""
+    """Lines of displaced pins and held axes, and of thicker teeth."""
     errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
     outwards, across, thicker, _ = np.array([errors.of_planet(i) for i in leaders]).T
     if scene.moving_axes:
         outwards, across = np.zeros((2, len(leaders)))
-    lean = -1.0 if kind else 1.0
+    sign = -1.0 if kind else 1.0
     tangential = math.cos(angle) * across
-    radial = lean * math.sin(angle) * outwards - 0.5 * math.cos(angle) * thicker
+    radial = sign * math.sin(angle) * outwards - 0.5 * math.cos(angle) * thicker
     found = []
     if tangential.any() or radial.any():
         found.append(

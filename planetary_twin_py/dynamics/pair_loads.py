@@ -34,8 +34,7 @@ class PairLoads(NamedTuple):
     position: Array
     """Distance of the middle of the line of contact past the pitch point [base pitches]."""
     ahead: Array
-    """By how much that is further than where the middle of the face stands [base pitches]; 0 for
-    spur teeth."""
+    """`position` less that of the middle of the face [base pitches]; 0 for spur teeth."""
     face: Array
     """Length of the line of contact along the axis, as a part of the face width."""
     load: Array

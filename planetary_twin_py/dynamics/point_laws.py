@@ -41,7 +41,7 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
         play=play,
         from_zero=least == 0.0,
         torque=static_torques(scene),
-        ratio=train.ratio[train.coupling[: len(scene.drive.ports), 0], 0],
+        ratio=train.ratio[train.coupling[: len(scene.drive.ports), 0]],
         starts_elsewhere=started is not None,
         start_speed=0.0 if started is None else started,
         force_share=[torques["sun"], torques[scene.drive.input.member]],

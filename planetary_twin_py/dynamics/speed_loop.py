@@ -2,7 +2,8 @@
 
 Each motor has a proportional controller of its speed; the integral of its speed error trims the
 load of the first input and the motor of the second. Where a torque is given at one port, the
-machine at the other has both parts; where a motion is given, there is no speed loop. With J the
+machine at the other has both parts; where a motion is given, it has none. The second motor has
+both, unless the motions of both other shafts are given. With J the
 inertia of the train at a motor and w = 2 pi bandwidth, the gains J w and J w^2/4 make the loop
 critically damped on a rigid train.
 
@@ -42,6 +43,7 @@ DEFAULT_MARGIN = 4.0
 SLOWEST = 1e-9  # [Hz] lower limit of the search for a stable bandwidth
 BISECTIONS = 40
 FREQUENCIES_KEPT = 64
+IMMOVABLE = 1e6  # mass of a shaft whose motion is given, over that of the train
 ROUNDING = 1e-12  # growth rates below it, over the largest eigenvalue, are rounding
 
 
@@ -105,9 +107,16 @@ def bandwidth(scene: Scene) -> float:
         ValueError: there is an instant without contact of teeth.
     """
     given = scene.drive.speed_control.bandwidth
-    if given is None and not scene.drive.ports.hold_speed:
+    if given is None and not _holds_a_speed(scene):
         return FASTEST_DEFAULT  # of no effect
     return _default(unloaded(scene)) if given is None else given
+
+
+def _holds_a_speed(scene: Scene) -> bool:
+    """Whether a machine controls a speed."""
+    ports = scene.drive.ports
+    second = scene.drive.second_input is not None and ports.hold_second_speed
+    return ports.hold_speed or second
 
 
 @lru_cache(maxsize=TRAINS_KEPT)
@@ -134,7 +143,7 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     integral = np.diag(inertia) * w**2 / 4.0
     trim = np.zeros((MACHINES, AXES))
     if scene.drive.ports.given:
-        return _gains_of_one_machine(scene, train, inertia, w)
+        return _gains_with_ports(scene, train, inertia, w)
     # The first motor gives its torque only; the load is trimmed to hold the speed.
     trim[LOAD_MACHINE, 0] = -static_torques(scene)[LOAD_MACHINE] * integral[0]
     if axes > 1:
@@ -142,10 +151,14 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     return Gains(inertia, np.diag(inertia) * w, trim, 0.0)
 
 
-def _gains_of_one_machine(scene: Scene, train: Train, inertia: np.ndarray, w: float) -> Gains:
+def _gains_with_ports(scene: Scene, train: Train, inertia: np.ndarray, w: float) -> Gains:
     """Gains where torque or motion is given at a port; w = 2 pi bandwidth [rad/s]."""
     ports, total = scene.drive.ports, float(inertia[0, 0])
     gains = Gains(np.zeros((AXES, AXES)), np.zeros(AXES), np.zeros((MACHINES, AXES)), 0.0)
+    if train.axes > 1 and ports.hold_second_speed:
+        gains.inertia[1, 1] = inertia[1, 1]
+        gains.proportional[1] = inertia[1, 1] * w
+        gains.trim[SECOND_MOTOR, 1] = inertia[1, 1] * w**2 / 4.0
     if not ports.hold_speed:
         return gains
     if ports.input == "machine":
@@ -174,7 +187,7 @@ class LinearTrain:
         place = meshes + np.arange(machines)[:, None]
         np.add.at(rows, (np.arange(meshes)[:, None], train.body[:meshes]), train.sign[:meshes])
         np.add.at(rows, (place, train.coupling[coupling]), [1.0, -1.0])
-        basis = _basis(train)
+        basis = _basis(train, _masses(scene, train))
         stretch = rows[:, :-1] @ basis  # the ground is at rest
         stretch[:, : train.axes] = 0.0  # rigid motion: exactly zero, without rounding
         self._train, self._mesh, self._stretch = train, mesh, stretch
@@ -205,10 +218,19 @@ def linear_loop(scene: Scene, train: Train, mesh_frequency: float) -> Loop:
     return LinearTrain(scene, train).loop(mesh_frequency)
 
 
-def _basis(train: Train) -> np.ndarray:
+def _masses(scene: Scene, train: Train) -> np.ndarray:
+    """Masses of the bodies [kg], (bodies,); very large where motion is given."""
+    mass = train.mass[: train.bodies].copy()
+    for place, port in enumerate(scene.drive.ports):
+        if port == "motion":
+            mass[train.coupling[place, 0]] = IMMOVABLE * mass.sum()
+    return mass
+
+
+def _basis(train: Train, mass: np.ndarray) -> np.ndarray:
     """Coordinates of `TRAIN` by those of a `Loop`, shape (bodies, bodies)."""
     own, axes = slice(train.bodies), int(train.axes)
-    root = np.sqrt(train.mass[own])[:, None]
+    root = np.sqrt(mass)[:, None]
     rigid = root * train.radius[own, None] * train.ratio[own, :axes]
     return np.asarray(np.linalg.qr(rigid, mode="complete")[0] / root)
 
@@ -239,7 +261,7 @@ class SpeedLoopCheck:
     def __init__(self, scene: Scene, train: Train) -> None:
         self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
         self._linear = LinearTrain(scene, train)
-        self._holds = scene.drive.ports.hold_speed
+        self._holds = _holds_a_speed(scene)
         self._stable: set[float] = set()  # recent mesh frequencies [Hz] that are stable
 
     def check(self, point: OperatingPoint) -> None:

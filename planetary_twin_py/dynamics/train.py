@@ -28,7 +28,7 @@ TRAINS_KEPT = 16
 
 
 def held_axes(scene: Scene) -> Scene:
-    """The scene with axes that are held, for what the motion of axes does not matter to."""
+    """The scene with held axes, for results that do not depend on the motion of the axes."""
     return scene.model_copy(update={"dynamics": "torsional"}) if scene.moving_axes else scene
 
 

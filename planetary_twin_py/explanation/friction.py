@@ -49,12 +49,15 @@ def friction_figures(
     speed = frequency * mesh.rolling_advance
     pair = TypicalPair(rho1, rho2, 1.0 if kind == 0 else -1.0, speed, load)
     by_law = {law: _friction(scene, law, pair) for law in ("eyring", "evans_johnson", "schlenk")}
+    coefficients = {law: sum(parts) for law, parts in by_law.items()}
     shear = _shear_number(scene, pair, 0.25 * math.pi * peak)
     # The plateau is independent of the sliding speed, and is clipped to zero if negative.
     plateau = shear >= 1.0 and by_law["evans_johnson"][1] > 0.0
     return {
         "friction": sum(_friction(scene, scene.lubrication.traction, pair)),
-        **{f"friction_{law}": sum(parts) for law, parts in by_law.items()},
+        "friction_eyring": coefficients["eyring"],
+        "friction_evans_johnson": coefficients["evans_johnson"] if plateau else None,
+        "friction_schlenk": coefficients["schlenk"],
         "shear_number": shear,
         "film_laws_in_range": ("eyring", "evans_johnson") if plateau else ("eyring",),
     }

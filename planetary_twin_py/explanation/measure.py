@@ -10,7 +10,7 @@ from ..dynamics_choice import AUTO, DynamicsChoice, choose_dynamics
 from ..result import Result
 from ..scene import Scene
 from ..simulation import TOLERANCE, simulate
-from ..studies.measures import Glance, glance
+from ..studies.measures import RunSummary, summary_of
 from .remarks import remarks
 from .terms import Term, terms
 
@@ -21,14 +21,14 @@ class Effect(NamedTuple):
     """A term, and the results of the scene without it."""
 
     term: Term
-    without: Glance
+    without: RunSummary
     cost: float  # fraction of the computing time due to the term, median of paired runs
 
 
 class Explanation(NamedTuple):
     """Results of a scene, and the effect of each of its terms."""
 
-    figures: Glance
+    figures: RunSummary
     effects: tuple[Effect, ...]
     dynamics: DynamicsChoice  # every dynamics that the scene can have, against one another
     remarks: tuple[str, ...]  # warnings about the results
@@ -60,14 +60,14 @@ def explain(
         progress(term.name)
         effects.append(_effect(scene, term, duration))
     warned = tuple(remarks(scene, whole, TOLERANCE))
-    return Explanation(glance(whole), tuple(effects), dynamics, warned)
+    return Explanation(summary_of(whole), tuple(effects), dynamics, warned)
 
 
 def _effect(scene: Scene, term: Term, duration: float) -> Effect:
     other = scene.replace(**term.without)
     pairs = [(simulate(scene, duration), simulate(other, duration)) for _ in range(REPEATS)]
     cost = 1.0 - median(_time(without) / _time(with_) for with_, without in pairs)
-    return Effect(term, glance(pairs[-1][1]), cost)
+    return Effect(term, summary_of(pairs[-1][1]), cost)
 
 
 def _time(run: Result) -> float:

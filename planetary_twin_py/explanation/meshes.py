@@ -43,7 +43,7 @@ class MeshFigures(NamedTuple):
     backlash: float  # total, along the line of action [m]
     friction: float  # coefficient by the laws of the scene, static force on one pair [-]
     friction_eyring: float  # the same with this law of viscous friction [-]
-    friction_evans_johnson: float
+    friction_evans_johnson: float | None  # None outside the range of this law
     friction_schlenk: float  # regression of measured gear losses, includes boundary friction
     shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
     film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
@@ -84,7 +84,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             ),
             approach=paths[kind].approach,
             recess=paths[kind].recess,
-            tooth_play=found[kind].play,
+            tooth_play=found[kind].backlash,
             tip_clearances=found[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
             mean_stiffness=float(mean[kind]),

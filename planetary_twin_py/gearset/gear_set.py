@@ -59,13 +59,13 @@ class Sizes:
     shift: PerGear = UNSHIFTED
     """Profile shifts, positive if they make teeth thicker [modules]."""
     centre_distance: float | None = None
-    """[m]; default: sun and planets mesh without play."""
+    """[m]; default: sun and planets mesh without backlash."""
     tip_diameters: tuple[float | None, float | None, float | None] = (None, None, None)
     """Of sun, planet and ring [m]; default: see `build_gear_set`."""
 
 
 def distance_without_play(sizes: Sizes, ring: bool = False) -> float | None:
-    """Centre distance at which a mesh has no play (ISO 21771:2007, eqs. 60 and 62) [m].
+    """Centre distance at which a mesh has no backlash (ISO 21771:2007, eqs. 60 and 62) [m].
 
     Args:
         sizes: of the gears.
@@ -102,8 +102,8 @@ def build_gear_set(sizes: Sizes) -> GearSet:
         The gear set.
 
     Raises:
-        ValueError: sun and planets mesh without play at no centre distance, a tooth is pointed, or
-            a tip circle is impossible; see `SpurGear`.
+        ValueError: sun and planets mesh without backlash at no centre distance, a tooth is
+            pointed, or a tip circle is impossible; see `SpurGear`.
     """
     distance = sizes.centre_distance
     if distance is None:
@@ -111,7 +111,7 @@ def build_gear_set(sizes: Sizes) -> GearSet:
     if distance is None:
         raise ValueError(
             f"gearset.profile_shift.sun, planet = {sizes.shift.sun:g}, {sizes.shift.planet:g}: "
-            "their sum is too small: sun and planets mesh without play at no centre distance"
+            "their sum is too small: sun and planets mesh without backlash at no centre distance"
         )
     heights = _addenda(sizes, distance)
     sun, planet, ring = (_gear(sizes, kind, height) for kind, height in enumerate(heights))

@@ -1,4 +1,4 @@
-"""Whether teeth fit into each other: play, tip clearance, and tips of internal meshes.
+"""Whether teeth fit into each other: backlash, tip clearance, and tips of internal meshes.
 
 Each check yields messages of one line with field, value and allowed range.
 """
@@ -12,7 +12,7 @@ from .gear_set import GearSet
 from .shift import involute
 from .working import WorkingMesh
 
-PLAY_TOLERANCE = 0.01  # [modules] overlap that the rounding of published shifts may leave
+OVERLAP_TOLERANCE = 0.01  # [modules] overlap that the rounding of published shifts may leave
 
 
 def check_fit(gears: GearSet) -> Iterator[str]:
@@ -72,14 +72,14 @@ def tip_passage(mesh: WorkingMesh) -> float:
 
 def _overlap(mesh: WorkingMesh) -> Iterator[str]:
     """Error of teeth that are thicker than the gaps they are in."""
-    play, module = mesh.play, mesh.first.module
-    if play < -PLAY_TOLERANCE * module:
-        most = mesh.shift + play / (2.0 * module * math.sin(mesh.first.pressure_angle))
+    backlash, module = mesh.backlash, mesh.first.module
+    if backlash < -OVERLAP_TOLERANCE * module:
+        most = mesh.shift + backlash / (2.0 * module * math.sin(mesh.first.pressure_angle))
         first, second = mesh.names
         yield (
             f"gearset.profile_shift.{first} + {second} = {mesh.shift:.4g}: must be at most "
             f"{most:.4g} at gearset.centre_distance = {1e3 * mesh.centre_distance:.6g} mm: the "
-            f"teeth overlap by {-1e3 * play:.3g} mm"
+            f"teeth overlap by {-1e3 * backlash:.3g} mm"
         )
 
 

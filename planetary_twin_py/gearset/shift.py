@@ -1,4 +1,4 @@
-"""Profile shift: tooth thickness, working pressure angle, and distance without play.
+"""Profile shift: tooth thickness, working pressure angle, and distance without backlash.
 
 Signs are those of ISO 21771: a positive shift makes the tooth of any gear thicker on its reference
 circle. It moves the teeth of an external gear outwards and those of an internal gear inwards. Some
@@ -48,7 +48,7 @@ def inverse_involute(value: float) -> float:
 
 
 def backlash_free_angle(teeth: int, shift: float, pressure_angle: float) -> float | None:
-    """Working pressure angle of a mesh without play (ISO 21771:2007, eq. 62).
+    """Working pressure angle of a mesh without backlash (ISO 21771:2007, eq. 62).
 
     inv a_w = inv a + 2 tan(a) (x1 + x2)/(z1 + z2), with z negative for an internal gear.
 

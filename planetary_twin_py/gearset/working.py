@@ -1,4 +1,4 @@
-"""Two gears in mesh at a given centre distance: working pressure angle, path of contact, play."""
+"""Two gears at a given centre distance: working pressure angle, path of contact, backlash."""
 
 from __future__ import annotations
 
@@ -131,8 +131,8 @@ class WorkingMesh:
         return PathOfContact(early / pitch, late / pitch)
 
     @property
-    def play(self) -> float:
-        """Play along the line of action of teeth without tolerances [m].
+    def backlash(self) -> float:
+        """Backlash along the line of action of teeth without tolerances [m].
 
         External: m cos(alpha) [(z1 + z2)(inv a_w - inv alpha) - 2 (x1 + x2) tan(alpha)]
         (ISO 21771:2007, eqs. 62 and 98); internal: with z1 - z2. Negative: the teeth are too thick.
@@ -149,7 +149,7 @@ class WorkingMesh:
         """Mesh cycles from the drive flank to the coast flank of a tooth at the pitch point.
 
         It is the tooth thickness of the first gear on its working pitch circle over the pitch, with
-        half of the play: 1/2 + (s_w1 - s_w2)/(2 p_w); exactly 1/2 for gears without shift.
+        half of the backlash: 1/2 + (s_w1 - s_w2)/(2 p_w); exactly 1/2 for gears without shift.
         """
         gears = (self.first, self.second)
         if self.centre_distance == self.reference_distance and not any(

@@ -54,7 +54,7 @@ class Part(NamedTuple):
     first: float
     last: float
     mark: float
-    """Added to the shift of a pair, which tells its parts apart."""
+    """Added to the shift of a pair, to distinguish its parts."""
 
 
 class FaceMean:

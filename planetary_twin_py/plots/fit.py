@@ -1,4 +1,4 @@
-"""Pictures of a fit: measured and simulated beside each other, and what is left over."""
+"""Pictures of a fit: measured and simulated quantities, and their residuals."""
 
 from __future__ import annotations
 

@@ -119,7 +119,7 @@ def _choose(
 ) -> Choice:
     x, measures, by = given
     free = [name for name in varying if name not in (x, by, *measures)]
-    x = x or _taken(free, "x: no field of the table varies, name a column")
+    x = x or _next_field(free, "x: no field of the table varies, name a column")
     chosen = tuple(known[name] for name in measures or (_first_measure(known),))
     if by is None and free:
         by = free.pop(0)
@@ -134,7 +134,7 @@ def _choose(
     return Choice(known[x], chosen, second, known[panel] if panel else None, is_map, clipped)
 
 
-def _taken(free: list[str], lack: str) -> str:
+def _next_field(free: list[str], lack: str) -> str:
     if not free:
         raise ValueError(lack)
     return free.pop(0)

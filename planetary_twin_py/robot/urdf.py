@@ -42,12 +42,12 @@ def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
     SubElement(robot, "link", name=base)
     links = {frame.name: _turning(robot, frame) for frame in frames(gearset, base)}
     stand = gearset.mounted
-    _show(links["sun"], shapes.wheel(gearset, "sun", stand.sun))
-    _show(links["ring"], shapes.ring(gearset, stand.ring))
-    _show(links["carrier"], shapes.carrier(gearset))
+    _add_visuals(links["sun"], shapes.wheel(gearset, "sun", stand.sun))
+    _add_visuals(links["ring"], shapes.ring(gearset, stand.ring))
+    _add_visuals(links["carrier"], shapes.carrier(gearset))
     for number, angle in enumerate(stand.planets, start=1):
         wheel = shapes.wheel(gearset, "planet", angle)
-        _show(links[f"planet_{number}"], wheel)
+        _add_visuals(links[f"planet_{number}"], wheel)
     indent(robot, space="")
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
 
@@ -66,7 +66,7 @@ def _turning(robot: Element, frame: Frame) -> Element:
     return SubElement(robot, "link", name=frame.name)
 
 
-def _show(link: Element, seen: Iterable[shapes.Shape]) -> None:
+def _add_visuals(link: Element, seen: Iterable[shapes.Shape]) -> None:
     """Add visual shapes to a link; six digits are far below the resolution of a screen."""
     for shape in seen:
         visual = SubElement(link, "visual")

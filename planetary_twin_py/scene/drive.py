@@ -33,6 +33,14 @@ class Ports(NamedTuple):
         """
         return "machine" in self and "motion" not in self
 
+    @property
+    def hold_second_speed(self) -> bool:
+        """Whether the second motor of a differential holds its speed set-point.
+
+        It does unless the motions of both other shafts are given, which determine its speed.
+        """
+        return self != Ports("motion", "motion")
+
 
 class Machine(Section):
     """Motor or load, coupled elastically to a member of the gearset."""

@@ -107,7 +107,7 @@ class Gearset(Section):
     profile_shift: ProfileShift = Field(ProfileShift(), description="profile shift coefficients")
     centre_distance: float | None = quantity(
         "m",
-        "distance of the planet centres from the axis; default: sun and planets mesh without play",
+        "distance of the planet centres from the axis; default: sun meshes have no backlash",
         None,
         gt=0.0,
         le=100.0,

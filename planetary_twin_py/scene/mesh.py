@@ -25,12 +25,12 @@ class MeshDamping(Section):
 
     law: Literal[
         "meshing_frequency", "printed_meshing_frequency", "natural_frequency", "viscous"
-    ] = Field("viscous", description="law of tau")
+    ] = Field("viscous", description="law of the damping time tau = c/k")
     damping_ratio: float = quantity(
         "", "damping ratio of one mesh, for law: viscous", 0.05, ge=0.0, le=2.0
     )
     loss_factor: float = quantity(
-        "", "tau times frequency, for the other laws", 0.009, ge=0.0, le=1.0
+        "", "tau times the frequency of the law, for the other laws", 0.009, ge=0.0, le=1.0
     )
     lowest_frequency: float = quantity(
         "Hz", "lower limit of the mesh frequency in the law", 5.0, gt=0.0, le=1e4
@@ -196,7 +196,7 @@ class Mesh(Section):
         """Transmission errors at which flanks meet, and from which the force grows [m].
 
         Args:
-            backlash: total play, along what `motion` says [m].
+            backlash: total backlash, along what `motion` says [m].
             pressure_angle: of the gearset [rad].
         """
         along = math.cos(pressure_angle) if self.motion == "pitch_arc" else 1.0

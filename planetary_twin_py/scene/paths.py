@@ -12,7 +12,7 @@ class NoSuchPath(LookupError):
     """A path that does not exist; the message is empty if a name is not that of a field."""
 
 
-def put(
+def with_value(
     data: Any, kinds: Sequence[type[Section]], path: Sequence[str], value: Any, above: str = ""
 ) -> Any:
     """Copy plain data with another value at `path`.
@@ -36,7 +36,7 @@ def put(
     inside = f"{above}.{name}".removeprefix(".")
     if isinstance(data, (list, tuple)):
         place = _entry(data, name, above)
-        inner = put(data[place], kinds, rest, value, inside) if rest else value
+        inner = with_value(data[place], kinds, rest, value, inside) if rest else value
         return [*data[:place], inner, *data[place + 1 :]]
     fields = [kind.model_fields[name] for kind in kinds if name in kind.model_fields]
     if not fields or not isinstance(data, dict):
@@ -47,7 +47,7 @@ def put(
     inner = data.get(name)
     if inner is None and below:
         inner = {}
-    return data | {name: put(inner, below, rest, value, inside)}
+    return data | {name: with_value(inner, below, rest, value, inside)}
 
 
 def _entry(data: Sequence[Any], name: str, above: str) -> int:

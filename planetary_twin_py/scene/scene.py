@@ -19,7 +19,7 @@ from .lubrication import Lubrication
 from .mesh import Mesh, TipReliefs
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
-from .paths import NoSuchPath, paths, put
+from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, Section, listed, quantity
 from .supports import Supports
 
@@ -83,7 +83,7 @@ class Scene(Section):
         yield from self._ports()
         yield from self._limits()
         yield from self._faulty_teeth()
-        yield from self._play()
+        yield from self._closed_backlash()
         yield from self._relief()
         yield from self._errors_of_planets()
         yield from self._moving_axes()
@@ -104,15 +104,17 @@ class Scene(Section):
 
     def _ports(self) -> Iterator[str]:
         """Errors of ports at which torque or motion is given."""
-        for side in ("input", "second_input", "output"):
-            machine = getattr(self.drive, side)
-            if machine is None or machine.port == "machine":
-                continue
-            field = f"drive.{side}.port = {machine.port!r}"
-            if self.drive.second_input is not None:
-                yield f"{field}: must be machine in a differential (gearset.held = 'none')"
-            elif self.dynamics not in ("torsional", "auto"):
-                yield f"{field}: requires dynamics = torsional, not {self.dynamics!r}"
+        second, ports = self.drive.second_input, self.drive.ports
+        if second is not None and second.port != "machine":
+            yield f"drive.second_input.port = {second.port!r}: must be machine"
+        if second is not None and ports.given and ports.output == "machine":
+            yield (
+                f"drive.input.port = {ports.input!r}: requires drive.output.port = torque or "
+                "motion in a differential (gearset.held = 'none')"
+            )
+        for side, port in ports._asdict().items():
+            if port != "machine" and self.dynamics == "quasi_static":
+                yield f"drive.{side}.port = {port!r}: requires dynamics other than 'quasi_static'"
 
     def _limits(self) -> Iterator[str]:
         """Errors of the operating point: values outside the limits of the drive."""
@@ -120,7 +122,7 @@ class Scene(Section):
             value = getattr(self.operating_point, name)
             reach = getattr(self.drive, _LIMITS[name]) if name in _LIMITS else math.inf
             if abs(value) > reach or not tunable.minimum <= value <= tunable.maximum:
-                why = f", drive.{_LIMITS[name]}" if name in _LIMITS else ""
+                why = f" (drive.{_LIMITS[name]})" if name in _LIMITS else ""
                 yield f"{name} = {value!r}: {self.tunables[name].range}{why}"
 
     def _faulty_teeth(self) -> Iterator[str]:
@@ -137,7 +139,7 @@ class Scene(Section):
                     "otherwise give stiffness_loss"
                 )
 
-    def _play(self) -> Iterator[str]:
+    def _closed_backlash(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
         if self.moving_axes or self.dynamics == "auto":
             return  # there both flanks have their forces, or dynamics without them is refused later
@@ -152,7 +154,7 @@ class Scene(Section):
             least = 1.005 * (closed + half) / self.mesh.flanks(1.0, angle)[0]  # rounded upwards
             yield (
                 f"backlash = {backlash!r}: must be at least {least:.3g} m, as mesh.runout closes "
-                f"the play by {2.0 * closed:.3g} m more than there is, of which the load opens "
+                f"the backlash by {2.0 * closed:.3g} m more than there is, of which the load opens "
                 f"{0.5 * opened:.3g} m: both flanks of a tooth would touch at once"
             )
 
@@ -278,7 +280,7 @@ class Scene(Section):
             if given.setdefault(path, name) != name:
                 errors.append(f"{path[-1]}: given twice, as {given[path]} and as {name}")
             try:
-                data = put(data, [Scene], path, value)
+                data = with_value(data, [Scene], path, value)
             except NoSuchPath as error:
                 reason = f"{error}"
                 errors.append(

@@ -1,7 +1,7 @@
 """Lost-motion test: the output is loaded slowly both ways while the input is held.
 
 The twist of the output against the input, at the members of the gear set and so without couplings,
-draws a loop over the torque: play, elastic deflection of the teeth, and friction that holds. Two
+draws a loop over the torque: backlash, elastic deflection of the teeth, and static friction. Two
 figures are those of data sheets of precision gears: lost motion, the twist between small torques of
 both senses, each the mean of loading and unloading (3 % of the rated torque is usual), and the
 torsional stiffness between half and full torque.
@@ -64,7 +64,7 @@ class LostMotion:
 
     @property
     def hysteresis(self) -> float:
-        """Distance of both branches at zero torque [rad]: friction, and play it holds open."""
+        """Distance of both branches at zero torque [rad], by friction."""
         falling, rising = self._at(0.0)
         return abs(falling - rising)
 
@@ -127,7 +127,7 @@ def lost_motion(
     still = _on_bench(scene)
     per_input = static_torques(still)[LOAD_MACHINE]
     twin = Twin(still, tolerance=tolerance)
-    # Not at torque 0, at which the output may rest anywhere in its play.
+    # Not at torque 0, at which the output may rest anywhere in its backlash.
     up = np.unique([share * torque, *np.linspace(0.0, torque, levels + 1)[1:]])
     steps = np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
     rest = SETTLED * torque / _stiffness(scene, scene.drive.output.member)

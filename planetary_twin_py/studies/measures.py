@@ -50,7 +50,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
     return row(scene, twin.advance(settings.duration))
 
 
-class Glance(NamedTuple):
+class RunSummary(NamedTuple):
     """Summary of a run over its duration and over all meshes."""
 
     power_loss: float  # tooth friction, bearings and churning, mean [W]
@@ -61,12 +61,12 @@ class Glance(NamedTuple):
     mesh_force_peak: float  # largest magnitude in any mesh [N]
 
 
-def glance(result: Result) -> Glance:
+def summary_of(result: Result) -> RunSummary:
     """Summary of a run over its duration and over all meshes."""
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
     peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}
-    return Glance(power_loss=result.mean_power_loss, **means, **peaks)
+    return RunSummary(power_loss=result.mean_power_loss, **means, **peaks)
 
 
 def row(scene: Scene, window: Window) -> Row:

@@ -189,7 +189,7 @@ def _contact(gearset: Gearset) -> rrb.Vertical:
 
 
 def _followed() -> rrb.Vertical:
-    """A measured gearbox beside its twin, what is left between them, and what was found."""
+    """A measured gearbox beside its twin, their residuals, and the changes found."""
     beside = [
         _plot(f"{PLACE}/{name}", f"{pair.quantity.heading}: measured and twin", legend=True)
         for name, pair in PAIRS.items()

@@ -59,7 +59,7 @@ class LiveView:
         self._waiting: Messages = {name: [] for name in TOPICS}
         self._run: _DrawnRun | None = None
 
-    def take(self, records: Iterable[Any]) -> None:
+    def add(self, records: Iterable[Any]) -> None:
         """Draw MCAP records.
 
         Args:

@@ -147,7 +147,7 @@ def log_curves(layer: Layer, recording: Recording, detail: list[TimeSpan]) -> li
 def _log_first(
     layer: Layer, recording: Recording, scene: Scene | None, drawn: Scales | None
 ) -> list[str]:
-    """Log what is drawn of the first recording only: gears, contacts, spectra; return warnings."""
+    """Log the parts of the first recording only: gears, contacts, spectra; return warnings."""
     if scene is not None:
         turned = motion(recording)
         log_gears(layer, scene.gearset)

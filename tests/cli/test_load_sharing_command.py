@@ -29,6 +29,11 @@ def test_the_factor_and_a_floating_sun_are_printed():
     assert "none: floats" in shown
 
 
+def test_forces_have_units_and_rounding_errors_are_not_shown():
+    shown = invoke("paper").output
+    assert " N " in shown and "e-" not in shown
+
+
 def test_both_flanks_are_reported():
     wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")
     assert "both flanks of a mesh touch" in invoke("floating_sun", *wedged).output

@@ -87,10 +87,47 @@ def test_one_of_several_columns_is_chosen_by_its_name(tmp_path):
         assert len(done.stderr.splitlines()) == 1
 
 
+@pytest.fixture(scope="module")
+def run_up(tmp_path_factory):
+    """A vibration of 30 cycles per turn with amplitude 0.8, while the speed rises by 20 %."""
+    file = tmp_path_factory.mktemp("measured") / "run_up.csv"
+    time = np.arange(0.0, 2.0, 1.0 / RATE)
+    turns = 15.0 * time + 0.75 * time**2
+    rpm = 60.0 * (15.0 + 1.5 * time)
+    rows = np.column_stack((time, 0.8 * np.sin(2.0 * np.pi * 30.0 * turns), rpm))
+    header = "Time (s),Acceleration (m/s2),Motor speed (rpm)"
+    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.12g")
+    return file
+
+
+def test_orders_follow_a_measured_speed(run_up):
+    for options in ((), ("--scene", "paper")):
+        line = lines(run_up, "--order", "--speed", "Motor speed", *options)[0]
+        assert line["order"] == pytest.approx(30.0, abs=0.01)
+        assert line["amplitude"] == pytest.approx(0.8, rel=0.01)
+
+
+def test_orders_at_a_speed_that_is_assumed_to_be_constant_come_with_a_remark(run_up):
+    options = ("--column", "Acceleration", "--order", "--scene", "paper")
+    done = invoke(run_up, *options)
+    assert "the speed is assumed to be constant, 16.6667 turns" in done.stderr
+    assert "assumed" not in invoke(run_up, "--order", "--speed", "Motor speed").stderr
+
+
+def test_a_measured_input_speed_is_converted_to_that_of_the_sun_relative_to_the_carrier(tmp_path):
+    file, time = tmp_path / "stage.csv", np.arange(0.0, 60.0, 0.01)
+    mesh = 99 * 12.1 / 60.0  # [Hz] the carrier is the input, the ring with 99 teeth is held
+    rows = np.column_stack((time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time))
+    np.savetxt(file, rows, delimiter=",", header="time,a,rotor [rpm]", comments="", fmt="%.9g")
+    line = lines(file, "--order", "--speed", "rotor", "--scene", "wind_turbine_stage")[0]
+    assert line["order"] == pytest.approx(21.0, abs=0.01) and line["harmonic"] == 1
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--order",), "needs --scene"),
+        (("--order",), "needs --speed, or --scene"),
+        (("--speed", "shaft"), "--speed = 'shaft': no such column"),
         (("--set", "input_speed=1000 rpm"), "needs --scene"),
         (("--sample-rate", "0"), "greater than 0"),
     ],

@@ -78,7 +78,11 @@ def test_gears_without_shift_are_as_before_to_the_last_bit():
         build_gear_set(sizes).meshes, (sun_planet_path, planet_ring_path), strict=True
     ):
         assert mesh.path == path(sizes.teeth, sizes.pressure_angle, 1.0)
-        assert (mesh.pressure_angle, mesh.play, mesh.coast_lead) == (sizes.pressure_angle, 0.0, 0.5)
+        assert (mesh.pressure_angle, mesh.backlash, mesh.coast_lead) == (
+            sizes.pressure_angle,
+            0.0,
+            0.5,
+        )
 
 
 def unwound(gear, count=20001):
@@ -153,7 +157,7 @@ def test_teeth_touch_with_half_the_play_on_each_side_in_every_position(name, kin
     mesh = gear_set(name).meshes[kind]
     for turned in np.linspace(-0.5, 0.5, 9):
         for gap in clearances(mesh, turned):
-            assert gap == pytest.approx(0.5 * mesh.play, abs=2e-5 * mesh.first.module)
+            assert gap == pytest.approx(0.5 * mesh.backlash, abs=2e-5 * mesh.first.module)
 
 
 @ALL
@@ -202,7 +206,7 @@ def test_a_positive_shift_thickens_teeth_and_moves_tips_towards_their_own_side()
     assert moved.ring.tip_radius == pytest.approx(plain.ring.tip_radius - 0.3e-3)
     assert moved.sun.tip_radius == pytest.approx(plain.sun.tip_radius + 0.3e-3)
     assert moved.centre_distance == plain.centre_distance
-    assert [mesh.play for mesh in moved.meshes] == [0.0, 0.0]
+    assert [mesh.backlash for mesh in moved.meshes] == [0.0, 0.0]
 
 
 def test_carrier_ratio_is_that_of_the_base_circles():

@@ -271,8 +271,6 @@ def test_commands_that_a_port_does_not_take_are_refused_and_change_nothing(
 def test_ports_that_a_scene_cannot_give_are_refused():
     with pytest.raises(ValueError, match=r"drive\.input\.port = 'torque': requires dynamics"):
         PAPER.replace(dynamics="quasi_static", **{"drive.input.port": "torque"})
-    with pytest.raises(ValueError, match="must be machine in a differential"):
-        pt.load_scene("differential").replace(**{"drive.output.port": "motion"})
     with pytest.raises(ValueError, match=r"dt = 2\.0 s: must be above 0 and at most 1"):
         pt.Twin(PAPER).step(2.0)
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 import signal
 import time
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin import shaft_commands
 from planetary_twin.shaft_commands import ShaftCommands
 from planetary_twin_msgs.srv import Step
-from rclpy.clock import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
@@ -119,7 +120,7 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
     for request, reason in (
         (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),
         (JointState(name=[RING], velocity=[1.0]), "output_speed = 1.0: requires drive.output.port"),
-        (JointState(name=["elbow"], effort=[1.0]), "command: must have an effort or velocity of"),
+        (JointState(name=["elbow"], effort=[1.0]), "command: must have an effort, velocity or"),
     ):
         answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3, command=request))
         assert not answer.success
@@ -162,17 +163,31 @@ def test_silence_holds_releases_or_brakes(
     peer.until(follows)  # the next command acts again
 
 
-def received(*messages: JointState, timeout: float = 0.0) -> ShaftCommands:
-    given = SimpleNamespace(scene=PAPER, command_timeout=timeout, command_silence="hold")
-    commands = ShaftCommands(given, Clock())
+def received(
+    *messages: JointState,
+    timeout: float = 0.0,
+    silence: str = "hold",
+    continuous: bool = False,
+    now: Callable[[], int] = lambda: 1_000,
+) -> ShaftCommands:
+    given = SimpleNamespace(
+        scene=PAPER,
+        command_timeout=timeout,
+        command_silence=silence,
+        continuous_joints=continuous,
+    )
+    commands = ShaftCommands(given, now)
     for message in messages:
         commands.receive(message)
     return commands
 
 
+def twin(input: str = "torque", output: str = "torque") -> pt.Twin:
+    return pt.Twin(PAPER.replace(**{"drive.input.port": input, "drive.output.port": output}))
+
+
 def torques(commands: ShaftCommands) -> dict[str, float]:
-    scene = PAPER.replace(**{"drive.input.port": "torque", "drive.output.port": "torque"})
-    return commands.given(pt.Twin(scene), 0.01)
+    return commands.given(twin(), 0.01)
 
 
 def test_repeated_and_reordered_commands_have_no_effect() -> None:
@@ -199,21 +214,121 @@ def test_the_report_counts_what_was_ignored_and_names_the_silence() -> None:
 
 
 def test_late_commands_have_no_effect() -> None:
-    now = Clock().now().nanoseconds
+    now = 10**18
     commands = received(
-        command((1.0, 2.0), now - 2_000_000_000), command((3.0, 4.0), now), timeout=1.0
+        command((1.0, 2.0), now - 2_000_000_000),
+        command((3.0, 4.0), now),
+        timeout=1.0,
+        now=lambda: now,
     )
     assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
     assert commands.ignored == {"late": 1}
+
+
+def test_a_command_far_ahead_of_the_clock_does_not_lock_out_later_ones() -> None:
+    now = 10**18
+    commands = received(
+        command((1.0, 2.0), now + 3600 * 10**9), command((3.0, 4.0), now), now=lambda: now
+    )
+    assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
+    assert commands.ignored == {"ahead of the clock": 1}
+
+
+def test_commands_act_after_the_clock_was_set_back() -> None:
+    now = 10**18
+    commands = received(command((1.0, 2.0), now), now=lambda: now)
+    now -= 3600 * 10**9
+    commands.receive(command((3.0, 4.0), now))
+    assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
+    assert not commands.ignored
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The steady time of commands [s], which a test sets."""
+    now = [0.0]
+    monkeypatch.setattr(shaft_commands, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    return now
+
+
+def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:
+    """Stamps and silence of one joint say nothing of the other."""
+    sun, ring = JointState(name=[SUN], effort=[5.0]), JointState(name=[RING], effort=[7.0])
+    sun.header.stamp.nanosec, ring.header.stamp.nanosec = 20, 10
+    commands = received(sun, ring)
+    assert torques(commands) == {"input_torque": 5.0, "output_torque": 7.0}
+    assert not commands.ignored
+    watched = received(command((5.0, 7.0)), timeout=0.5, silence="zero")
+    torques(watched)
+    clock[0] = 0.6
+    watched.receive(JointState(name=[SUN], effort=[6.0]))
+    assert torques(watched) == {"input_torque": 6.0, "output_torque": 0.0}
+    assert f"no command for {RING} for" in watched.status("/twin").message
+
+
+def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> None:
+    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
+    assert commands.given(braked, 0.01) == {"input_torque": 63.0, "output_torque": 147.0}
+    clock[0] = 0.6
+    commands.receive(JointState(name=[SUN], effort=[60.0]))
+    slower = pytest.approx(pt.rpm(1000) - 0.01 * PAPER.drive.speed_control.slew_rate)
+    assert commands.given(braked, 0.01) == {"input_speed": slower, "output_torque": 0.0}
+    assert braked.ports == ("motion", "torque")
+    commands.receive(command((61.0, 140.0)))
+    assert commands.given(braked, 0.01) == {"input_torque": 61.0, "output_torque": 140.0}
+    assert braked.ports == ("torque", "torque")
+
+
+def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) -> None:
+    """A recording then has the ports, also where the next command is for one of them."""
+    braked = twin("torque", "motion")
+    commands = received(
+        JointState(name=[SUN, RING], effort=[63.0, math.nan], velocity=[math.nan, -44.88]),
+        timeout=0.5,
+        silence="brake",
+    )
+    commands.given(braked, 0.01)
+    clock[0] = 0.6
+    braked.advance(0.01, **commands.given(braked, 0.01))
+    assert braked.ports == ("motion", "torque")
+    speed = braked.port_states.output_speed
+    commands.receive(JointState(name=[RING], velocity=[speed]))
+    commands.receive(JointState(name=[SUN], effort=[50.0]))
+    given = commands.given(braked, 0.01)
+    assert given == {"input_torque": 50.0, "output_speed": speed}
+    assert braked.ports == ("torque", "motion")
+
+
+def test_a_joint_whose_port_takes_something_else_is_counted() -> None:
+    commands = received(JointState(name=[SUN], velocity=[1.0]))
+    assert torques(commands) == {}
+    assert commands.ignored == {f"{SUN}: drive.input.port = torque": 1}
+    both = received(JointState(name=[SUN], effort=[5.0], velocity=[1.0]))
+    assert torques(both) == {"input_torque": 5.0}
+    assert not both.ignored
+
+
+@pytest.mark.parametrize("continuous", [False, True])
+def test_positions_are_those_of_joint_states(continuous: bool) -> None:
+    """Within one turn, the nearest angle is meant; with `continuous_joints`, the angle itself."""
+    moved = twin("motion", "torque")
+    moved.advance(0.1)  # more than a turn and a half
+    angle = moved.port_states.input_angle
+    assert angle > 1.5 * 2.0 * math.pi
+    message = JointState(name=[SUN], position=[math.remainder(angle, 2.0 * math.pi) + 0.1])
+    given = received(message, continuous=continuous).given(moved, 0.01)
+    expected = message.position[0] if continuous else angle + 0.1
+    assert given == {"input_position": pytest.approx(expected, abs=1e-12)}
 
 
 def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
     half = JointState(name=["other", RING, SUN], effort=[1.0, 2.0])
     assert torques(received(half)) == {"output_torque": 2.0}
     assert torques(received(command((math.nan, 5.0)))) == {"output_torque": 5.0}
-    empty = received(JointState(name=[SUN], position=[1.0]))
+    empty = received(JointState(name=[SUN], position=[math.nan]))
     assert torques(empty) == {}
-    assert empty.ignored == {"no effort or velocity of sun_joint or ring_joint": 1}
+    reason = "no effort, velocity or position of sun_joint or ring_joint"
+    assert empty.ignored == {reason: 1}
 
 
 def test_a_driven_run_is_recorded_and_verified_bit_for_bit(

@@ -79,7 +79,7 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
         ({"gearset__held": "none"}, ["gearset.held", "'none'", "drive.second_input"]),
         (
             {"operating_point__input_speed": 1200.0},
-            ["input_speed", "within -1100 and 1100 rad/s, drive.speed_limit"],
+            ["input_speed", "within -1100 and 1100 rad/s (drive.speed_limit)"],
         ),
         ({"operating_point__input_torque": -1e4}, ["input_torque", "within -1000 and 1000 N m"]),
         (
@@ -156,7 +156,7 @@ def test_contradictions_between_fields_are_listed_at_once_too():
     assert str(refusal.value) == (
         "the scene has 3 errors:\n"
         "  second_input_speed = 1.0: must be 0 without a second input\n"
-        "  input_speed = 2000.0: must be a number within -1100 and 1100 rad/s, drive.speed_limit\n"
+        "  input_speed = 2000.0: must be a number within -1100 and 1100 rad/s (drive.speed_limit)\n"
         "  faults.0.tooth = 30: must be at most 29"
     )
 

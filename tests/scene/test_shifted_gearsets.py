@@ -37,7 +37,7 @@ def test_real_sets_are_accepted(scene):
     sun, ring = gears.meshes
     assert sun.pressure_angle != ring.pressure_angle
     assert all(mesh.path.contact_ratio > 1.1 for mesh in gears.meshes)
-    assert all(mesh.play > -0.01 * scene.gearset.module for mesh in gears.meshes)
+    assert all(mesh.backlash > -0.01 * scene.gearset.module for mesh in gears.meshes)
 
 
 def refusal(**changes):

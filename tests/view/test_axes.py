@@ -116,7 +116,7 @@ def test_a_live_view_draws_load_shares_and_arrows_of_the_recording(file, drawn, 
     view = LiveView(NAMESPACE, lambda: to_file(rrd))
     records = list(records_of(file, []))
     for start in range(0, len(records), batch):
-        view.take(records[start : start + batch])
+        view.add(records[start : start + batch])
     view.close()
     live, whole = (rows(each, "/axes/load_share", "Scalars:scalars") for each in (rrd, drawn))
     assert live == whole

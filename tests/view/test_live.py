@@ -35,7 +35,7 @@ def drawn(file, folder, batch):
     messages = [place for place, record in enumerate(records) if isinstance(record, Message)]
     edges = [0, *messages[::batch], len(records)]
     for start, end in itertools.pairwise(edges):
-        view.take(records[start:end])
+        view.add(records[start:end])
     view.close()
     return files
 

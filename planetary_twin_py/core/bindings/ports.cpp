@@ -20,6 +20,13 @@ namespace {
 
 using Given = std::optional<double>;
 
+// Values of a command of the caller, at input and output.
+struct GivenValues {
+    Given torque[PORTS];
+    Given speed[PORTS];
+    Given position[PORTS];
+};
+
 // A value that is not given acts as before; one that is no number is out of range.
 double value_of(const Given& given) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -27,10 +34,19 @@ double value_of(const Given& given) {
     return std::isnan(*given) ? infinite : *given;
 }
 
-Command command_of(const Given& input_torque, const Given& output_torque, const Given& input_speed,
-                   const Given& output_speed) {
-    return {{value_of(input_torque), value_of(output_torque)},
-            {value_of(input_speed), value_of(output_speed)}};
+// A command from `now` on, whose positions are reached after `duration` seconds.
+Command command_of(const Model& model, March& march, const Instant& now, double duration,
+                   const GivenValues& given) {
+    Command command = NO_COMMAND;
+    double position[PORTS];
+    for (int port = 0; port < PORTS; ++port) {
+        command.torque[port] = value_of(given.torque[port]);
+        command.speed[port] = value_of(given.speed[port]);
+        position[port] = value_of(given.position[port]);
+    }
+    if (given.position[MOTOR] || given.position[LOAD_MACHINE])
+        approach(model, march, now, duration, position, command);
+    return command;
 }
 
 template <int port>
@@ -58,12 +74,36 @@ void bind_port_states(nb::module_& m) {
         "A copy, which later steps do not change.");
 }
 
+double seconds(std::int64_t ticks) {
+    return static_cast<double>(ticks) / static_cast<double>(TICKS);
+}
+
+// Whether the ports accept the command, which then acts.
+bool py_give(Model& model, March& march, std::int64_t begin, std::int64_t end,
+             const Given& input_torque, const Given& output_torque, const Given& input_speed,
+             const Given& output_speed, const Given& input_position, const Given& output_position,
+             bool linear, const PortRanges& ranges) {
+    const GivenValues given{{input_torque, output_torque},
+                            {input_speed, output_speed},
+                            {input_position, output_position}};
+    const Instant now = instant_of(begin);
+    const double duration = seconds(end - begin);
+    const Command command = command_of(model, march, now, duration, given);
+    if (check(model.load, ranges, command) != Answer::OBEYED) return false;
+    run_unlocked([&] { give(model, march, now, command, linear ? duration : 0.0); });
+    return true;
+}
+
 int py_step_ports(Model& model, March& march, std::int64_t begin, std::int64_t end,
                   const Given& input_torque, const Given& output_torque, const Given& input_speed,
-                  const Given& output_speed, bool linear, const PortRanges& ranges,
+                  const Given& output_speed, const Given& input_position,
+                  const Given& output_position, bool linear, const PortRanges& ranges,
                   const Limits& limits, WindowEnd& reached, PortStates& out) {
-    PortStep step{begin, end, command_of(input_torque, output_torque, input_speed, output_speed),
-                  linear};
+    const GivenValues given{{input_torque, output_torque},
+                            {input_speed, output_speed},
+                            {input_position, output_position}};
+    PortStep step{begin, end,
+                  command_of(model, march, instant_of(begin), seconds(end - begin), given), linear};
     if (check(model.load, ranges, step.command) != Answer::OBEYED)
         return static_cast<int>(Outcome::REFUSED);
     Unlocked unlocked;
@@ -81,21 +121,16 @@ void bind_ports(nb::module_& m) {
     record<PortRanges>(m, "PortRanges").FIELD(PortRanges, torque).FIELD(PortRanges, speed);
     bind_port_states(m);
     m.def("step_ports", &py_step_ports, "model"_a, "march"_a, "begin"_a, "end"_a, "input_torque"_a,
-          "output_torque"_a, "input_speed"_a, "output_speed"_a, "linear"_a, "ranges"_a, "limits"_a,
-          "reached"_a, "out"_a,
+          "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
+          "output_position"_a, "linear"_a, "ranges"_a, "limits"_a, "reached"_a, "out"_a,
           "Give the command at `begin` [ticks], and integrate to `end`; returns the outcome.\n\n"
           "`None`: what acts stays as it is.");
     m.def(
-        "give",
-        [](Model& model, March& march, const InstantTuple& now, const Given& input_torque,
-           const Given& output_torque, const Given& input_speed, const Given& output_speed,
-           double reaching) {
-            Command command = command_of(input_torque, output_torque, input_speed, output_speed);
-            run_unlocked([&] { give(model, march, instant_of(now), command, reaching); });
-        },
-        "model"_a, "march"_a, "now"_a, "input_torque"_a, "output_torque"_a, "input_speed"_a,
-        "output_speed"_a, "reaching"_a,
-        "Let a command act from `now` on, or reach its values `reaching` seconds later.\n\n"
+        "give", &py_give, "model"_a, "march"_a, "begin"_a, "end"_a, "input_torque"_a,
+        "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
+        "output_position"_a, "linear"_a, "ranges"_a,
+        "Let a command act from `begin` [ticks] on; with `linear`, its values are reached at "
+        "`end`.\n\nPositions are always reached at `end`. Returns whether the ports accept it.\n\n"
         "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def(
         "read_ports",

@@ -68,7 +68,9 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Load, since)
         .FIELD(Load, torque_rate)
         .FIELD(Load, speed)
-        .FIELD(Load, acceleration);
+        .FIELD(Load, acceleration)
+        .FIELD(Load, arrives)
+        .FIELD(Load, onward);
     record<TiltingAxis>(m, "TiltingAxis")
         .FIELD(TiltingAxis, lift)
         .FIELD(TiltingAxis, place)

@@ -16,7 +16,6 @@ namespace gearbox {
 namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
-constexpr double NOTHING = std::numeric_limits<double>::quiet_NaN();
 
 Instant now(const RunState& run) {
     return instant_of(run.ticks);
@@ -97,7 +96,7 @@ void prepare(const Exported& scene, RunState& run) {
     run.march.control = scene.control;
     run.march.periodic.pause = scene.pause;
     run.point = run.wanted = scene.point;
-    run.command = {{NOTHING, NOTHING}, {NOTHING, NOTHING}};
+    run.command = NO_COMMAND;
     run.tolerance = scene.tolerance;
 }
 
@@ -146,7 +145,7 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
     PortStep step{run.ticks, end, run.command, scene.linear, true};
     if (check(run.model.load, scene.ranges, step.command) != Answer::OBEYED)
         return Outcome::REFUSED;
-    run.command = {{NOTHING, NOTHING}, {NOTHING, NOTHING}};
+    run.command = NO_COMMAND;
     const Outcome outcome =
         step_ports(run.model, run.march, step, scene.limits, run.books, run.shown);
     run.ticks = end;

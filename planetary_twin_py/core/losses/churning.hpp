@@ -14,7 +14,7 @@
 namespace gearbox {
 
 // Torque [N m] on both sides of a disc, zero at rest; radius [m], axial gap over radius G [-],
-// density [kg/m^3] and viscosity [m^2/s] of what it turns in, speed [rad/s] of either sign.
+// density [kg/m^3] and viscosity [m^2/s] of the fluid around it, speed [rad/s] of either sign.
 inline double disc_torque(double radius, double gap_ratio, double density,
                           double kinematic_viscosity, double speed) {
     double w = std::abs(speed), nu = kinematic_viscosity, g = gap_ratio;

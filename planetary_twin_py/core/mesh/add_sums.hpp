@@ -1,7 +1,6 @@
 #pragma once
 
-// What a stretch of time adds up to in each mesh: statistics of windows and runs, whatever samples
-// are taken.
+// Integrals over an interval for each mesh: statistics of windows and runs, independent of samples.
 
 #include "mesh/mesh_sums.hpp"
 #include "rooms.hpp"
@@ -9,7 +8,7 @@
 
 namespace gearbox {
 
-// Lengthen `total` by `step`; `lanes` is that of the meshes.
+// Extend `total` by `step`; `lanes` is that of the meshes.
 inline void add_sums(const MeshSums& step, MeshSums& total, std::int64_t lanes) {
     if (total.time == 0.0) {
         total = step;

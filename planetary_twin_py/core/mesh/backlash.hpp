@@ -1,11 +1,11 @@
 #pragma once
 
-// When flanks meet and part.
+// When flanks come into contact and separate.
 //
-// A mesh is on its drive side, on its coast side, or open. Its force must push: in contact it ends
-// where the force falls below zero, which damping makes happen while the flanks are still squeezed;
-// open, contact begins where both squeeze and force are positive, with a jump of the force by its
-// damping. (Al-shyyab and Kahraman 2007 for the dead zone; the flanks never pull.)
+// A mesh is in contact on its drive side, on its coast side, or open. Flanks never pull. Contact
+// ends where the force falls below zero; with damping, the flanks are still squeezed there. Contact
+// starts where both squeeze and force are positive, with a jump of the force by its damping. (Dead
+// zone of Al-shyyab and Kahraman 2007.)
 
 #include <algorithm>
 
@@ -23,15 +23,16 @@ struct LengthAndReach {
     double length, reach;  // a length and tau times its rate [m]
 };
 
-// By how far errors of form widen the play of an open mesh on each side. `deflection` counts the
-// errors of the flanks of a closed mesh already.
+// Increase of the backlash of an open mesh by errors of form, on each side. `deflection` contains
+// the errors of the flanks of a closed mesh already.
 inline LengthAndRate widening(const Train& train, const StepConstants& step, std::int64_t i,
                               std::int64_t side, double advance, double pace) {
     if (side != OPEN || train.lines[train.kind[i]] == 0) return {0.0, 0.0};
     return radial_error(train, i, step.line_angle, advance, pace);
 }
 
-// Play [m] left to mesh i on `side`, from its deflection and what widens its play; see `departure`.
+// Gap [m] left to mesh i on `side`, from its deflection and the increase of its backlash; see
+// `departure`.
 inline double play_left(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
                         LengthAndReach motion, LengthAndReach wider, double slack) {
     double d = motion.length, half = load.half_backlash;
@@ -43,12 +44,12 @@ inline double play_left(const Train& train, const Load& load, std::int64_t i, st
     return slack - at_least(drive, coast) + half;
 }
 
-// Play [m] that mesh i has left before its contact changes; negative: it has changed.
+// Gap [m] that mesh i has left before its contact changes; negative: it has changed.
 //
 // Contact ends where d - b + tau d', which is F/k, falls below zero, and begins where that and
-// d - b are positive, on whichever side. Both by a slack: without load, flanks rest against each
-// other with no force, and would part and meet without end. (With a regulatory factor the force
-// does not count.) Radial errors of form widen the play of an open mesh on both sides.
+// d - b are positive, on either side. Both have a tolerance, `slack`: without load, flanks touch
+// without force, and contact would end and start endlessly. (With a regulatory factor the force
+// has no effect.) Radial errors of form increase the backlash of an open mesh on both sides.
 inline double departure(const Model& model, const State& state, const StepConstants& step,
                         std::int64_t i, const double* x, const double* v, Stand stand) {
     const Train& train = model.train;

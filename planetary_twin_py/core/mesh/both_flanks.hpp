@@ -1,6 +1,6 @@
 #pragma once
 
-// Notices meshes in which both flanks of a tooth touch, of which this model carries one.
+// Detects meshes in which both flanks of a tooth touch, of which this model loads one.
 //
 // Radial errors e_R that close more than half the backlash b press the other flank into its
 // neighbour as well, unless the load squeezes the flank that carries by more than 2 (|e_R| - b).

@@ -1,6 +1,7 @@
 #pragma once
 
-// What happens when flanks meet or part, and when tooth pairs enter or leave a mesh.
+// Changes of state when flanks come into contact or separate, and when tooth pairs enter or leave a
+// mesh.
 
 #include "mesh/deflection.hpp"
 #include "mesh/slope.hpp"
@@ -11,8 +12,8 @@
 
 namespace gearbox {
 
-// Elastic energy [J] of mesh i and its copies at so many `cycles` of the train; `step` is room for
-// where it stands.
+// Elastic energy [J] of mesh i and its copies after `cycles` of the train; `step` is work space for
+// the position of the mesh.
 inline double energy_at(const Model& model, const State& state, StepConstants& step, std::int64_t i,
                         double cycles) {
     if (state.side[i] == OPEN) return 0.0;
@@ -42,10 +43,11 @@ inline double stored_energy(const Model& model, const State& state, StepConstant
     return energy_at(model, state, step, i, cycles);
 }
 
-// Close an open mesh on the side it has reached, or open a closed one.
+// Close an open mesh on the side where contact starts, or open a closed one.
 //
-// What the flanks still store at the moment they part is lost in the material: flanks part at
-// d > b, and later meet again at no compression. `step` is room for where the mesh stands.
+// Flanks separate at d > b and come into contact again without compression. The elastic energy that
+// is stored when they separate is lost in the material. `step` is work space for the position of
+// the mesh.
 inline void change_contact(const Model& model, State& state, StepConstants& step, std::int64_t i) {
     const Train& train = model.train;
     double before = stored_energy(model, state, step, i);

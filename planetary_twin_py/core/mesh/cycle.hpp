@@ -1,6 +1,6 @@
 #pragma once
 
-// Where each mesh stands in its cycle: which teeth are in contact, and where on their path.
+// Position of each mesh in its cycle: which teeth are in contact, and where on their path.
 //
 // A mesh cycle is the passage of one tooth. The rigid frame gives whole turns as integers, so
 // cycles stay exact however long the gearbox turns; whole cycles are counted modulo the teeth of a
@@ -36,8 +36,8 @@ inline double frame_cycle(const Train& train, const State& state, std::int64_t m
 }
 
 // Cycles since tooth pair 0 of mesh i was at the pitch point, from the mesh `cycle` that the train
-// has reached since the start, modulo `modulus`. The coast flanks see the motion mirrored, later by
-// `coast_lead`, half a pitch for teeth as thick as their spaces.
+// has reached since the start, modulo `modulus`. On the coast flanks the motion is mirrored, and
+// later by `coast_lead`, half a pitch for teeth as thick as their spaces.
 inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t side, double cycle,
                             std::int64_t modulus) {
     cycle = static_cast<double>(side) * (cycle - train.phase[i]);
@@ -65,7 +65,7 @@ inline double counted_cycle(const Train& train, const State& state, std::int64_t
     return cycle_on_side(train, i, side, cycle, modulus);
 }
 
-// Fraction of its cycle at which mesh i stands on one side, in [0, 1).
+// Position of mesh i in its cycle on one side, in [0, 1).
 inline double mesh_cycle(const Train& train, const State& state, std::int64_t i,
                          std::int64_t side) {
     return counted_cycle(train, state, i, side, 1);

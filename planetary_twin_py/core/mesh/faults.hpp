@@ -1,6 +1,6 @@
 #pragma once
 
-// Faulty teeth: which pairs of which mesh they are in.
+// Faulty teeth, and the pairs of each mesh that contain them.
 //
 // Pairs are numbered as they pass the pitch point. On the drive side pair n of a mesh is tooth n of
 // both gears (counted modulo their teeth, backwards on the mate); on the coast side, where the

@@ -1,12 +1,13 @@
 #pragma once
 
-// Errors of form: the static transmission error e that the teeth themselves put into a mesh.
+// Errors of form: the static transmission error e of a mesh.
 //
 // A mesh is squeezed by side (d - e) - b on its side, b half the backlash. e = e_T + side e_R: the
-// tangential part e_T shifts both flanks of a tooth the same way, the radial part e_R draws them
-// away from the other gear's and widens the play. Harmonics of the meshing frequency are e_T alone;
-// runout, which returns with the turn of a gear, has both parts and leans by the pressure angle,
-// the other way on the other flank. All are sines of the mesh cycle.
+// tangential part e_T shifts both flanks of a tooth in the same direction, the radial part e_R
+// moves them away from the flanks of the other gear and increases the backlash. Harmonics of the
+// meshing frequency have the part e_T only. Runout repeats with each turn of a gear and has both
+// parts: its phase is shifted by the pressure angle, with opposite signs on both flanks. All are
+// sines of the mesh cycle.
 
 #include <cmath>
 #include <numbers>
@@ -26,7 +27,7 @@ inline double line_order(const Train& train, std::int64_t kind, std::int64_t n) 
            static_cast<double>(train.line_period[kind][n]);
 }
 
-// Fill angle[i] with where the sines of mesh i stand [rad].
+// Fill angle[i] with the phases of the sines of mesh i [rad].
 inline void place_lines(const Train& train, const State& state, std::int64_t i,
                         double (*angle)[LINES]) {
     std::int64_t kind = train.kind[i], planets = planets_of(train);
@@ -39,7 +40,7 @@ inline void place_lines(const Train& train, const State& state, std::int64_t i,
     }
 }
 
-// e_R [m] of mesh i and its rate, by which the play is wider on each side: `advance` mesh cycles
+// e_R [m] of mesh i and its rate, an increase of the backlash on each side: `advance` mesh cycles
 // after `place_lines`, at `pace` mesh cycles per second.
 inline LengthAndRate radial_error(const Train& train, std::int64_t i, const double (*angle)[LINES],
                                   double advance, double pace) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What both flanks of a mesh show together, where each has an entry among the meshes.
+// Results of both flanks of a mesh together, where each has an entry among the meshes.
 
 #include "mesh/mesh_sums.hpp"
 #include "rooms.hpp"
@@ -14,7 +14,7 @@ inline std::int64_t other_flank(const Train& train, std::int64_t i) {
     return (i + train.meshes / 2) % train.meshes;
 }
 
-// Let both entries of every mesh have the forces, films and losses of both flanks. Transmission
+// Give both entries of every mesh the forces, films and losses of both flanks. Transmission
 // errors stay those of each flank.
 inline void join_flanks(const Train& train, MeshSums& sums) {
     for (std::int64_t i = 0; i < train.meshes / 2; ++i) {

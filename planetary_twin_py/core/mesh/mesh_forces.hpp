@@ -1,11 +1,11 @@
 #pragma once
 
-// The forces of the meshes, and how their tooth pairs share them.
+// Forces of the meshes, and the shares of their tooth pairs.
 //
 // A closed mesh is squeezed by q = d - e - b on its side, d the transmission error, e the error of
-// form, b half the backlash. A pair of stiffness k pushes with k (q + tau q'), Salagianni et al.
-// 2017, (4), (5), (14) along the line of action; a worn pair only when q has passed its missing
-// material.
+// form, b half the backlash. A pair of stiffness k has the force k (q + tau q'), Salagianni et al.
+// 2017, (4), (5), (14), along the line of action; a worn pair carries only where q exceeds its
+// missing material.
 
 #include <cmath>
 
@@ -20,7 +20,7 @@
 
 namespace gearbox {
 
-// Count the errors of form.
+// Subtract the errors of form.
 RARE inline void place_errors(const Train& train, const StepConstants& step, MeshesNow& now) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         LengthAndRate e =
@@ -31,7 +31,7 @@ RARE inline void place_errors(const Train& train, const StepConstants& step, Mes
     }
 }
 
-// Where the meshes stand `delay` seconds after the start of a step, errors of form counted.
+// Positions of the meshes `delay` seconds after the start of a step, with errors of form.
 inline void place_meshes(const Train& train, const State& state, const StepConstants& step,
                          const double* x, const double* v, double delay, MeshesNow& now) {
     now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
@@ -41,7 +41,7 @@ inline void place_meshes(const Train& train, const State& state, const StepConst
     if (train.lines[0] + train.lines[1] > 0) place_errors(train, step, now);
 }
 
-// How far each mesh has come into its segment [cycles].
+// Position of each mesh in its segment [cycles].
 template <int L>
 LAW Row<L> place_in_segment(const StepConstants& step, double advance) {
     using V = Row<L>;
@@ -68,7 +68,7 @@ LAW Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES], co
     return {value, growth};
 }
 
-// Book what the meshes lose to damping, and what their changing shape puts in.
+// Add the power that the meshes lose to damping, and that of their changing shape.
 inline void book_mesh_power(const Train& train, const MeshesNow& now, double* power) {
     double lost = 0.0, work = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -79,7 +79,7 @@ inline void book_mesh_power(const Train& train, const MeshesNow& now, double* po
     power[STIFFNESS_WORK] += work;
 }
 
-// Pushes of all meshes without faults from where they stand, and their powers.
+// Forces of all meshes without faults at their positions, and their powers.
 template <int L>
 LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, MeshesNow& now) {
     using V = Row<L>;
@@ -102,7 +102,7 @@ LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, Mesh
     (side * (work - push * V(now.error_rate))).store(now.work);
 }
 
-// Share the pushes among the tooth pairs by their stiffnesses.
+// Distribute the forces to the tooth pairs by their stiffnesses.
 template <int L>
 LAW void spread_loads(const Train& train, const StepConstants& step, MeshesNow& now) {
     using V = Row<L>;
@@ -121,22 +121,21 @@ struct Radii {
     Row<L> first, second;
 };
 
-// Radii of pair p, whose teeth are `moved` metres along the path of contact from where the cycle is
-// 0.
+// Radii of pair p, whose teeth are at `moved` [m] on the path of contact, counted from cycle 0.
 template <int L>
 LAW Radii<L> flank_radii(const StepConstants& step, std::int64_t p, const Row<L>& moved) {
     Row<L> way = Row<L>(step.travel[p]) * moved;
     return {Row<L>(step.rho1[p]) + way, Row<L>(step.rho2[p]) - Row<L>(step.external) * way};
 }
 
-// Way of the contacts along their path from where the cycle is 0 [m].
+// Distance of the contacts along their path from cycle 0 [m].
 template <int L>
 LAW Row<L> way_on_path(const Train& train, const StepConstants& step, double advance) {
     const double pitch = train.base_pitch;
     return Row<L>(step.side) * (advance * pitch) + Row<L>(step.start) * pitch;
 }
 
-// Part of the face on which pair p is in contact, but for what is next to nothing.
+// Part of the face on which pair p is in contact; negligible parts count as none.
 template <int L>
 LAW Row<L> face_in_contact(const StepConstants& step, std::int64_t p, double advance) {
     constexpr double LEAST = 1e-3;
@@ -144,13 +143,14 @@ LAW Row<L> face_in_contact(const StepConstants& step, std::int64_t p, double adv
     return larger(Row<L>(step.face[p]) + Row<L>(step.face_growth[p]) * cycle, Row<L>(LEAST));
 }
 
-// Put loads and radii of all meshes' tooth pairs into columns.
+// Write loads and radii of the tooth pairs of all meshes to columns.
 template <int L>
 inline void fill_pairs(const Train& train, const StepConstants& step, const MeshesNow& now,
                        ToothPairs& pairs) {
     Row<L> moved = way_on_path<L>(train, step, now.advance);
     for (std::int64_t p = 0; p < train.slots; ++p) {
-        std::int64_t first = p * train.meshes;  // the next pair overwrites what is beyond meshes
+        std::int64_t first =
+            p * train.meshes;  // the next pair overwrites entries beyond the meshes
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
         rho1.store(pairs.rho1 + first);
         rho2.store(pairs.rho2 + first);
@@ -162,7 +162,7 @@ inline void fill_pairs(const Train& train, const StepConstants& step, const Mesh
     pairs.count = train.slots * train.meshes;
 }
 
-// Push of mesh i from its tooth pairs, each of which may have its faults.
+// Force of mesh i from its tooth pairs, each of which may have faults.
 inline void faulty_mesh_force(const Model& model, const State& state, const StepConstants& step,
                               std::int64_t i, MeshesNow& now) {
     const Train& train = model.train;
@@ -205,7 +205,7 @@ RARE void faulty_mesh_forces(const Model& model, const State& state, const StepC
         faulty_mesh_force(model, state, step, i, now);
 }
 
-// Pushes of the meshes, whose transmission errors are in `now`.
+// Forces of the meshes, whose transmission errors are in `now`.
 template <int L>
 LAW void push_meshes(const Model& model, const State& state, const StepConstants& step,
                      MeshesNow& now) {
@@ -215,13 +215,13 @@ LAW void push_meshes(const Model& model, const State& state, const StepConstants
         healthy_mesh_forces<L>(model, step, now);
 }
 
-// Share the pushes among the tooth pairs, where that is not done yet.
+// Distribute the forces to the tooth pairs where that is not done yet.
 template <int L>
 SHARED void share_pushes(const Train& train, const StepConstants& step, MeshesNow& now) {
     if (train.faults == 0) spread_loads<L>(train, step, now);
 }
 
-// Pushes of the meshes, whose transmission errors are in out.now; begins out.power.
+// Forces of the meshes, whose transmission errors are in out.now; initialises out.power.
 inline void mesh_forces(const Model& model, const State& state, const StepConstants& step,
                         const double* x, const double* v, double delay, Evaluation& out) {
     for (double& power : out.power) power = 0.0;
@@ -232,7 +232,7 @@ inline void mesh_forces(const Model& model, const State& state, const StepConsta
     book_mesh_power(model.train, out.now, out.power);
 }
 
-// Share the pushes among the tooth pairs, in columns.
+// Distribute the forces to the tooth pairs, in columns.
 inline void share_loads(const Model& model, const StepConstants& step, Evaluation& out) {
     with_mesh_lanes(model.train, [&](auto lanes) {
         share_pushes<lanes>(model.train, step, out.now);
@@ -240,7 +240,7 @@ inline void share_loads(const Model& model, const StepConstants& step, Evaluatio
     });
 }
 
-// Growth [N/s] of the push of closed mesh i with its cycle, were its bodies to rest in x.
+// Rate of change [N/s] of the force of closed mesh i with its cycle, with its bodies at rest in x.
 inline double push_drift(const Model& model, const State& state, const StepConstants& step,
                          std::int64_t i, double pace) {
     const Train& train = model.train;

@@ -15,7 +15,7 @@
 
 namespace gearbox {
 
-// Fill the loads (PAIRS,) that add up to `force`, pairs that would pull taken out in turn.
+// Fill the loads (PAIRS,) that add up to `force`; pairs that would pull are removed in turn.
 inline void balance_pairs(const Train& train, const StepConstants& step, std::int64_t i,
                           std::int64_t segment, double u, double force, double* load) {
     std::int64_t present = train.present[train.kind[i]][segment];
@@ -40,14 +40,14 @@ inline void balance_pairs(const Train& train, const StepConstants& step, std::in
 // The contacts of the pairs of a mesh, (PAIRS,) each.
 struct PairContacts {
     double* position;  // of the middle of the line of contact [base pitches]
-    double* ahead;     // of the middle before where the middle of the face stands [base pitches]
+    double* ahead;     // of the middle, relative to the middle of the face [base pitches]
     double* face;      // part of the face in contact
     double* load;      // [N]
 };
 
 // Fill the contacts of the pairs of mesh i under a force [N] that is not zero. `cycles` are those
-// of the train, `counted` (FAULTS,) the same by the gear of each fault; `step` is room for the
-// faults.
+// of the train, `counted` (FAULTS,) the same by the gear of each fault; `step` is work space for
+// the faults.
 inline void share_force(const Train& train, StepConstants& step, std::int64_t i, double cycles,
                         const double* counted, double force, const PairContacts& contact) {
     std::int64_t kind = train.kind[i], side = force > 0.0 ? DRIVE_SIDE : COAST_SIDE;

@@ -39,7 +39,7 @@ struct FaultEffect {
     double factor, growth, gap;  // on the stiffness, per cycle, missing material [m]
 };
 
-// What the faults of a tooth pair do to it.
+// Effect of the faults of a tooth pair.
 inline FaultEffect fault_effect(const Train& train, const StepConstants& step, std::int64_t i,
                                 std::int64_t segment, std::int64_t pair, double u) {
     FaultEffect effect{1.0, 0.0, 0.0};
@@ -58,7 +58,7 @@ struct StiffnessAndGap {
     double stiffness, gap;  // [N/m], missing material [m]
 };
 
-// Stiffness of a tooth pair `u` cycles into a segment, faults counted.
+// Stiffness of a tooth pair `u` cycles into a segment, with its faults.
 inline StiffnessAndGap pair_stiffness(const Train& train, const StepConstants& step, std::int64_t i,
                                       std::int64_t segment, std::int64_t pair, double u) {
     std::int64_t kind = train.kind[i];

@@ -1,6 +1,6 @@
 #pragma once
 
-// How planets share the load: each is a spring with play between sun and ring.
+// Load sharing of the planets: each is a spring with backlash between sun and ring.
 //
 // The transmission errors of a planet's two meshes add up to w = x_s + x_r - 2 x_c, whatever the
 // planet does (2 differs where ring != sun + 2 planet), so one wind-up w squeezes all planets. The

@@ -28,14 +28,14 @@ struct alignas(64) PointLaws {
     Load constant;  // what depends on nothing
     double play;  // half the backlash along the line of action per backlash, or all of it where the
                   // force grows from zero [-]
-    bool from_zero;           // whether the force grows from a DTE of zero
-    double torque[MACHINES];  // of each machine per torque of the first motor [-]
-    double ratio[MACHINES];   // speed of the shafts of motor and load per speed of the motor [-]
-    bool starts_elsewhere;    // whether a run starts at another speed
-    double start_speed;       // that speed [rad/s]
-    double force_share[2];    // teeth of the sun and of the first motor's member: mesh force
-    double force_lever;       // per torque is their quotient over this lever [m]
-    double stiffness;         // of the softest tooth pair [N/m]
+    bool from_zero;                // whether the force grows from a DTE of zero
+    double torque[MACHINES];       // of each machine per torque of the first motor [-]
+    double ratio[MACHINES][AXES];  // speed of the shafts of motor and load per speed of a motor [-]
+    bool starts_elsewhere;         // whether a run starts at another speed
+    double start_speed;            // that speed [rad/s]
+    double force_share[2];         // teeth of the sun and of the first motor's member: mesh force
+    double force_lever;            // per torque is their quotient over this lever [m]
+    double stiffness;              // of the softest tooth pair [N/m]
 };
 
 constexpr double LIGHTEST_MESH_LOAD = 1.0;  // [N] smaller ones do not tighten tolerances further
@@ -63,7 +63,8 @@ inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
     load.ripple = point.torque_ripple;
     for (int m = 0; m < MACHINES; ++m) {
         load.torque[m] = point.input_torque * laws.torque[m];
-        load.speed[m] = laws.ratio[m] * start_speed(laws, point);
+        load.speed[m] = laws.ratio[m][0] * start_speed(laws, point) +
+                        laws.ratio[m][1] * point.second_input_speed;
     }
     return load;
 }
@@ -77,6 +78,8 @@ inline void keep_given(const Load& before, Load& load) {
         }
         load.speed[m] = before.speed[m];
         load.acceleration[m] = before.acceleration[m];
+        load.arrives[m] = before.arrives[m];
+        load.onward[m] = before.onward[m];
     }
     load.since_seconds = before.since_seconds;
     load.since = before.since;

@@ -17,10 +17,13 @@ namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 
-// What acts at a port: a torque [N m] or a speed [rad/s], and its rate of change.
+// What acts at a port: a torque [N m] or a speed [rad/s], and its rate of change. A speed that
+// reaches a position is followed by another one.
 struct Action {
     double value;
     double rate;
+    bool arrives = false;
+    double onward = 0.0;
 
     bool operator==(const Action&) const = default;
 };
@@ -28,17 +31,22 @@ struct Action {
 // What acts at a port, so many seconds after the instant of the load.
 Action acting(const Load& load, int port, double passed) {
     if (load.port[port] == BY_MOTION)
-        return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port]};
+        return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port],
+                load.arrives[port] != 0, load.onward[port]};
     return {load.torque[port] + load.torque_rate[port] * passed, load.torque_rate[port]};
 }
 
 // What a command makes of it.
-Action commanded(const Load& load, int port, const Action& now, const Command& command,
+Action commanded(const Load& load, int port, const Action& before, const Command& command,
                  double reaching) {
-    double value = load.port[port] == BY_MOTION ? command.speed[port] : command.torque[port];
-    if (std::isnan(value)) return {now.value, 0.0};
+    const bool moved = load.port[port] == BY_MOTION;
+    const double value = moved ? command.speed[port] : command.torque[port];
+    const double approach = moved ? command.approach[port] : NOT_A_NUMBER;
+    if (!std::isnan(approach)) return {approach, 0.0, true, std::isnan(value) ? 0.0 : value};
+    const double now = before.arrives ? before.onward : before.value;
+    if (std::isnan(value)) return {now, 0.0};
     if (reaching == 0.0) return {value, 0.0};
-    return {now.value, (value - now.value) / reaching};
+    return {now, (value - now) / reaching};
 }
 
 // Let the end of a shaft have a speed, and nothing else change.
@@ -75,6 +83,8 @@ void act_at(Model& model, State& state, int port, const Action& action) {
     }
     load.speed[port] = action.value;
     load.acceleration[port] = action.rate;
+    load.arrives[port] = action.arrives;
+    load.onward[port] = action.onward;
     set_speed(model.train, state, port, action.value);
 }
 
@@ -95,6 +105,17 @@ bool is_driven(const Load& load) {
     return load.port[MOTOR] != BY_MACHINE || load.port[LOAD_MACHINE] != BY_MACHINE;
 }
 
+// Angle of a shaft since the start, `passed` seconds into the last step [rad].
+double angle_at(const Train& train, const March& march, int port, double passed) {
+    const State& begin = march.begin;
+    const std::int64_t body = train.coupling[port][0];
+    double angle = march.dense.x[body] / train.radius[body];
+    for (std::int64_t a = 0; a < train.axes; ++a)
+        angle += train.ratio[body][a] *
+                 (TURN * (begin.turns[a] + begin.fraction[a]) + begin.speed[a] * passed);
+    return angle;
+}
+
 // Largest magnitudes of the motion at the end of a step of the caller.
 void note_peaks(const Model& model, const March& march, Peaks& peaks) {
     const Train& train = model.train;
@@ -109,13 +130,27 @@ void note_peaks(const Model& model, const March& march, Peaks& peaks) {
 Answer check(const Load& load, const PortRanges& ranges, const Command& command) {
     for (int port = 0; port < PORTS; ++port) {
         const double torque = command.torque[port], speed = command.speed[port];
+        const double approach = command.approach[port];
+        const bool moved = !std::isnan(speed) || !std::isnan(approach);
         bool misplaced = (!std::isnan(torque) && load.port[port] != BY_TORQUE) ||
-                         (!std::isnan(speed) && load.port[port] != BY_MOTION);
+                         (moved && load.port[port] != BY_MOTION);
         if (misplaced) return Answer::NOT_GIVEN;
-        if (std::fabs(torque) > ranges.torque[port] || std::fabs(speed) > ranges.speed[port])
+        if (std::fabs(torque) > ranges.torque[port] || std::fabs(speed) > ranges.speed[port] ||
+            std::fabs(approach) > ranges.speed[port])
             return Answer::OUT_OF_RANGE;
     }
     return Answer::OBEYED;
+}
+
+void approach(const Model& model, March& march, const Instant& now, double duration,
+              const double* position, Command& command) {
+    const double passed = delay(march.begin, now);
+    interpolate(model, march, passed);
+    for (int port = 0; port < PORTS; ++port) {
+        if (std::isnan(position[port])) continue;
+        const double angle = angle_at(model.train, march, port, passed);
+        command.approach[port] = (position[port] - angle) / duration;
+    }
 }
 
 void give(Model& model, March& march, const Instant& now, const Command& command, double reaching) {
@@ -139,13 +174,8 @@ void read_ports(const Model& model, March& march, const Instant& time, PortState
     apply_machines(model, begin, march.constants, x, v, passed, trim, forces, power);
     out.time = static_cast<double>(time.seconds) + time.time;
     for (int port = 0; port < PORTS; ++port) {
-        std::int64_t body = train.coupling[port][0];
-        double angle = x[body] / train.radius[body];
-        for (std::int64_t a = 0; a < train.axes; ++a)
-            angle += train.ratio[body][a] *
-                     (TURN * (begin.turns[a] + begin.fraction[a]) + begin.speed[a] * passed);
-        out.angle[port] = angle;
-        out.speed[port] = body_speed(train, begin, v, body);
+        out.angle[port] = angle_at(train, march, port, passed);
+        out.speed[port] = body_speed(train, begin, v, train.coupling[port][0]);
         out.torque[port] = power[IMPULSE + port];
     }
 }

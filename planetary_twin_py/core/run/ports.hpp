@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "integrators/march_record.hpp"
 #include "run/clock.hpp"
@@ -23,9 +24,14 @@ inline Instant instant_of(std::int64_t ticks) {
 
 // What is given at the ports; a NaN: what acts stays as it is.
 struct Command {
-    double torque[PORTS];  // on the shaft [N m]
-    double speed[PORTS];   // of the shaft [rad/s]
+    double torque[PORTS];    // on the shaft [N m]
+    double speed[PORTS];     // of the shaft [rad/s]; with an approach, from its end on
+    double approach[PORTS];  // constant speed at which it reaches a given position [rad/s]
 };
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr Command NO_COMMAND{
+    {NOT_A_NUMBER, NOT_A_NUMBER}, {NOT_A_NUMBER, NOT_A_NUMBER}, {NOT_A_NUMBER, NOT_A_NUMBER}};
 
 // Largest magnitudes that may be given.
 struct PortRanges {
@@ -46,6 +52,11 @@ enum class Answer { OBEYED, OUT_OF_RANGE, NOT_GIVEN };
 
 // Whether the ports take a command: its values are in their ranges, and what it gives is given.
 Answer check(const Load& load, const PortRanges& ranges, const Command& command);
+
+// Let the shafts reach positions [rad] at constant speed, `duration` seconds after `now`; a NaN: no
+// position is given.
+void approach(const Model& model, March& march, const Instant& now, double duration,
+              const double* position, Command& command);
 
 // Let a command act from `now` on, the end of the last window: at once, or, where `reaching` is not
 // 0, along straight lines that reach its values after so many seconds. What the meshes show in the

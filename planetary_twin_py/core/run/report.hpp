@@ -6,7 +6,7 @@
 
 namespace gearbox {
 
-// What is reported of a train: every body and mesh of the gearset, in the order of their names.
+// The report of a train: every body and mesh of the gearset, in the order of their names.
 struct Report {
     std::int64_t bodies;
     std::int64_t body[BODIES];             // its place in the train; the ground is behind the last

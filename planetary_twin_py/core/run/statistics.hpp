@@ -1,6 +1,6 @@
 #pragma once
 
-// Mean, rms and peak values of the meshes over an interval, from what it adds up to in each.
+// Mean, rms and peak values of the meshes over an interval, from its integrals for each mesh.
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace gearbox {
 
-// Rows of what is shown of every mesh.
+// Rows of the results of every mesh.
 constexpr int MEAN_DTE = 0, RMS_DTE = 1, LARGEST_DTE = 2, MEAN_FORCE = 3, LARGEST_FORCE = 4,
               IN_CONTACT = 5, WITHOUT_VISCOUS = 6, MEAN_FILM = 7, MEAN_LAMBDA = 8,
               MEAN_BOUNDARY = 9, MEAN_VISCOUS = 10, MEAN_LOSS = 11;

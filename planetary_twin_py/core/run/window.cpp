@@ -22,7 +22,7 @@ namespace {
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 constexpr std::int64_t WAVES = VISCOUS + 1;  // quantities of `observe` that a waveform shows
 
-// Put samples of the meshes of the train (rows, WAVES, meshes) into the order of the report.
+// Reorder samples of the meshes of the train (rows, WAVES, meshes) as in the report.
 void put_waveform(const Report& report, const Train& train, const double* mesh,
                   const Waveform& out) {
     const std::int64_t n = report.meshes, meshes = train.meshes;

@@ -1,6 +1,6 @@
 #pragma once
 
-// A window of a run: its waveform, and what the train shows at its end.
+// A window of a run: its waveform, and the state of the train at its end.
 
 #include <cstdint>
 
@@ -52,7 +52,7 @@ struct alignas(64) WindowEnd {
     Peaks peaks;              // of its samples
 };
 
-// What is to be computed: a window, or the first part of one.
+// The task: a window, or the first part of one.
 struct WindowJob {
     const Model& model;
     March& march;

@@ -2,7 +2,7 @@
 
 // Windows of many runs at once, in threads.
 //
-// A run is one thread's, and what it computes depends on nothing else: the results are those of one
+// Each run belongs to one thread and depends on nothing else: the results are those of one
 // run after the other, to the last bit.
 
 #include <vector>

@@ -281,10 +281,10 @@ void trim(const Model& model, const double* drags, State& state) {
         for (std::int64_t a = 0; a < train.axes; ++a)
             for (std::int64_t b = 0; b < train.axes; ++b)
                 effect[a][b] += train.ratio[train.coupling[c][0]][a] * model.load.trim_gain[c][b];
-    if (train.axes == 1) {
-        if (effect[0][0] == 0.0) return;  // no machine holds the speed
-        state.trim[0] += drags[0] / effect[0][0];
-        return;
+    if (train.axes == 1 || effect[0][0] == 0.0 || effect[1][1] == 0.0) {
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            if (effect[a][a] != 0.0) state.trim[a] += drags[a] / effect[a][a];
+        return;  // no machine holds the other speeds
     }
     double determinant = effect[0][0] * effect[1][1] - effect[0][1] * effect[1][0];
     state.trim[0] += (drags[0] * effect[1][1] - drags[1] * effect[0][1]) / determinant;

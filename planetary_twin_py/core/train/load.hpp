@@ -27,6 +27,8 @@ struct alignas(64) Load {
     double torque_rate[MACHINES];      // by which a given torque changes [N m/s]
     double speed[MACHINES];            // of a shaft whose motion is given [rad/s]
     double acceleration[MACHINES];     // by which that changes [rad/s^2]
+    std::int64_t arrives[MACHINES];    // 1: the shaft reaches a given position at this speed
+    double onward[MACHINES];           // its speed after that, until a command [rad/s]
 };
 
 }  // namespace gearbox

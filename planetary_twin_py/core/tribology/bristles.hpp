@@ -1,6 +1,6 @@
 #pragma once
 
-// Tooth pairs that hold: static friction of all pairs, where the gears creep or stand still.
+// Static friction of all tooth pairs, where the gears creep or are at rest.
 //
 // The traction curve of a rolling contact gets narrower the slower its flanks roll. Below CREEPING
 // bristles join them instead, see `presliding.hpp`: each tooth pair has the share of its full

@@ -3,7 +3,7 @@
 // A friction coefficient from a table, as it was measured or computed elsewhere.
 //
 // Between its values it is linear in the logarithms of the quantities, beyond them it stays at the
-// last ones. It includes boundary friction; the sense of sliding is put to it as to every law.
+// last ones. It includes boundary friction; its sign is that of sliding, as with every law.
 
 #include <cstdint>
 

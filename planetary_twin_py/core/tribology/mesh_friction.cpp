@@ -12,7 +12,8 @@ namespace gearbox {
 namespace {
 
 // Tooth pairs of all instants as columns of doubles or floats: entry (n * slots + p) * L + i is of
-// pair p of mesh i at instant n. What beyond the meshes fills whole registers is meaningless.
+// pair p of mesh i at instant n. Entries beyond the meshes fill whole registers and have no
+// meaning.
 template <class Number>
 struct alignas(64) Columns {
     static constexpr int MOST = MOST_INSTANTS * PAIRS * MESHES;
@@ -136,7 +137,7 @@ void rub_pairs(const Oil& oil, double slowest, Columns<Number>& pairs, int count
     }
 }
 
-// Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
 template <int L, class Number>
 LAW void add_up(const Train& train, const StepConstants& step, const Columns<Number>& pairs,
                 std::int64_t first, bool rolling, const FrictionInstant& instant) {

@@ -15,7 +15,7 @@ namespace gearbox {
 
 inline constexpr int MOST_INSTANTS = 5;
 
-// What the tooth pairs of each mesh do together.
+// Sums over the tooth pairs of each mesh.
 struct alignas(64) MeshFriction {
     DragOfMeshes drag;
     alignas(64) double lost[MESHES];      // to friction and rolling resistance [W]
@@ -24,16 +24,15 @@ struct alignas(64) MeshFriction {
     alignas(64) double film[MESHES];      // mean by the load [m]
 };
 
-// An instant: where the meshes stand, the speeds of their gears against the carrier, and where axes
-// move against their lines of action [rad/s], and
-// room for what is found.
+// An instant: positions of the meshes, the speeds of their gears [rad/s] relative to the carrier,
+// and where axes move relative to their lines of action, with work space for the results.
 struct FrictionInstant {
     const MeshesNow* meshes;
     const double (*spin)[MESHES];
     MeshFriction* found;
 };
 
-// Fill what is found at so many instants, at most MOST_INSTANTS. Entries beyond the meshes are
+// Fill the results at so many instants, at most MOST_INSTANTS. Entries beyond the meshes are
 // zero.
 void find_friction(const Model& model, const StepConstants& step, const FrictionInstant* instants,
                    int count, bool single_precision);

@@ -32,7 +32,7 @@ struct alignas(64) Oil {
     double boundary_coefficient;  // [-], of the former
     bool rolling;                 // whether rolling resists
     double sliding_threshold;     // [-]
-    double presliding;            // displacement by which flanks yield before they slide [m]
+    double presliding;            // elastic displacement of the flanks before they slide [m]
     FrictionTable table;
 };
 

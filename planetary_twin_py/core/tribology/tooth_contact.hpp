@@ -1,6 +1,6 @@
 #pragma once
 
-// Film and friction of one tooth pair: the laws put together.
+// Film and friction of one tooth pair: the combination of the laws.
 
 #include "tribology/boundary.hpp"
 #include "tribology/bristles.hpp"
@@ -26,7 +26,7 @@ LAW double lambda_ratio_of(const Oil& oil, double log_film) {
     return oil.prescribed ? oil.lambda_ratio : exp(log_film - oil.log_roughness);
 }
 
-// What the laws of friction read of a tooth pair.
+// Inputs of the friction laws for a tooth pair.
 template <class Real>
 struct Contact {
     Real load;        // normal [N]
@@ -155,7 +155,7 @@ LAW Flanks<Real> flanks_of(Real rho1, Real rho2, Real external, const SurfaceSpe
     Real inverse = 1.0 / (distance * loaded * threshold);
     return {speeds.sliding, speeds.sum, rho1 * rho2 * (loaded * threshold * inverse),
             at_least(load, LIGHTEST_LOAD), distance * loaded * inverse,
-            // A jump where flanks meet would have them chatter.
+            // A jump at the start of contact would cause chatter: repeated short contacts.
             load * (distance * threshold * inverse)};
 }
 
@@ -212,7 +212,7 @@ LAW PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flan
     Real steepness = flanks.steepness;
     Real softer{};  // by what the friction grows with the sliding, its sense is less steep
     if constexpr (laws.traction == TractionLaw::EYRING) {
-        // Up to the friction, flanks and film yield elastically: less friction needs less sliding.
+        // Up to the friction force, flanks and film are elastic: less friction needs less sliding.
         Real scale =
             oil.shear_thinning.limiting_stress * contact.load / (full.boundary + full.viscous);
         steepness *= at_least(scale, 1.0);

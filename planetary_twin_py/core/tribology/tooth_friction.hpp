@@ -67,7 +67,7 @@ inline double friction_layer(const Train& train, const Oil& oil, double cycle_ra
 // Film and friction of `pairs.count` pairs.
 void evaluate(const Model& model, ToothPairs& pairs);
 
-// Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
 inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
     for (std::int64_t i = 0; i < train.meshes; ++i)
         out.torque[0][i] = out.torque[1][i] = out.power[i] = 0.0;

@@ -13,6 +13,7 @@ from .topics import (
     AXES_STATE,
     AXES_WAVEFORM,
     DESCRIPTION,
+    GIVEN,
     JOINTS,
     ORIGIN,
     POINT,
@@ -32,19 +33,21 @@ OF_AXES = {
     AXES_STATE: "planetary_twin_msgs/msg/AxesState",
     AXES_WAVEFORM: "planetary_twin_msgs/msg/AxesWaveform",
 }
+OF_PORTS = {GIVEN: "sensor_msgs/msg/JointState"}
 KINDS = EVERY | OF_AXES
 _LATCHED = (ORIGIN, DESCRIPTION, POINT)
 _NEVER = {"sec": 9_223_372_036, "nsec": 854_775_807}
 
 
-def topics_of(namespace: str, moving_axes: bool = False) -> list[Topic]:
+def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -> list[Topic]:
     """Topics of a twin in `namespace` whose messages follow from its windows.
 
     Args:
         namespace: of the twin.
         moving_axes: whether its axes move.
+        driven: whether torques or motions are given at its ports.
     """
-    kinds = EVERY | (OF_AXES if moving_axes else {})
+    kinds = EVERY | (OF_AXES if moving_axes else {}) | (OF_PORTS if driven else {})
     return [_topic(f"{namespace}/{name}", kind, name in _LATCHED) for name, kind in kinds.items()]
 
 

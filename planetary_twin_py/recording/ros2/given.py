@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from ...commands import CAUSALITIES, SIDES
 from ...scene import Scene
 from ...scene.drive import Causality
 
-SIDES = ("input", "output")
-FIELDS = {"effort": "torque", "velocity": "speed"}
+FIELDS = {"effort": "torque", "velocity": "speed", "position": "position"}
 
 
 def joint_names(scene: Scene) -> tuple[str, str]:
@@ -19,7 +19,7 @@ def joint_names(scene: Scene) -> tuple[str, str]:
 
 
 def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
-    """Efforts and velocities of both shafts in a message, by the arguments of `Twin.advance`.
+    """Efforts, velocities and positions of both shafts, by the arguments of `Twin.advance`.
 
     Other joints, missing values and NaN are ignored, as ros2_control does with interfaces that no
     controller claims.
@@ -37,17 +37,19 @@ def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
 
 
 def fields_of(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str, Any]:
-    """Fields of JointState for values that are given; NaN for those that are not."""
-    return {
-        "name": list(joints),
-        **{
-            field: [values.get(f"{side}_{quantity}", math.nan) for side in SIDES]
-            for field, quantity in FIELDS.items()
-        },
+    """Fields of JointState for values that are given; NaN for those that are not.
+
+    Positions are empty if none is given.
+    """
+    fields: dict[str, list[float]] = {
+        field: [values.get(f"{side}_{quantity}", math.nan) for side in SIDES]
+        for field, quantity in FIELDS.items()
     }
+    if all(map(math.isnan, fields["position"])):
+        fields["position"] = []
+    return {"name": list(joints), **fields}
 
 
 def causality(values: Mapping[str, float]) -> dict[str, Causality]:
     """Ports at which values are given, as arguments of `Twin.set_ports`."""
-    kinds: dict[str, Causality] = {"torque": "torque", "speed": "motion"}
-    return {side: kinds[quantity] for side, quantity in (name.split("_") for name in values)}
+    return {side: CAUSALITIES[quantity] for side, quantity in (name.split("_") for name in values)}

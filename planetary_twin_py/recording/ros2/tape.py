@@ -48,7 +48,7 @@ class Tape:
         self.topics: dict[str, Topic] = {}
         self.counts: Counter[str] = Counter()
         extent = Extent()
-        self._segments = [open_segment(file, self._tell) for file in files_of(path)]
+        self._segments = [open_segment(file, self._add_remark) for file in files_of(path)]
         held = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
         for name in chosen:
             if name not in held:
@@ -129,7 +129,7 @@ class Tape:
             offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
         except ValueError as reason:
             offered_qos = []
-            self._tell(f"{path}: {channel.topic}: assumed to be volatile: {reason}")
+            self._add_remark(f"{path}: {channel.topic}: assumed to be volatile: {reason}")
         return Topic(
             name=channel.topic,
             type=schema.name,
@@ -138,7 +138,7 @@ class Tape:
             offered_qos=offered_qos,
         )
 
-    def _tell(self, remark: str) -> None:
+    def _add_remark(self, remark: str) -> None:
         if remark not in self.remarks:
             self.remarks.append(remark)
 

@@ -67,7 +67,7 @@ def types_of(definition: bytes, kind: str) -> Typestore:
 
 
 def absent(kind: str, recorded: Collection[str]) -> dict[str, Any]:
-    """What stands for fields of the twin's type `kind` that are not `recorded`.
+    """Values in place of fields of the twin's type `kind` that are not `recorded`.
 
     Args:
         kind: name of the type, `pkg/msg/Name`.
@@ -87,7 +87,7 @@ def is_recorded(message: Any, field: str) -> bool:
 
 
 def _empty(sort: Nodetype, of: Any) -> Any:
-    """What stands for a field of this type."""
+    """Value in place of a field of this type."""
     if sort == Nodetype.BASE:
         return math.nan if of[0].startswith("float") else "" if of[0] == "string" else 0
     if sort == Nodetype.ARRAY:

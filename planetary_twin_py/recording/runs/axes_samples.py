@@ -53,7 +53,7 @@ class AxesInFile:
     def __init__(self) -> None:
         self._batches: list[_Batch] = []
 
-    def take(self, source: Source, place: int, rows: NDArray[Any]) -> None:
+    def add(self, source: Source, place: int, rows: NDArray[Any]) -> None:
         """Add messages from the section at position `place` of a file.
 
         Raises:

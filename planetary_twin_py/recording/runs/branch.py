@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from ...commands import CAUSALITIES, Commands
 from ...integrators.clock import TICKS
 from ...scene import TUNABLES, Scene, SceneError
 from .origin import Origin, makers_here
@@ -30,6 +32,11 @@ class Branch:
     duration: float | None = None
     run: int | None = None
     """Number of the run in the file, from 1; None is the last."""
+    commands: Commands | None = None
+    """Commands at the ports, in place of all recorded ones of the same shafts.
+
+    A command acts from the start of the first interval at or after its time.
+    """
 
 
 def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
@@ -50,7 +57,7 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     if not 0.0 <= branch.start <= last:
         raise ValueError(f"from = {branch.start:g} s: must be within 0 and {last:g} s")
     begins = next(i.begin for i in intervals if i.begin >= round(branch.start * TICKS)) / TICKS
-    values, scene = _values(run.origin.scene, branch)
+    values, scene = _values(_with_ports(run.origin.scene, branch), branch)
     before = [change for change in run.changes if change.time < begins]
     after = [change for change in run.changes if change.time >= begins]
     if not after or after[0].time > begins:
@@ -61,7 +68,56 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     for change in after:
         scene.replace(**change.values)
     origin = Origin(scene, run.origin.begins, makers_here())
-    return begins, RecordedRun(origin, intervals, before + after, run.given)
+    given = run.given
+    if branch.commands is not None:
+        later = [interval for interval in intervals if interval.begin / TICKS >= begins]
+        given = given | commanded(given, later, branch.commands)
+    return begins, RecordedRun(origin, intervals, before + after, given)
+
+
+def commanded(
+    recorded: Mapping[int, Mapping[str, float]], intervals: list[Interval], commands: Commands
+) -> dict[int, dict[str, float]]:
+    """Commands of intervals, where a course replaces those of its shafts.
+
+    Args:
+        recorded: recorded commands, by the stamps of their intervals [ns].
+        intervals: intervals in which the course acts.
+        commands: the course.
+
+    Returns:
+        Commands by stamp [ns].
+    """
+    replaced = {name.split("_")[0] for name in commands.names}
+    waiting, given = deque(commands), dict[int, dict[str, float]]()
+    for interval in intervals:
+        kept = recorded.get(interval.stamp, {}).items()
+        values = {name: value for name, value in kept if name.split("_")[0] not in replaced}
+        while waiting and waiting[0][0] <= interval.begin:
+            values |= waiting.popleft()[1].values
+        given[interval.stamp] = values
+    return given
+
+
+def _with_ports(scene: Scene, branch: Branch) -> Scene:
+    """The scene with the ports that the commands of a branch require."""
+    if branch.commands is None:
+        return scene
+    ports = dict[str, str]()
+    for name in branch.commands.names:
+        side, quantity = name.split("_")
+        port = ports.setdefault(side, CAUSALITIES[quantity])
+        if port != CAUSALITIES[quantity]:
+            raise ValueError(f"commands: {name}: torque and motion cannot both be given at {side}")
+    changes = {
+        f"drive.{side}.port": port
+        for side, port in ports.items()
+        if getattr(scene.drive.ports, side) != port
+    }
+    if changes and branch.start > 0.0:
+        name, port = next(iter(changes.items()))
+        raise SceneError(f"{name} = {port!r}, which the commands require, requires from = 0")
+    return scene.replace(**changes)
 
 
 def _values(scene: Scene, branch: Branch) -> tuple[dict[str, float], Scene]:

@@ -16,7 +16,7 @@ from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
 from ..ros2.bag import BagWriter
 from ..ros2.definitions import KINDS
 from ..ros2.fields import joint_fields, state_fields, waveform_fields
-from ..ros2.given import fields_of
+from ..ros2.given import FIELDS, fields_of
 from ..ros2.metadata import Topic
 from ..ros2.topics import (
     AXES_STATE,
@@ -116,8 +116,7 @@ class Composer:
         """Fields of what was given in a window."""
         input_joint, output_joint = (f"{window.bodies[at]}_joint" for at in window.members[:2])
         found = fields_of(window.given, (input_joint, output_joint))
-        effort, velocity = np.array(found["effort"]), np.array(found["velocity"])
-        return {**found, "position": np.empty(0), "effort": effort, "velocity": velocity}
+        return found | {field: np.array(found[field], dtype=float) for field in FIELDS}
 
     def _state(self, window: Window) -> Row:
         if STATE not in self._kinds:

@@ -49,7 +49,7 @@ class TopicInfo:
         span = self.last - self.first
         return (self.recorded - 1) / (span * 1e-9) if span > 0 else math.nan
 
-    def take(self, times: Sequence[int] | NDArray[np.int64]) -> None:
+    def add(self, times: Sequence[int] | NDArray[np.int64]) -> None:
         """Count messages by their log times, which follow those of previous calls."""
         if not len(times):
             return
@@ -157,7 +157,7 @@ class _Collector:
             if found := decoder.read(record):
                 self._learn(*found)
         for name, taken in times.items():
-            self.info.topics[name].take(taken)
+            self.info.topics[name].add(taken)
         self._settle(accounts)
 
     def look_up(self, file: Path, index: Index) -> None:
@@ -171,7 +171,7 @@ class _Collector:
             decoder.read(channel)
             new, times = self._new(index, number), index.times[number]
             kind = index.schemas[channel.schema_id].name
-            self.info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times[new])
+            self.info.topics.setdefault(channel.topic, TopicInfo(kind)).add(times[new])
             if number not in decoder:
                 continue
             messages = _Messages(index, number, decoder)

@@ -28,7 +28,7 @@ class Ramp:
         steps = len(self.times)
         return (self.times[-1] - self.times[0]) * steps / max(steps - 1, 1)
 
-    def take(self, change: Changed) -> bool:
+    def add(self, change: Changed) -> bool:
         """Add `change` if it is the next step; return whether it is."""
         same = change.values.keys() == self.last.keys() == self.first.keys()
         if not (same and self._in_time(change.time) and self._onwards(change.values)):
@@ -59,7 +59,7 @@ def ramps(changes: Iterable[Changed]) -> list[Ramp]:
     for change in changes:
         known = values.setdefault(change.namespace, {})
         under_way = newest.get(change.namespace)
-        if under_way is None or not under_way.take(change):
+        if under_way is None or not under_way.add(change):
             first = {name: known[name] for name in change.values if name in known}
             newest[change.namespace] = Ramp([change.time], first, change.values)
             found.append(newest[change.namespace])

@@ -241,16 +241,16 @@ class _Found:
                     channel = record.channel_id
                     if channel not in sources:
                         fields = found.types.fielddefs
-                        self._tell_absent(
+                        self._remark_absent(
                             found.topic, absent(found.kind, dict(fields[found.kind][1]))
                         )
                         layouts = Layouts(fields, found.kind)
                         sources[channel] = Source(file, channel, found.topic, layouts)
                     messages.setdefault(channel, []).append(record.data)
             for channel, data in messages.items():
-                self._take(sources[channel], section.place, data)
+                self._add(sources[channel], section.place, data)
 
-    def _tell_absent(self, topic: str, fields: Collection[str]) -> None:
+    def _remark_absent(self, topic: str, fields: Collection[str]) -> None:
         remark = f"{topic}: recorded by another version, without {', '.join(fields)}"
         if fields and remark not in self.remarks:
             self.remarks.append(remark)
@@ -266,13 +266,13 @@ class _Found:
             )
             return None
 
-    def _take(self, source: Source, place: int, messages: list[bytes]) -> None:
+    def _add(self, source: Source, place: int, messages: list[bytes]) -> None:
         for rows in source.arrays(messages):
             topic = source.topic.rpartition("/")[2]
             if topic == AXES_WAVEFORM:
-                self.axes_blocks.setdefault(source.topic, AxesInFile()).take(source, place, rows)
+                self.axes_blocks.setdefault(source.topic, AxesInFile()).add(source, place, rows)
             elif topic == WAVEFORM:
-                self.blocks.setdefault(source.topic, Blocks()).take(source, place, rows)
+                self.blocks.setdefault(source.topic, Blocks()).add(source, place, rows)
             else:
                 self.rows.setdefault(source.topic, []).append(rows)
 

@@ -72,7 +72,7 @@ def steps(run: RecordedRun) -> Iterator[Step]:
     """Simulate the intervals of a run in order."""
     first = run.intervals[0]
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
-    waiting = deque(run.changes)
+    waiting, of_scene = deque(run.changes), run.origin.scene.drive.ports._asdict()
     for interval in run.intervals:
         changes = []
         while waiting and waiting[0].time <= twin.time:
@@ -80,7 +80,7 @@ def steps(run: RecordedRun) -> Iterator[Step]:
             twin.set(**changes[-1].values)
         given = run.given.get(interval.stamp, {})
         if given:  # a brake changes the ports; in the order of the nodes
-            twin.set_ports(**causality(given))
+            twin.set_ports(**(of_scene | causality(given)))
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
         window = twin.advance((interval.end - interval.begin) / TICKS, **given)

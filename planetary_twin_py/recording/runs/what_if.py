@@ -11,7 +11,7 @@ import yaml
 from ...integrators.clock import TICKS
 from ...scene import Scene
 from ..ros2.bag import BagWriter
-from ..ros2.definitions import OF_AXES, topics_of
+from ..ros2.definitions import OF_AXES, OF_PORTS, topics_of
 from ..ros2.metadata import Topic
 from ..ros2.tape import Tape
 from ..ros2.topics import STATE
@@ -78,7 +78,7 @@ def resimulate(
     end = run.intervals[-1].end / TICKS
     try:
         _attach(bag, path, run.origin.scene, branch, begins)
-        topics = _topics(path, namespace, run.origin.scene)
+        topics = _topics(path, namespace, run)
         composer = Composer(bag, topics, namespace, state.header.frame_id)
         for time in write_run(composer, run):
             progress(time, end)
@@ -87,13 +87,14 @@ def resimulate(
     return Made(bag.file, begins, end, run.origin.scene, remarks)
 
 
-def _topics(path: Path, namespace: str, scene: Scene) -> list[Topic]:
-    """Topics of a recording, and those that a changed scene has beside them."""
+def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:
+    """Topics of a recording, and those that a changed scene or commands have beside them."""
     recorded = Tape(path).topics
-    if not scene.moving_axes:
-        return list(recorded.values())
-    of_axes = {f"{namespace}/{name}" for name in OF_AXES}
-    added = {topic.name: topic for topic in topics_of(namespace, True) if topic.name in of_axes}
+    moving, driven = run.origin.scene.moving_axes, bool(run.given)
+    kinds = (OF_AXES if moving else {}) | (OF_PORTS if driven else {})
+    names = {f"{namespace}/{name}" for name in kinds}
+    topics = topics_of(namespace, moving, driven)
+    added = {topic.name: topic for topic in topics if topic.name in names}
     return list((added | recorded).values())
 
 
@@ -114,6 +115,7 @@ def _attach(bag: BagWriter, path: Path, scene: Scene, branch: Branch, begins: fl
         "run": branch.run,
         "from": begins,
         "set": {name: str(value) for name, value in branch.settings.items()},
+        "commands": [] if branch.commands is None else branch.commands.names,
     }
     for name, content in (
         (SCENE_ATTACHMENT, scene.model_dump(mode="json")),

@@ -31,7 +31,7 @@ _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
 )
-_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
+_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\]|\(([^()]*)\))?", re.DOTALL)
 
 
 class Column(NamedTuple):
@@ -39,7 +39,7 @@ class Column(NamedTuple):
 
     heading: str
     unit: str | None
-    """In brackets in the heading; None without."""
+    """In brackets or parentheses in the heading; None without."""
     values: pa.ChunkedArray
     """(rows,)."""
 
@@ -144,14 +144,17 @@ def read_columns(path: Path) -> dict[str, Column]:
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
-    """Name and unit in a heading; the unit is None without brackets.
+    """Name and unit in a heading; the unit is None without brackets or parentheses.
 
     Args:
-        heading: such as `speed [rpm]`. Every name of `TIME` is that of the time.
+        heading: such as `speed [rpm]` or `speed (rpm)`. Every name of `TIME` is that of the time,
+            also with capital letters.
     """
     parts = _HEADING.fullmatch(heading.strip())
     assert parts is not None  # the pattern matches every text
-    return TIME[0] if parts[1] in TIME else parts[1], parts[2]
+    name, in_brackets, in_parentheses = parts.groups()
+    unit = in_parentheses if in_brackets is None else in_brackets
+    return TIME[0] if name.lower() in TIME else name, unit
 
 
 def _read_csv(stream: BinaryIO) -> pa.Table:

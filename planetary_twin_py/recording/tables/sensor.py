@@ -21,30 +21,35 @@ class Sensor(NamedTuple):
     """[s], (n,)."""
     samples: Array
     """[unit], (n,)."""
+    speed: Array | None
+    """Measured speed of a shaft [rad/s], (n,); None without a column of it."""
 
 
-def read_sensor(path: Path, column: str | None, sample_rate: float | None) -> Sensor:
-    """Read a column of a CSV, Parquet or MAT file whose headings are names, or names with units.
+def read_sensor(
+    path: Path, column: str | None, sample_rate: float | None, speed: str | None = None
+) -> Sensor:
+    """Read a column of a CSV, Parquet or MAT file; headings are names, or names with units.
 
     Args:
         path: of the file.
-        column: name of the column; None if the table has one column besides the time.
+        column: name of the column; None if the table has one column besides time and speed.
         sample_rate: [Hz], in place of a column `time`.
+        speed: name of the column with the measured speed of a shaft; None if there is none.
 
     Returns:
         The samples, which start at the first time stamp, or at 0 if `sample_rate` is given.
 
     Raises:
-        ValueError: the file is not a table, the column does not exist, samples are missing, or the
+        ValueError: the file is not a table, a column does not exist, samples are missing, or the
             time stamps are not equally spaced.
         OSError: the file cannot be read.
     """
     found = read_columns(path)
-    name = _chosen(path, column, [name for name in found if name != TIME[0]])
+    names = [name for name in found if name != TIME[0]]
+    turning = None if speed is None else _chosen(path, "--speed", speed, names)
+    name = _chosen(path, "--column", column, [each for each in names if each != turning])
     chosen = found[name]
-    samples = in_si(name, chosen.values, None, "")
-    for row in np.flatnonzero(~np.isfinite(samples))[:1]:
-        raise ValueError(f"{path}: row {row + 1}: {name}: has no value")
+    samples = _complete(path, name, in_si(name, chosen.values, None, ""))
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
@@ -55,15 +60,28 @@ def read_sensor(path: Path, column: str | None, sample_rate: float | None) -> Se
     else:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing; add it or give --sample-rate")
     stamps = begin + step * np.arange(len(samples), dtype=float)
-    return Sensor(name, chosen.unit or "-", stamps, samples)
+    measured = None
+    if turning is not None:
+        measured = _complete(path, turning, found[turning].in_si(turning, "rad/s"))
+    return Sensor(name, chosen.unit or "-", stamps, samples, measured)
 
 
-def _chosen(path: Path, column: str | None, names: list[str]) -> str:
+def _complete(path: Path, name: str, values: Array) -> Array:
+    """The values, if none is missing."""
+    for row in np.flatnonzero(~np.isfinite(values))[:1]:
+        raise ValueError(f"{path}: row {row + 1}: {name}: has no value")
+    return values
+
+
+def _chosen(path: Path, option: str, column: str | None, names: list[str]) -> str:
+    """Name of the column that `option` selects."""
     own = name_and_unit(column)[0] if column is not None else None
     if own in names:
         return own
     if column is None and len(names) == 1:
         return names[0]
     listed = one_line(", ".join(names), 400) or "none besides the time"
-    given = "choose one with --column" if column is None else f"column = {column!r}: no such column"
+    given = (
+        f"choose one with {option}" if column is None else f"{option} = {column!r}: no such column"
+    )
     raise ValueError(f"{path}: {given}; columns: {listed}")

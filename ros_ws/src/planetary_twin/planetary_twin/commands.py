@@ -54,9 +54,7 @@ def run(  # noqa: PLR0913 (options of the command line)
     ] = True,
     plant: Annotated[
         str | None,
-        typer.Option(
-            metavar="SCENE", help="Play this gearbox as if it were measured, and follow it."
-        ),
+        typer.Option(metavar="SCENE", help="Simulate the sensors of this gearbox, and follow it."),
     ] = None,
     hidden: Annotated[
         Path | None,
@@ -64,7 +62,9 @@ def run(  # noqa: PLR0913 (options of the command line)
     ] = None,
     sensors: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.yaml", help="Of --plant: what is known of the sensors."),
+        typer.Option(
+            metavar="FILE.yaml", help="Of --plant: accuracy of the sensors, see `follow`."
+        ),
     ] = None,
     json_: JsonOption = None,
 ) -> None:

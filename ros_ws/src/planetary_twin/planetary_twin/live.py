@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 
 from planetary_twin_py import Twin
@@ -93,16 +93,16 @@ class LiveTwin:
     def step(
         self,
         duration: float,
-        given: Mapping[str, float] | None = None,
+        commands: Sequence[Mapping[str, float]] = ({},),
         show: Callable[[Twin], None] = lambda twin: None,
     ) -> Future[float]:
         """
-        Advance a paused twin by `duration` [s], as fast as possible.
+        Advance a paused twin by `duration` [s] for each of `commands`, as fast as possible.
 
-        `given` acts at its ports from the present time on. `show` is called with the twin at the
-        end, in its thread.
+        Each command acts at the ports from the start of its step. `show` is called with the twin
+        at the end of each step, in its thread.
         """
-        return self._commands.put(lambda: self._step(duration, given or {}, show))
+        return self._commands.put(lambda: self._steps(duration, commands, show))
 
     def restart(self, twin: Twin) -> Future[float]:
         """Replace the twin by `twin`."""
@@ -227,8 +227,11 @@ class LiveTwin:
         self._paused = paused
         return self._twin.time
 
-    def _step(
-        self, duration: float, given: Mapping[str, float], show: Callable[[Twin], None]
+    def _steps(
+        self,
+        duration: float,
+        commands: Sequence[Mapping[str, float]],
+        show: Callable[[Twin], None],
     ) -> float:
         self._refuse_after_failure()
         if not self._paused:
@@ -237,8 +240,23 @@ class LiveTwin:
             raise ValueError(
                 f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
             )
+        if duration * len(commands) > LONGEST_STEP * (1.0 + 1e-9):
+            raise ValueError(
+                f"commands: {len(commands)} steps of {duration:g} s: must be at most "
+                f"{LONGEST_STEP:g} s in total"
+            )
         self._listener.resumed(self._twin)
-        given = {**self._given(self._twin, 0.0), **given}
+        received = self._given(self._twin, 0.0)
+        for n, command in enumerate(commands):
+            try:
+                self._step(duration, command if n else {**received, **command})
+            except ValueError as refusal:
+                place = f"commands[{n}]: " if len(commands) > 1 else ""
+                raise ValueError(f"{place}{refusal}") from None
+            show(self._twin)
+        return self._twin.time
+
+    def _step(self, duration: float, given: Mapping[str, float]) -> None:
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval
@@ -248,8 +266,6 @@ class LiveTwin:
             self._advance(min(self._interval, left), lambda: None, given if n == 0 else {})
             self.progress = self._present()
             self._refuse_after_failure()
-        show(self._twin)
-        return self._twin.time
 
     def _wait_for_room(self) -> None:
         """Wait until the recorder has caught up: steps are not paced."""

@@ -6,10 +6,10 @@ import math
 import threading
 import time
 from collections import Counter
+from collections.abc import Callable
 from typing import Protocol
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from rclpy.clock import Clock
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
@@ -20,7 +20,9 @@ from planetary_twin_py.recording.ros2.topics import status_name
 COMMANDS = "simulation: commands"
 SILENCE = ("hold", "zero", "brake")
 """What acts if no command arrives: the last one, nothing, or a brake on the input shaft."""
-_QUANTITIES = {"torque": "torque", "motion": "speed"}  # that are given
+_QUANTITIES = {"machine": (), "torque": ("torque",), "motion": ("speed", "position")}  # by port
+_TURN = 2.0 * math.pi
+_AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
 # Subscribers of this reliability match publishers of both.
 _QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -31,33 +33,48 @@ class Given(Protocol):
     scene: Scene
     command_timeout: float
     command_silence: str
+    continuous_joints: bool
 
 
 def for_ports(values: dict[str, float], twin: Twin) -> dict[str, float]:
     """Return those `values` that are given at the ports of `twin`."""
     sides = zip(SIDES, twin.ports, strict=True)
-    names = [f"{side}_{_QUANTITIES[port]}" for side, port in sides if port in _QUANTITIES]
+    names = [f"{side}_{quantity}" for side, port in sides for quantity in _QUANTITIES[port]]
     return {name: values[name] for name in names if name in values}
+
+
+def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
+    """Return `values`, with whole turns added to positions: nearest to the shafts of `twin`."""
+    near = dict(values)
+    for side in SIDES:
+        name = f"{side}_position"
+        if name in near:
+            angle = getattr(twin.port_states, f"{side}_angle")
+            near[name] += _TURN * round((angle - near[name]) / _TURN)
+    return near
 
 
 class ShaftCommands:
     """
-    Receives commands and hands the newest one to the thread of the twin.
+    Receives commands and hands the newest one of each joint to the thread of the twin.
 
-    A stamped command that is not newer than the last one, or older than the timeout, has no
-    effect; one without a stamp acts in the order of arrival. `clock` gives the time of the stamps.
+    Joints are independent of one another, so each can have a client of its own. A stamped command
+    has no effect if it is not newer than the last one of its joint, older than the timeout, or
+    more than a second ahead. One without a stamp acts in the order of arrival. `now` returns the
+    time of the stamps [ns].
     """
 
-    def __init__(self, given: Given, clock: Clock) -> None:
+    def __init__(self, given: Given, now: Callable[[], int]) -> None:
         self.joints = joint_names(given.scene)
         self.ignored = Counter[str]()
         """Messages without effect, by reason."""
         self._timeout, self._silence = given.command_timeout, given.command_silence
-        self._clock = clock
+        self._continuous = given.continuous_joints
+        self._now = now
         self._lock = threading.Lock()
-        self._values: dict[str, float] = {}
-        self._newest = 0  # [ns] stamp of the last command
-        self._received = math.inf  # [s] steady clock; before the first command there is no silence
+        self._values: dict[str, dict[str, float]] = {}  # by side
+        self._newest = dict.fromkeys(SIDES, 0)  # [ns] stamps of the last commands
+        self._received: dict[str, float] = {}  # [s] steady clock, of the last commands
         self._brake = _Brake()
 
     @property
@@ -66,46 +83,59 @@ class ShaftCommands:
         return _QOS
 
     def receive(self, message: JointState) -> None:
-        """Take a command, unless it is late, repeated or out of order."""
+        """Take a command, unless it is late, ahead, repeated or out of order."""
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
-        reason = self._fault(stamp)
-        values = values_of(message, self.joints)
-        if not values and not reason:
-            reason = f"no effort or velocity of {' or '.join(self.joints)}"
-        if reason:
-            with self._lock:
-                self.ignored[reason] += 1
-            return
+        values, now = values_of(message, self.joints), self._now() if stamp else 0
+        reasons = set[str]()
+        if not values:
+            reasons.add(f"no effort, velocity or position of {' or '.join(self.joints)}")
         with self._lock:
-            self._newest = stamp or self._newest
-            self._values |= values
-            self._received = time.monotonic()
+            for side in SIDES:
+                own = {name: value for name, value in values.items() if name.startswith(side)}
+                reason = self._fault(side, stamp, now) if own else ""
+                if reason:
+                    reasons.add(reason)
+                elif own:
+                    self._newest[side] = stamp or self._newest[side]
+                    self._values[side] = own
+                    self._received[side] = time.monotonic()
+            self.ignored.update(reasons)
+
+    def _fault(self, side: str, stamp: int, now: int) -> str:
+        if not stamp:
+            return ""
+        if stamp > now + _AHEAD:
+            return "ahead of the clock"
+        if self._timeout and now - stamp > 1e9 * self._timeout:
+            return "late"
+        # A newest stamp that is ahead is of the time before the clock was set back.
+        if stamp <= self._newest[side] <= now + _AHEAD:
+            return "repeated or out of order"
+        return ""
+
+    def _silent(self) -> dict[str, float]:
+        """Return the sides without a command for longer than the timeout, and for how long [s]."""
+        now = time.monotonic()
+        silent = {side: now - received for side, received in self._received.items()}
+        return {side: t for side, t in silent.items() if self._timeout and t > self._timeout}
 
     def status(self, hardware: str) -> DiagnosticStatus:
         """Return the report on commands for `/diagnostics`; `hardware` is the namespace."""
         with self._lock:
-            silent = time.monotonic() - self._received
-            ignored = dict(self.ignored)
-        late = bool(self._timeout) and silent > self._timeout
-        message = f"no command for {silent:.1f} s: {self._silence}" if late else "received"
-        if silent == -math.inf:
-            message = "no command yet"
+            silent, ignored = self._silent(), dict(self.ignored)
+            message = "received" if self._received else "no command yet"
+        if silent:
+            names = dict(zip(SIDES, self.joints, strict=True))
+            longest = max(silent.values())
+            joints = " and ".join(names[side] for side in silent)
+            message = f"no command for {joints} for {longest:.1f} s: {self._silence}"
         return DiagnosticStatus(
-            level=DiagnosticStatus.WARN if late or ignored else DiagnosticStatus.OK,
+            level=DiagnosticStatus.WARN if silent or ignored else DiagnosticStatus.OK,
             name=status_name(COMMANDS, hardware),
             message=message,
             hardware_id=hardware,
             values=[KeyValue(key=f"ignored: {why}", value=str(n)) for why, n in ignored.items()],
         )
-
-    def _fault(self, stamp: int) -> str:
-        if not stamp:
-            return ""
-        if stamp <= self._newest:
-            return "repeated or out of order"
-        if self._timeout and self._clock.now().nanoseconds - stamp > 1e9 * self._timeout:
-            return "late"
-        return ""
 
     def given(self, twin: Twin, interval: float) -> dict[str, float]:
         """
@@ -114,21 +144,37 @@ class ShaftCommands:
         `interval` [s] is that of a running twin; a step of a paused one, 0, has no silence.
         """
         with self._lock:
-            values, self._values = self._values, {}
-            silent = time.monotonic() - self._received
-        if values:
-            self._brake.release(twin)
-            return for_ports(values, twin)
-        if not self._timeout or silent <= self._timeout or not interval:
-            return {}
-        if self._silence == "zero":
-            return for_ports(_ZERO, twin)
-        if self._silence == "brake":
+            received, self._values = self._values, {}
+            silent = self._silent() if interval else {}
+        if silent and self._silence == "brake":
             return self._brake.slow(twin, interval)
-        return {}
+        if not received and not silent:
+            return {}
+        released = self._brake.release(twin)
+        values = {name: value for own in received.values() for name, value in own.items()}
+        given = self._taken(values, twin)
+        if silent and self._silence == "zero":
+            names = (f"{side}_{quantity}" for side in silent for quantity in ("torque", "speed"))
+            given |= for_ports(dict.fromkeys(names, 0.0), twin)
+        return given | _present(twin, given) if released else given
+
+    def _taken(self, values: dict[str, float], twin: Twin) -> dict[str, float]:
+        """Return those `values` that the ports take; count joints of which none is taken."""
+        taken = for_ports(values, twin)
+        for side, joint, port in zip(SIDES, self.joints, twin.ports, strict=True):
+            given, used = (any(name.startswith(side) for name in each) for each in (values, taken))
+            if given and not used:
+                with self._lock:
+                    self.ignored[f"{joint}: drive.{side}.port = {port}"] += 1
+        return taken if self._continuous else nearest_turn(taken, twin)
 
 
-_ZERO = dict.fromkeys(("input_torque", "output_torque", "input_speed", "output_speed"), 0.0)
+def _present(twin: Twin, given: dict[str, float]) -> dict[str, float]:
+    """Return what acts at the ports for which nothing is `given`, so that it is recorded."""
+    left = [side for side in SIDES if not any(name.startswith(side) for name in given)]
+    shown = twin.port_states
+    names = (f"{side}_{quantity}" for side in left for quantity in ("torque", "speed"))
+    return for_ports({name: getattr(shown, name) for name in names}, twin)
 
 
 class _Brake:
@@ -141,19 +187,22 @@ class _Brake:
         """Return the speed that the input shaft has in the next `interval` [s]."""
         if not twin.ports.given:
             return {}
-        if self._before is None:
+        braked = ("motion", _braked(twin.ports.output))
+        if twin.ports != braked:  # also after a reset
             self._before = twin.ports
-            twin.set_ports(input="motion", output=_braked(twin.ports.output))
+            twin.set_ports(*braked)
         speed = twin.port_states.input_speed
         less = twin.scene.drive.speed_control.slew_rate * interval
         slower = math.copysign(max(abs(speed) - less, 0.0), speed)
         return for_ports({"input_speed": slower, "output_torque": 0.0}, twin)
 
-    def release(self, twin: Twin) -> None:
-        """Let the ports be as they were."""
-        if self._before is not None:
-            twin.set_ports(*self._before)
-            self._before = None
+    def release(self, twin: Twin) -> bool:
+        """Let the ports be as they were; return whether they change."""
+        before, self._before = self._before, None
+        if before is None or before == twin.ports:
+            return False
+        twin.set_ports(*before)
+        return True
 
 
 def _braked(port: str) -> str:

@@ -77,7 +77,7 @@ class Simulation(ManagedNode):
         self._given.read()
         self._pick_dynamics()
         self._telemetry = Telemetry(self, self._given, self._before)
-        self._commands = ShaftCommands(self._given, self.get_clock())
+        self._commands = ShaftCommands(self._given, self._time_of_stamps)
         self._subscription = self.create_subscription(
             JointState, "~/command", self._commands.receive, self._commands.qos
         )
@@ -217,7 +217,9 @@ class Simulation(ManagedNode):
         joints = joint_names(self._given.scene)
         values = values_of(message, joints)
         if not values:
-            raise ValueError(f"command: must have an effort or velocity of {' or '.join(joints)}")
+            raise ValueError(
+                f"command: must have an effort, velocity or position of {' or '.join(joints)}"
+            )
         return values
 
     def reset(self) -> Future[float]:
@@ -232,6 +234,12 @@ class Simulation(ManagedNode):
     def stamp(self, instant: float) -> int:
         """Return the ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
+
+    def _time_of_stamps(self) -> int:
+        """Return the ROS time [ns]; a source of /clock does not wait for its own messages."""
+        if self._given.clock:
+            return self._telemetry.newest
+        return int(self.get_clock().now().nanoseconds)
 
     def _natural_modes(
         self, request: NaturalModes.Request, response: NaturalModes.Response

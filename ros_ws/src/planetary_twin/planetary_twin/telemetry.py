@@ -158,6 +158,11 @@ class Telemetry:
         """Return the ROS time [ns] of the instant `simulated` [s] in the newest interval."""
         return self._stamps.of(simulated)
 
+    @property
+    def newest(self) -> int:
+        """Newest stamp [ns]."""
+        return self._stamps.newest
+
     def streamed(self) -> dict[LifecyclePublisher, int]:
         """Return the number of messages by publisher, for topics with one message per interval."""
         return {stream: self._published[stream] for stream in self._streams}

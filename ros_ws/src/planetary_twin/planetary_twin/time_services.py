@@ -15,6 +15,7 @@ from planetary_twin_py.recording.ros2.given import joint_names
 
 from .command_queue import answer
 from .live import LiveTwin
+from .messages import set_stamp
 
 
 class TimeControl(Protocol):
@@ -60,22 +61,31 @@ class TimeServices:
         )
 
     def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
-        def show(twin: Twin) -> None:
-            if twin.scene.dynamics == "torsional":
-                show_ports(twin, response.state)
+        states: list[JointState] = []
 
-        def describe(instant: float) -> str:
-            response.simulated_time = instant
-            stamp = divmod(self._control.stamp(instant), 1_000_000_000)
-            response.stamp.sec, response.stamp.nanosec = stamp
-            response.state.header.stamp = response.stamp
-            return ""
+        def show(twin: Twin) -> None:
+            states.append(self._state(twin))
+            response.state = states[-1]
+            response.stamp, response.simulated_time = response.state.header.stamp, twin.time
 
         def step() -> Future[float]:
-            given = self._control.command(request.command)
-            return self._control.running().step(request.duration, given, show)
+            each = [
+                self._control.command(every) for every in request.commands or [request.command]
+            ]
+            return self._control.running().step(request.duration, each, show)
 
-        return answer(response, step, describe)
+        answer(response, step, lambda instant: "")
+        if request.commands:
+            response.states = states
+        return response
+
+    def _state(self, twin: Twin) -> JointState:
+        """Return the present state of the shafts."""
+        message = JointState()
+        set_stamp(message.header.stamp, self._control.stamp(twin.time))
+        if twin.scene.dynamics != "quasi_static":
+            show_ports(twin, message)
+        return message
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         return answer(
