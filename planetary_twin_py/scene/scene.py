@@ -113,8 +113,8 @@ class Scene(Section):
                 "motion in a differential (gearset.held = 'none')"
             )
         for side, port in ports._asdict().items():
-            if port != "machine" and self.dynamics == "quasi_static":
-                yield f"drive.{side}.port = {port!r}: requires dynamics other than 'quasi_static'"
+            if port != "machine" and self.quasi_static:
+                yield f"drive.{side}.port = {port!r}: requires dynamics other than quasi-static"
 
     def _limits(self) -> Iterator[str]:
         """Errors of the operating point: values outside the limits of the drive."""

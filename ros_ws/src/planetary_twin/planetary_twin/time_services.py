@@ -83,7 +83,7 @@ class TimeServices:
         """Return the present state of the shafts."""
         message = JointState()
         set_stamp(message.header.stamp, self._control.stamp(twin.time))
-        if twin.scene.dynamics != "quasi_static":
+        if not twin.scene.quasi_static:
             show_ports(twin, message)
         return message
 
