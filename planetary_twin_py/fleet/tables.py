@@ -17,8 +17,6 @@ from .fleet import CHANNELS
 Array = NDArray[np.float64]
 
 GEARBOX, TIME = "gearbox", "time"
-_SMALL = 10_000_000  # places of an array, 80 MB, that a table may need however few are filled
-_SPARSE = 100  # places for each row, beyond
 
 
 class FleetReadings(NamedTuple):
@@ -83,11 +81,6 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     if not np.isfinite(stamps).all():
         raise ValueError(f"{path}: {TIME}: must be a finite number in every row")
     time, row = np.unique(stamps, return_inverse=True)
-    if (cells := len(time) * len(gearboxes)) > max(_SPARSE * len(row), _SMALL):
-        raise ValueError(
-            f"{path}: {len(row)} rows have {len(time)} times of {len(gearboxes)} gearboxes: round "
-            f"the times to common ones, so that one in {_SPARSE} of these {cells} is a reading"
-        )
     columns = {}
     for name in CHANNELS:
         values = np.full((len(time), len(gearboxes)), np.nan)

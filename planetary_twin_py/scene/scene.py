@@ -114,7 +114,7 @@ class Scene(Section):
             )
         for side, port in ports._asdict().items():
             if port != "machine" and self.quasi_static:
-                yield f"drive.{side}.port = {port!r}: requires dynamics that are not quasi-static"
+                yield f"drive.{side}.port = {port!r}: requires dynamics other than quasi-static"
 
     def _limits(self) -> Iterator[str]:
         """Errors of the operating point: values outside the limits of the drive."""

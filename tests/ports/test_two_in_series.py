@@ -30,6 +30,11 @@ def step(twins, dt, back, torque, **given):
     return front, behind, -behind.input_torque
 
 
+def angles(states):
+    """Angles of input and output of each stage [rad], (stages, 2)."""
+    return np.array([(state.input_angle, state.output_angle) for state in states])
+
+
 def test_a_free_train_of_two_stages_speeds_up_as_a_rigid_one():
     twins, back, dt = pair("torque"), 0.0, 2e-4
     for _ in range(round(0.2 / dt)):
@@ -46,19 +51,24 @@ def test_a_free_train_of_two_stages_speeds_up_as_a_rigid_one():
 
 def test_a_locked_train_of_two_stages_twists_as_its_springs_in_series():
     twins, back = pair("motion", **DAMPED), 0.0
-    slack = [twin.advance(2e-5).waveform.dte[-1] for twin in twins]  # flanks just touch
+    touching = [twin.advance(2e-5).waveform.dte[-1] for twin in twins]  # drive flanks just touch
+    start = angles(step(twins, 2e-4, back, 0.0, output_speed=0.0)[:2])
     for torque in np.linspace(0.0, 30.0, 1001)[1:]:
         *_, back = step(twins, 2e-4, back, float(torque), output_speed=0.0)
     for _ in range(6000):
-        front, behind, back = step(twins, 2e-4, back, 30.0, output_speed=0.0)
+        *end, back = step(twins, 2e-4, back, 30.0, output_speed=0.0)
     torques = (30.0, 30.0 / -RATIO)  # at both inputs
     assert back == pytest.approx(torques[1], rel=1e-6)
-    assert behind.output_torque == pytest.approx(torques[1] / RATIO, rel=1e-6)
+    assert end[1].output_torque == pytest.approx(torques[1] / RATIO, rel=1e-6)
     twists = []
-    for twin, torque, loose in zip(twins, torques, slack, strict=True):
-        # The second stage is turned backwards, through its backlash, so its other flanks touch.
-        sun_mesh, ring_mesh = np.abs(twin.advance(1e-4).waveform.dte[-1] - loose)[[0, 3]]
+    for twin, torque, before in zip(twins, torques, touching, strict=True):
+        # The second stage is turned backwards, through the backlash to its coast flanks.
+        sun_mesh, ring_mesh = np.abs(twin.advance(1e-4).waveform.dte[-1] - before)[[0, 3]]
         yielded = (sun_mesh + ring_mesh) / BASE_RADIUS
         twists.append(torque / 500.0 + torque / RATIO**2 / 3000.0 + yielded)
-    # The second stage turns the output of the first, backwards and by 3/7 of its input.
-    assert front.input_angle == pytest.approx(twists[0] + twists[1] / -RATIO, rel=1e-5)
+    (front, turned), (behind, held) = angles(end) - start
+    assert front - turned / RATIO == pytest.approx(twists[0], rel=1e-6)
+    assert behind - held / RATIO == pytest.approx(-twists[1], rel=1e-6)
+    # The second stage turns the output of the first, backwards and by 3/7 of its input. The speed
+    # that is handed over is held for a step each time.
+    assert front == pytest.approx(twists[0] + twists[1] / -RATIO, rel=2e-5)

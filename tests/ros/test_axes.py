@@ -75,7 +75,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
         drawn = place / "live.rrd"
         view = LiveView(TWIN, lambda: to_file(drawn))
         for records in follow(TWIN, 1.0):
-            view.take(records)
+            view.add(records)
         view.close()
         twin.send_signal(signal.SIGINT)
         twin.wait(LONG)

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin import shaft_commands
 from planetary_twin.shaft_commands import ShaftCommands
 from planetary_twin_msgs.srv import Step
@@ -331,6 +331,10 @@ def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
     assert empty.ignored == {reason: 1}
 
 
+def brakes(status: DiagnosticStatus) -> bool:
+    return status.name.endswith("simulation: commands") and status.message.endswith("s: brake")
+
+
 def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
@@ -339,11 +343,15 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     joints = running(
         peer, start, tmp_path, "wait_for:=logger", "command_timeout:=0.3", "command_silence:=brake"
     )
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
+    peer.until(lambda: publisher.get_subscription_count() == 1)
     for n in range(400):
         publisher.publish(command((63.0 + math.sin(0.1 * n), 147.0 + math.cos(0.2 * n))))
         time.sleep(1e-3)
-    peer.until(lambda: abs(speed(joints[-1], SUN)) < 30.0)  # it brakes
+    reports.clear()
+    peer.until(lambda: any(brakes(each) for report in reports for each in report.status))
+    peer.until(lambda: abs(speed(joints[-1], SUN)) < 30.0)
     for n in range(100):
         publisher.publish(command((20.0 + 0.1 * n, 40.0)))
         time.sleep(1e-3)

@@ -10,7 +10,7 @@ namespace gearbox {
 
 namespace {
 
-// Part of its speed against the carrier by which vibration slows a gear that may then come to stick.
+// Part of its speed against the carrier by which vibration slows a gear that may come to stick.
 constexpr double STICKING = 0.5;
 // The same of gears that creep. Friction that falls with the speed feeds their vibration, which
 // grows from errors however small, until it stops them.

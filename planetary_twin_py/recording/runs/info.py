@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
@@ -125,6 +126,7 @@ def read_info(*paths: Path) -> Info:
             collected.read(file)
         else:
             collected = more
+    collected.warn_of_missing()
     return collected.info
 
 
@@ -134,6 +136,8 @@ class _Collector:
     def __init__(self, info: Info) -> None:
         self.info = info
         self._points: dict[str, dict[str, float]] = {}
+        self._states: dict[str, Any] = {}
+        self._missing: Counter[str] = Counter()
         self._repeats = Repeats()
 
     def read(self, file: Path) -> None:
@@ -175,8 +179,12 @@ class _Collector:
             if number not in decoder:
                 continue
             messages = _Messages(index, number, decoder)
-            if channel.topic.endswith(f"/{STATE}"):
-                self.info.simulated += _simulated(messages)
+            if channel.topic.endswith(f"/{STATE}") and len(messages):
+                self._follow(channel.topic, messages[0])
+                found = _covered(messages)
+                self.info.simulated += found.time
+                self._missing[channel.topic] += found.missing
+                self._states[channel.topic] = messages[len(messages) - 1]
             elif channel.topic.endswith(f"/{POINT}"):
                 changes += [(times[k], channel.topic, messages[k]) for k in new]
             elif channel.topic == REPORT:
@@ -196,6 +204,22 @@ class _Collector:
         fresh = [k for k in range(count) if not self._repeats.repeated(index.message(channel, k))]
         return np.array(fresh, dtype=np.intp)
 
+    def _follow(self, topic: str, state: Any) -> None:
+        """Count the states that are missing between the last one and `state`."""
+        if topic in self._states:
+            self._missing[topic] += _missing_between(self._states[topic], state)
+        self._states[topic] = state
+
+    def warn_of_missing(self) -> None:
+        """Warn of missing states if the recording contains no account of losses."""
+        for topic, missing in self._missing.items():
+            if missing and self.info.topics[topic].lost is None:
+                self.info.remarks.append(
+                    f"{missing} messages of {topic} are missing between the first and the last, "
+                    "according to their sequence numbers; other topics may lack messages, too: the "
+                    "recording contains no count of losses"
+                )
+
     def _settle(self, accounts: list[Mapping[str, str]]) -> None:
         """Add the losses of a file, which may list topics without messages."""
         for account in accounts:
@@ -212,6 +236,7 @@ class _Collector:
         """Add the contents of a message."""
         if topic.endswith(f"/{STATE}"):
             self.info.simulated += message.interval
+            self._follow(topic, message)
         elif topic == REPORT:
             self.info.report |= _figures(message)
         else:
@@ -238,26 +263,40 @@ class _Messages(Sequence[Any]):
         return found[1] if found else None
 
 
-def _simulated(states: Sequence[Any]) -> float:
-    """Simulated time of states [s].
+class _Covered(NamedTuple):
+    """Simulated time of states [s], and the number of states missing between them."""
+
+    time: float
+    missing: int
+
+
+def _covered(states: Sequence[Any]) -> _Covered:
+    """Time of at least one state, and the states missing between them.
 
     States of one run without missing messages cover the time between the first and the last, so
     bisection finds the ends of runs and missing messages.
     """
 
-    def covered(first: int, last: int) -> float:
-        """Time of the states after `first` [s]."""
+    def after(first: int, last: int) -> _Covered:
+        """The same, without the time of `first`."""
         if first == last:
-            return 0.0
+            return _Covered(0.0, 0)
         begin, end = states[first], states[last]
         if end.sequence - begin.sequence == last - first and _same_run(begin, end):
-            return float(end.simulated_time - begin.simulated_time)
+            return _Covered(float(end.simulated_time - begin.simulated_time), 0)
         if last == first + 1:
-            return float(end.interval)
+            return _Covered(float(end.interval), _missing_between(begin, end))
         middle = (first + last) // 2
-        return covered(first, middle) + covered(middle, last)
+        left, right = after(first, middle), after(middle, last)
+        return _Covered(left.time + right.time, left.missing + right.missing)
 
-    return states[0].interval + covered(0, len(states) - 1) if len(states) else 0.0
+    found = after(0, len(states) - 1)
+    return found._replace(time=states[0].interval + found.time)
+
+
+def _missing_between(begin: Any, end: Any) -> int:
+    """Number of states missing between two successive ones of a run; 0 if a run ends between."""
+    return max(int(end.sequence - begin.sequence) - 1, 0) if _same_run(begin, end) else 0
 
 
 def _same_run(begin: Any, end: Any) -> bool:

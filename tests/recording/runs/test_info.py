@@ -88,6 +88,17 @@ def test_the_index_of_a_file_agrees_with_all_its_records(tmp_path, monkeypatch):
     assert by_index == by_records
 
 
+def test_missing_states_are_counted_by_their_numbers_if_the_recorder_did_not(sound, tmp_path):
+    """Not the end of a run before a reset, after which the numbers continue."""
+
+    def lose(topic, number, row):
+        return None if topic == "gearbox_state" and number in (7, 8, 20) else row
+
+    (remark,) = read_info(record(tmp_path / "bag", lose)).remarks
+    assert remark.startswith(f"3 messages of {NAMESPACE}/gearbox_state are missing between")
+    assert read_info(sound).remarks == []
+
+
 def test_the_index_leads_to_every_message(sound):
     index, found = Index(sound), {}
     for entry in records_of(sound, []):
