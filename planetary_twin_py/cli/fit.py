@@ -83,12 +83,13 @@ def fit(  # noqa: PLR0913 - an argument for each option
     if report is not None:
         need("plots", "matplotlib")
 
-    from ..recording.tables.measurements import SUFFIXES
+    from ..recording.tables.suffixes import SUFFIXES
     from ..studies.fit.identify import Search, identify
     from ..studies.fit.remarks import remarks
 
     console = console_beside(json_)
     if file.suffix in SUFFIXES:
+        need("analysis", "pyarrow")
         _manoeuvre(console, file, scene, free, (from_, to, hold_out), (report, json_))
         return
     try:

@@ -156,7 +156,7 @@ def _readings(
     path: Path, sensors: Sensors, factors: dict[str, float]
 ) -> tuple[list[Block], np.datetime64 | None, tuple[str, ...]]:
     """Blocks of readings, the date of second 0 of their stamps, and columns that are not used."""
-    from ..recording.tables.measurements import SUFFIXES
+    from ..recording.tables.suffixes import SUFFIXES
 
     if path.suffix in SUFFIXES:
         from ..following.measured_tables import read_readings

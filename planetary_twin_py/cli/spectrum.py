@@ -100,7 +100,7 @@ class Options:
     @property
     def is_table(self) -> bool:
         """Whether the file is a table of a sensor."""
-        from ..recording.tables.measurements import SUFFIXES
+        from ..recording.tables.suffixes import SUFFIXES
 
         return self.file.suffix in SUFFIXES
 
@@ -209,7 +209,7 @@ def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest settled part at one operating point, or all of it if there is none."""
     from ..recording.runs.steadiness import steady_span
-    from ..recording.tables.measurements import SUFFIXES
+    from ..recording.tables.suffixes import SUFFIXES
 
     if file.suffix in (".npz", *SUFFIXES):
         return signal.within(None, None)

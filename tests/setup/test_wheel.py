@@ -187,6 +187,7 @@ def test_the_package_is_imported_without_the_core(alone):
         ("resimulate x", "recording"),
         ("fit x --free backlash", "recording"),
         ("spectrum x", "recording"),
+        ("spectrum x.csv", "analysis"),
         ("simulate --out x", "recording"),
         ("export x --out y", "analysis"),
         ("view x", "view"),

@@ -24,8 +24,7 @@ inline constexpr double LEFT_OVER = 0.1;  // of the tolerance that a sweep not m
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
 inline constexpr double WEAKEST_MIXED_PULL = 1.5;  // the same of sweeps that are mixed
-// Pull per step length [1/s] below which it is not relied upon: that of an earlier step may have
-// been luck.
+// Least pull per step length [1/s] that is assumed: an earlier step may have succeeded by chance.
 inline constexpr double LEAST_PULL = 2e3;
 inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
 inline constexpr double TAIL = 4.0;   // by which the estimated error of the polynomial counts more

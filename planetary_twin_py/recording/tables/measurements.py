@@ -17,6 +17,7 @@ from ...printable import one_line
 from ...scene.names import did_you_mean
 from ...units import LARGEST, column_to_si
 from .mat_file import MatError, read_mat
+from .suffixes import SUFFIXES
 
 Array = NDArray[np.float64]
 
@@ -185,13 +186,9 @@ def _check_columns(number: int) -> None:
         raise ValueError(f"has {number} columns: must be at most {_MOST_COLUMNS}")
 
 
-_READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
-    ".csv": _read_csv,
-    ".parquet": _read_parquet,
-    ".mat": read_mat,
-}
-SUFFIXES = tuple(_READERS)
-"""Of the tables that can be read."""
+_READERS: dict[str, Callable[[BinaryIO], pa.Table]] = dict(
+    zip(SUFFIXES, (_read_csv, _read_parquet, read_mat), strict=True)
+)
 
 
 def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
