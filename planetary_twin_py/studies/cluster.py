@@ -75,10 +75,10 @@ class Cluster:
 
 
 def core_digest() -> str:
-    """Digest of the installed core."""
-    from .._core import SOURCES
+    """Digest of the installed core, marked where its level has no fused products: other bits."""
+    from .._core import FUSES, SOURCES
 
-    return SOURCES
+    return SOURCES if FUSES else f"{SOURCES} without fused products"
 
 
 def _found(future: Any) -> Any:

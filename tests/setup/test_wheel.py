@@ -9,6 +9,7 @@ import tomllib
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from packaging.requirements import Requirement
 
@@ -76,30 +77,52 @@ def test_the_wheel_holds_the_core_and_its_stub_but_no_source(wheel):
 
 
 COMPUTE = """
-import hashlib
+import sys
+import numpy as np
 import planetary_twin_py as pt
 from planetary_twin_py import _core
-digits = hashlib.sha256()
+found = {}
 for name in pt.packaged_scenes():
-    for changes in (
+    for n, changes in enumerate((
         {}, {"input_torque": 0.5, "backlash": 1e-5, "torque_ripple": 2.0}, {"input_speed": 0.1},
         {"mesh.runout.sun": 1e-6, "backlash": 2e-5}, {"dynamics": "quasi_static"},
-    ):
-        result = pt.simulate(pt.load_scene(name).replace(**changes), 0.01)
-        digits.update(result.dte.tobytes() + result.total_power_loss.tobytes())
-print(_core.LEVEL, digits.hexdigest())
+    )):
+        result = pt.simulate(pt.load_scene(name).replace(**changes), 0.01, tolerance=1e-4)
+        found[f"{name} {n}"] = np.concatenate([result.dte, result.total_power_loss[:, None]], 1)
+np.savez(sys.argv[1], **found)
+print(_core.LEVEL)
 """
 
 
-def test_every_level_of_a_wheel_computes_the_same_bits(alone, monkeypatch):
-    found = {}
+@pytest.fixture(scope="module")
+def by_level(alone, tmp_path_factory):
+    """Transmission errors and losses of the packaged scenes, computed at each level."""
+    found, folder = {}, tmp_path_factory.mktemp("levels")
     for level in runnable_levels():
-        monkeypatch.setenv(CHOICE, level)
-        done = without_extras(alone, COMPUTE)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv(CHOICE, level)
+            done = without_extras(alone, COMPUTE, folder / f"{level}.npz")
         assert done.returncode == 0, done.stderr
-        loaded, found[level] = done.stdout.split()
-        assert loaded == level
-    assert len(set(found.values())) == 1, found
+        assert done.stdout.strip() == level
+        found[level] = dict(np.load(folder / f"{level}.npz"))
+    return found
+
+
+def test_levels_with_fused_products_compute_the_same_bits(by_level):
+    if not {"v3", "v4"} <= by_level.keys():
+        pytest.skip("this machine runs one such level")
+    for name, values in by_level["v4"].items():
+        assert np.array_equal(values, by_level["v3"][name], equal_nan=True), name
+
+
+def test_the_level_without_fused_products_computes_the_same_within_the_tolerance(by_level):
+    best = by_level[runnable_levels()[0]]
+    for name, values in best.items():
+        if name.startswith("paper_printed"):  # flanks chatter at the jump of its force law
+            continue
+        error = np.nan_to_num(by_level["v1"][name] - values)
+        size = np.nanmax(np.abs(values), axis=0)
+        assert (np.sqrt(np.mean(error**2, axis=0)) <= 1e-4 * size).all(), name
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,6 @@
 #include "bindings/parts.hpp"
 #include "bindings/records.hpp"
+#include "vector/lanes.hpp"
 
 namespace gearbox_axes {
 void bind_axes(nanobind::module_& core);
@@ -15,6 +16,7 @@ NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";
     m.attr("SOURCES") = gearbox::SOURCES;
+    m.attr("FUSES") = gearbox::FUSES;
     nanobind::set_leak_warnings(false);  // caches hold records until the interpreter ends
     gearbox::bind_records(m);
     gearbox::bind_train(m);

@@ -20,14 +20,18 @@
 namespace gearbox {
 
 inline constexpr int MOST_SWEEPS = 6;
-inline constexpr double LEFT_OVER = 0.1;  // of the tolerance that a sweep not made may leave
+// Of the tolerance that a sweep not made may leave. With 0.2, mesh cycles of some planar runs would
+// differ by more than what counts as a repetition.
+inline constexpr double LEFT_OVER = 0.1;
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
 inline constexpr double WEAKEST_MIXED_PULL = 1.5;  // the same of sweeps that are mixed
 // Least pull per step length [1/s] that is assumed: an earlier step may have succeeded by chance.
 inline constexpr double LEAST_PULL = 2e3;
 inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
-inline constexpr double TAIL = 4.0;   // by which the estimated error of the polynomial counts more
+// By how much the estimated error of the polynomial counts more. With 2, mesh cycles of some runs
+// whose axes are held would differ by more than what counts as a repetition.
+inline constexpr double TAIL = MOVING ? 2.0 : 4.0;
 inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors last for ever
 inline constexpr double ASTRAY = std::numeric_limits<double>::infinity();
 

@@ -91,7 +91,7 @@ LAW void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s
     V sum_c = c, sum_s = s;
     for (int k = 1; k <= TERMS; ++k) {
         const double part = delay / k;
-        V next_c = square * s * -part, next_s = (c - damping * s) * part;
+        V next_c = square * s * -part, next_s = fused(-damping, s, c) * part;
         c = next_c;
         s = next_s;
         sum_c += c;
@@ -200,9 +200,8 @@ template <int L>
 LAW Row<L> power(const Propagation& run, std::int64_t k) {
     using V = Row<L>;
     const double* c = run.nodes.coefficient[k];
-    V sum = c[0] * V(run.rest[0]) + c[1] * V(run.rest[1]) + c[2] * V(run.rest[2]);
-    if (run.nodes.count > 3) sum += c[3] * V(run.rest[3]);
-    if (run.nodes.count > 4) sum += c[4] * V(run.rest[4]);
+    V sum = c[0] * V(run.rest[0]);
+    for (std::int64_t n = 1; n < run.nodes.count; ++n) sum = fused(c[n], V(run.rest[n]), sum);
     return sum;
 }
 
@@ -248,10 +247,13 @@ LAW RowPair<L> modal_states(const ModalMotion& motion, double t, const Row<L>& c
     V u(motion.free[0]), w(motion.free[1]);
     // By even and odd powers, half as long to wait for.
     const double s = t * t;
-    V value = (a + s * (c + s * (e + s * g))) + t * (b + s * (d + s * f));
-    V slope = (b + s * (3.0 * d + s * (5.0 * f))) + t * (2.0 * c + s * (4.0 * e + s * (6.0 * g)));
-    V rate = (cosine - V(motion.damping) * sine) * w - V(motion.square) * sine * u;
-    return {value + (cosine * u + sine * w), slope * motion.per_step + rate};
+    V even = fused(s, fused(s, fused(s, g, e), c), a), odd = fused(s, fused(s, f, d), b);
+    V odd_slope = fused(s, fused(5.0 * s, f, 3.0 * d), b);
+    V even_slope = fused(s, fused(6.0 * s, g, 4.0 * e), 2.0 * c);
+    V value = fused(t, odd, even), slope = fused(t, even_slope, odd_slope);
+    V fading = fused(-V(motion.damping), sine, cosine), stiff = V(motion.square) * sine;
+    V swing = fused(cosine, u, sine * w), rate = fused(fading, w, -stiff * u);
+    return {value + swing, fused(slope, motion.per_step, rate)};
 }
 
 // q and q' of all modes at any time within the step.
@@ -342,10 +344,11 @@ LAW Row<L> modal_places(const Propagation& run, std::int64_t n) {
     using V = Row<L>;
     const double (*y)[BODIES] = run.motion.particular;
     const double t = run.nodes.abscissa[n], s = t * t;
-    V even = V(y[0]) + s * (V(y[2]) + s * (V(y[4]) + s * V(y[6])));
-    V odd = V(y[1]) + s * (V(y[3]) + s * V(y[5]));
-    return even + t * odd +
-           (V(run.cosine[n]) * V(run.motion.free[0]) + V(run.sine[n]) * V(run.motion.free[1]));
+    V even = fused(s, fused(s, fused(s, V(y[6]), V(y[4])), V(y[2])), V(y[0]));
+    V odd = fused(s, fused(s, V(y[5]), V(y[3])), V(y[1]));
+    V swing =
+        fused(V(run.cosine[n]), V(run.motion.free[0]), V(run.sine[n]) * V(run.motion.free[1]));
+    return fused(t, odd, even) + swing;
 }
 
 // Answer the rest once more, and move the last node; of the others only the transmission errors,

@@ -87,6 +87,17 @@ LAW Floats square_root(Floats x) {
 }
 #endif
 
+// a b + c as for doubles.
+LAW Floats fused(Floats a, Floats b, Floats c) {
+#if defined(__AVX512F__)
+    return FloatRegister(_mm512_fmadd_ps(a.value, b.value, c.value));
+#elif defined(__FMA__)
+    return FloatRegister(_mm256_fmadd_ps(a.value, b.value, c.value));
+#else
+    return a * b + c;
+#endif
+}
+
 namespace vector {
 
 LAW FloatBits to_bits(Floats x) {
@@ -128,8 +139,8 @@ LAW SplitFloats split(Floats x) {
 
 LAW Floats log_of(Floats t, Floats exponent) {
     Floats s = t * t;
-    Floats series = FLOAT_ARTANH[0] + s * (FLOAT_ARTANH[1] + s * FLOAT_ARTANH[2]);
-    return exponent * (LN2_HIGH + LN2_LOW) + t * series;
+    Floats series = fused(s, fused(s, FLOAT_ARTANH[2], FLOAT_ARTANH[1]), FLOAT_ARTANH[0]);
+    return fused(exponent, LN2_HIGH + LN2_LOW, t * series);
 }
 
 }  // namespace vector
@@ -151,11 +162,11 @@ LAW Floats where_less(Floats x, double bound, Floats then, Floats otherwise) {
 LAW Floats exp(Floats x) {
     using namespace vector;
     x = at_most(at_least(x, -FLOAT_LARGEST), FLOAT_LARGEST);
-    Floats shifted = x * INVERSE_LN2 + FLOAT_ROUNDING, n = shifted - FLOAT_ROUNDING;
-    Floats r = (x - n * FLOAT_LN2_HIGH) - n * FLOAT_LN2_LOW, s = r * r;
+    Floats shifted = fused(x, INVERSE_LN2, FLOAT_ROUNDING), n = shifted - FLOAT_ROUNDING;
+    Floats r = fused(n, -FLOAT_LN2_LOW, fused(n, -FLOAT_LN2_HIGH, x)), s = r * r;
     const double* c = FLOAT_REST_OF_EXP;
-    Floats even = c[0] + s * (c[2] + s * c[4]), odd = c[1] + s * (c[3] + s * c[5]);
-    return (1.0 + r * (even + r * odd)) *
+    Floats even = fused(s, fused(s, c[4], c[2]), c[0]), odd = fused(s, fused(s, c[5], c[3]), c[1]);
+    return fused(r, fused(r, odd, even), 1.0) *
            to_floats((to_bits(shifted) + FLOAT_BIAS) << FLOAT_MANTISSA);
 }
 

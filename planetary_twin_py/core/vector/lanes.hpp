@@ -2,6 +2,9 @@
 
 // Several doubles in one vector register. Formulas that are templates over `Real` take a double or
 // `Lanes`; either gives the same bits.
+//
+// A product is fused with a sum where a formula says so, never by the compiler: levels v3 and v4
+// give the same bits, whatever compiles them.
 
 #include <bit>
 #include <cmath>
@@ -19,6 +22,13 @@ constexpr int WIDTH = 8;
 constexpr int WIDTH = 4;
 #else
 constexpr int WIDTH = 2;
+#endif
+
+// Whether this level has fused products.
+#if defined(__FMA__)
+constexpr bool FUSES = true;
+#else
+constexpr bool FUSES = false;
 #endif
 
 using Lanes [[gnu::vector_size(8 * WIDTH)]] = double;
@@ -109,6 +119,34 @@ LAW Lanes where_less(Lanes x, double bound, Lanes then, Lanes otherwise) {
 }
 LAW Lanes where_less(Lanes x, double bound, double then, double otherwise) {
     return where_less(x, bound, then - Lanes{}, otherwise - Lanes{});
+}
+
+// a b + c, rounded once where the level has fused products, else twice.
+LAW double fused(double a, double b, double c) {
+#if defined(__FMA__)
+    return __builtin_fma(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
+LAW Lanes fused(Lanes a, Lanes b, Lanes c) {
+#if defined(__AVX512F__)
+    return _mm512_fmadd_pd(a, b, c);
+#elif defined(__FMA__)
+    return _mm256_fmadd_pd(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+LAW Lanes fused(Lanes a, double b, Lanes c) {
+    return fused(a, b - Lanes{}, c);
+}
+LAW Lanes fused(Lanes a, Lanes b, double c) {
+    return fused(a, b, c - Lanes{});
+}
+LAW Lanes fused(Lanes a, double b, double c) {
+    return fused(a, b - Lanes{}, c - Lanes{});
 }
 
 LAW double square_root(double x) {

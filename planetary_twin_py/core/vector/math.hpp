@@ -3,9 +3,8 @@
 // exp, log, sine and cosine without branches or calls, so that loops over them vectorise.
 //
 // Relative error below 1e-11 of exp, absolute error below 1e-12 of log; precise_exp and sin_cos are
-// exact to the last digits. No fused multiplication, and no conversion between doubles and 64-bit
-// integers, which AVX2 lacks: adding 1.5 * 2^52 rounds to a whole number and leaves it in the low
-// bits. So every processor gives the same bits.
+// exact to the last digits. No conversion between doubles and 64-bit integers, which AVX2 lacks:
+// adding 1.5 * 2^52 rounds to a whole number and leaves it in the low bits.
 
 #include <bit>
 #include <cstdint>
@@ -38,9 +37,9 @@ constexpr double inverse_factorial(int n) {
 // Polynomial with these coefficients, lowest first, in x^2 alone: every other one from `LAST` down.
 template <int LAST, class Real>
 LAW Real every_other(const double* coefficient, Real square) {
-    Real sum = square * coefficient[LAST] + coefficient[LAST - 2];
+    Real sum = fused(square, coefficient[LAST], coefficient[LAST - 2]);
 #pragma GCC unroll 16
-    for (int n = LAST - 4; n >= 0; n -= 2) sum = sum * square + coefficient[n];
+    for (int n = LAST - 4; n >= 0; n -= 2) sum = fused(sum, square, coefficient[n]);
     return sum;
 }
 
@@ -50,7 +49,7 @@ LAW Real polynomial_of(const double (&coefficient)[COUNT], Real x) {
     Real square = x * x;
     Real last = every_other<COUNT - 1>(coefficient, square);
     Real other = every_other<COUNT - 2>(coefficient, square);
-    return COUNT % 2 == 1 ? last + x * other : other + x * last;
+    return COUNT % 2 == 1 ? fused(x, other, last) : fused(x, last, other);
 }
 
 // Taylor polynomial of e**r, |r| <= log(2)/2, to the last digits.
@@ -74,9 +73,9 @@ struct Reduced {
 
 template <class Real>
 LAW Reduced<Real> reduce(Real x) {
-    Real shifted = x * INVERSE_LN2 + ROUNDING;
+    Real shifted = fused(x, INVERSE_LN2, ROUNDING);
     Real n = shifted - ROUNDING;
-    return {(x - n * LN2_HIGH) - n * LN2_LOW,
+    return {fused(n, -LN2_LOW, fused(n, -LN2_HIGH, x)),
             from_bits<Real>((to_bits(shifted) + BIAS) << MANTISSA)};
 }
 
@@ -84,7 +83,7 @@ template <class Real>
 LAW Real short_exp(Real x) {
     Reduced<Real> reduced = reduce(x);
     Real r = reduced.rest;
-    return (1.0 + r * polynomial_of(REST_OF_EXP, r)) * reduced.scale;
+    return fused(r, polynomial_of(REST_OF_EXP, r), 1.0) * reduced.scale;
 }
 
 }  // namespace vector
@@ -116,27 +115,28 @@ struct SinCos {
 // Sine and cosine of -1e5 <= x <= 1e5.
 LAW SinCos sin_cos(double x) {
     using namespace vector;
-    double shifted = x * INVERSE_RIGHT_ANGLE + ROUNDING;
+    double shifted = fused(x, INVERSE_RIGHT_ANGLE, ROUNDING);
     double n = shifted - ROUNDING;
-    double r = ((x - n * RIGHT_ANGLE_HIGH) - n * RIGHT_ANGLE_MIDDLE) - n * RIGHT_ANGLE_LOW;
+    double r =
+        fused(n, -RIGHT_ANGLE_LOW, fused(n, -RIGHT_ANGLE_MIDDLE, fused(n, -RIGHT_ANGLE_HIGH, x)));
     double q = r * r;
     double s = -inverse_factorial(15);
-    s = inverse_factorial(13) + q * s;
-    s = -inverse_factorial(11) + q * s;
-    s = inverse_factorial(9) + q * s;
-    s = -inverse_factorial(7) + q * s;
-    s = inverse_factorial(5) + q * s;
-    s = -inverse_factorial(3) + q * s;
-    s = r + r * q * s;
+    s = fused(q, s, inverse_factorial(13));
+    s = fused(q, s, -inverse_factorial(11));
+    s = fused(q, s, inverse_factorial(9));
+    s = fused(q, s, -inverse_factorial(7));
+    s = fused(q, s, inverse_factorial(5));
+    s = fused(q, s, -inverse_factorial(3));
+    s = fused(r * q, s, r);
     double c = inverse_factorial(16);
-    c = -inverse_factorial(14) + q * c;
-    c = inverse_factorial(12) + q * c;
-    c = -inverse_factorial(10) + q * c;
-    c = inverse_factorial(8) + q * c;
-    c = -inverse_factorial(6) + q * c;
-    c = inverse_factorial(4) + q * c;
-    c = -inverse_factorial(2) + q * c;
-    c = 1.0 + q * c;
+    c = fused(q, c, -inverse_factorial(14));
+    c = fused(q, c, inverse_factorial(12));
+    c = fused(q, c, -inverse_factorial(10));
+    c = fused(q, c, inverse_factorial(8));
+    c = fused(q, c, -inverse_factorial(6));
+    c = fused(q, c, inverse_factorial(4));
+    c = fused(q, c, -inverse_factorial(2));
+    c = fused(q, c, 1.0);
     // Odd quarters swap both; the sign bits come from the two last bits of n and of n + 1.
     std::uint64_t quarter = std::bit_cast<std::uint64_t>(shifted);
     constexpr int TO_SIGN = 62;
@@ -174,7 +174,7 @@ LAW Split<Real> split(Real x) {
 // 2 artanh(t) + exponent log(2).
 template <class Real>
 LAW Real log_of(Real t, Real exponent) {
-    return exponent * (LN2_HIGH + LN2_LOW) + t * polynomial_of(ARTANH, t * t);
+    return fused(exponent, LN2_HIGH + LN2_LOW, t * polynomial_of(ARTANH, t * t));
 }
 
 }  // namespace vector

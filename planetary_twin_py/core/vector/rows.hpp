@@ -76,6 +76,29 @@ ROW_ARITHMETIC(*)
 ROW_ARITHMETIC(/)
 #undef ROW_ARITHMETIC
 
+template <int L>
+LAW Row<L> operator-(const Row<L>& a) {
+    Row<L> out;
+    for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = -a.part[k];
+    return out;
+}
+
+// a b + c of each number, see `lanes.hpp`.
+template <int L>
+LAW Row<L> fused(const Row<L>& a, const Row<L>& b, const Row<L>& c) {
+    Row<L> out;
+    for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = fused(a.part[k], b.part[k], c.part[k]);
+    return out;
+}
+template <int L>
+LAW Row<L> fused(const Row<L>& a, double b, const Row<L>& c) {
+    return fused(a, Row<L>(b), c);
+}
+template <int L>
+LAW Row<L> fused(double a, const Row<L>& b, const Row<L>& c) {
+    return fused(Row<L>(a), b, c);
+}
+
 #define ROW_COMPARISON(sign)                                                            \
     template <int L>                                                                    \
     LAW Mask<L> operator sign(const Row<L>& a, const Row<L>& b) {                       \
@@ -271,14 +294,14 @@ LAW Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
     if constexpr (COUNT <= MORE_LANES) {
         Row<L> sum = Row<L>(row) * weights[0];
 #pragma GCC unroll 16
-        for (int m = 1; m < COUNT; ++m) sum += Row<L>(row + m * L) * weights[m];
+        for (int m = 1; m < COUNT; ++m) sum = fused(Row<L>(row + m * L), weights[m], sum);
         return sum;
     } else {
         alignas(64) double weight[COUNT];
         weights.store(weight);
         Row<L> sum(0.0);
         for (std::int64_t m = 0; m < rows.count; m += 4)
-            for (int k = 0; k < 4; ++k) sum += Row<L>(row + (m + k) * L) * weight[m + k];
+            for (int k = 0; k < 4; ++k) sum = fused(Row<L>(row + (m + k) * L), weight[m + k], sum);
         return sum;
     }
 }
@@ -302,8 +325,8 @@ LAW RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& weights) {
         for (std::int64_t m = 0; m < rows.count; m += 2)
             for (int k = 0; k < 2; ++k) {
                 const Row<L> row(rows.first + (m + k) * L);
-                sum.first += row * first[m + k];
-                sum.second += row * second[m + k];
+                sum.first = fused(row, first[m + k], sum.first);
+                sum.second = fused(row, second[m + k], sum.second);
             }
         return sum;
     }
