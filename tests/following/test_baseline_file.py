@@ -1,7 +1,10 @@
 """Baselines that are saved, loaded by another follower, or learned again."""
 
+import subprocess
+
 import numpy as np
 import pytest
+from command_line import COMMAND
 from following.plants import COUNTS, RATE, TEETH_LAWS, crack, paper
 from following.test_vibration import NAMES, signals
 from following.test_vibration import RATE as HEARD
@@ -134,3 +137,25 @@ def test_a_baseline_of_vibration_hears_sidebands_that_grew_before_the_start(tmp_
     assert set(heard(8.0, second, 2.0)) == {"vibration grew: sidebands of the sun"}
     third.load_baseline(tmp_path / "heard.npz")
     assert heard(8.0, third, 0.0) == []
+
+
+def test_the_command_saves_and_uses_a_baseline(tmp_path):
+    (tmp_path / "hidden.yaml").write_text("sensors: {vibration: {rate: 2 kHz, noise: 0.1}}\n")
+    (tmp_path / "sensors.yaml").write_text("learning: 8\n")
+
+    def run(*words):
+        return subprocess.run(
+            [*COMMAND, *words], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+
+    files = "--out", "readings.csv", "--vibration", "heard.csv"
+    played = run("plant", "paper", "--hidden", "hidden.yaml", "--duration", "10", *files)
+    assert played.returncode == 0, played.stderr
+    follow = ("follow", "paper", "--from", "readings.csv", "--vibration", "heard.csv",
+              "--sensors", "sensors.yaml")  # fmt: skip
+    saved = run(*follow, "--save-baseline", "gearbox.npz")
+    assert saved.returncode == 0, saved.stderr
+    used = run(*follow, "--baseline", "gearbox.npz")
+    assert used.returncode == 0 and "are learned" not in used.stdout
+    other = run("follow", "cracked_tooth", *follow[2:], "--baseline", "gearbox.npz")
+    assert other.returncode == 2 and "belongs to another scene" in other.stderr
