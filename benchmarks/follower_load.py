@@ -1,7 +1,8 @@
 """Processor time and latency of the follower node beside a plant in real time.
 
 Usage: python benchmarks/follower_load.py [SECONDS [vibration]]. A plant has torques and speeds at
-100 Hz and encoders at 20 kHz, and with `vibration` an accelerometer at 20 kHz too. The start, with tables and signatures, is left out: the second half is measured.
+100 Hz and encoders at 20 kHz, and with `vibration` an accelerometer at 20 kHz too. The start, with
+tables and signatures, is left out: the second half is measured.
 """
 
 from __future__ import annotations
