@@ -337,7 +337,7 @@ class VibrationFollower:
             first = first * step
         best = float(stretches[int(np.argmax(strength))])
         first = np.exp(-1j * best * mesh)
-        heard = list(itertools.accumulate(range(HARMONICS), lambda one, _: first[:, None] * one,
+        shifted = list(itertools.accumulate(range(HARMONICS), lambda one, _: first[:, None] * one,
                                           initial=weighted.astype(complex)))  # fmt: skip
         sides = {(1, 0): np.ones_like(first)}
         for teeth, side in {
@@ -346,7 +346,7 @@ class VibrationFollower:
             sides[teeth, side] = np.exp(-1j * (best * side / teeth) * mesh)
             sides[teeth, -side] = sides[teeth, side].conj()
         shift = np.exp(-1j * (best * self._beside) * mesh)[:, None]
-        besides = [[one * shift, one * shift.conj()] for one in heard]
+        besides = [[one * shift, one * shift.conj()] for one in shifted]
 
         def mean_square(lines: Sequence[tuple[_Line, Array]]) -> Array:
             found = [np.abs(sides[line.teeth, line.side] @ wave) ** 2 for line, wave in lines]
@@ -355,7 +355,7 @@ class VibrationFollower:
         squares, floors = [], []
         for pattern in self._patterns:
             lines = [line for line in pattern.lines if line.order < highest]
-            squares.append(mean_square([(line, heard[line.mesh]) for line in lines]))
+            squares.append(mean_square([(line, shifted[line.mesh]) for line in lines]))
             sidebands = [line for line in lines if line.side]
             floors.append(
                 mean_square([(line, w) for line in sidebands for w in besides[line.mesh]])
@@ -453,14 +453,14 @@ def _patterns(train: FollowedTrain) -> Iterator[_Pattern]:
         others = {other: teeth for other, teeth in kinds.items() if other != gear}
         sides = range(1, count)
         own = [n for n in sides if all(n * teeth % count for teeth in others.values())]
-        alike = [] if own else [other for other, teeth in others.items() if teeth % count == 0]
+        sharing = [] if own else [other for other, teeth in others.items() if teeth % count == 0]
         lines = tuple(
             _Line(mesh, sign * n, count)
             for mesh in meshes
             for n in (own or sides)[:SIDEBANDS]
             for sign in (-1, 1)
         )
-        teeth_of = tuple(f"a tooth of the {one}" for one in (gear, *alike))
+        teeth_of = tuple(f"a tooth of the {one}" for one in (gear, *sharing))
         yield _Pattern(f"sidebands of the {gear}", lines, (*teeth_of, "a runout"))
 
 

@@ -7,7 +7,7 @@ import pytest
 from command_line import COMMAND
 from following.plants import COUNTS, RATE, TEETH_LAWS, crack, paper
 from following.test_vibration import NAMES, signals
-from following.test_vibration import RATE as HEARD
+from following.test_vibration import RATE as SAMPLED
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.checks import InputError
@@ -115,10 +115,10 @@ def test_invalid_files_are_refused(file, tmp_path):
         other.load_baseline(file)
 
 
-def test_a_baseline_of_vibration_hears_sidebands_that_grew_before_the_start(tmp_path):
-    def heard(seconds, follower, grown):
+def test_a_baseline_of_vibration_detects_sidebands_that_grew_before_the_start(tmp_path):
+    def vibrating(seconds, follower, grown):
         time, load, values = signals(seconds, lambda time: {"sun": (grown, 0.0 * time + 1.0)})
-        read = slice(None, None, int(HEARD / 100))
+        read = slice(None, None, int(SAMPLED / 100))
         train = followed_train(paper())
         torque = train.torque * load[read]
         columns = {
@@ -126,17 +126,17 @@ def test_a_baseline_of_vibration_hears_sidebands_that_grew_before_the_start(tmp_
             "input_speed": np.full(len(torque), train.speed),
         }  # fmt: skip
         follower.add(Readings(time[read], columns))
-        follower.add(VibrationSamples(time, values, NAMES, 1.0 / HEARD))
+        follower.add(VibrationSamples(time, values, NAMES, 1.0 / SAMPLED))
         follower.finish()
         return [one.what for one in follower.estimate().events]
 
     first, second, third = (Follower(paper(), SENSORS) for _ in range(3))
-    assert heard(12.0, first, 0.0) == []
-    first.save_baseline(tmp_path / "heard.npz")
-    second.load_baseline(tmp_path / "heard.npz")
-    assert set(heard(8.0, second, 2.0)) == {"vibration grew: sidebands of the sun"}
-    third.load_baseline(tmp_path / "heard.npz")
-    assert heard(8.0, third, 0.0) == []
+    assert vibrating(12.0, first, 0.0) == []
+    first.save_baseline(tmp_path / "vibrating.npz")
+    second.load_baseline(tmp_path / "vibrating.npz")
+    assert set(vibrating(8.0, second, 2.0)) == {"vibration grew: sidebands of the sun"}
+    third.load_baseline(tmp_path / "vibrating.npz")
+    assert vibrating(8.0, third, 0.0) == []
 
 
 def test_the_command_saves_and_uses_a_baseline(tmp_path):
@@ -148,10 +148,10 @@ def test_the_command_saves_and_uses_a_baseline(tmp_path):
             [*COMMAND, *words], cwd=tmp_path, capture_output=True, text=True, check=False
         )
 
-    files = "--out", "readings.csv", "--vibration", "heard.csv"
+    files = "--out", "readings.csv", "--vibration", "vibrating.csv"
     played = run("plant", "paper", "--hidden", "hidden.yaml", "--duration", "10", *files)
     assert played.returncode == 0, played.stderr
-    follow = ("follow", "paper", "--from", "readings.csv", "--vibration", "heard.csv",
+    follow = ("follow", "paper", "--from", "readings.csv", "--vibration", "vibrating.csv",
               "--sensors", "sensors.yaml")  # fmt: skip
     saved = run(*follow, "--save-baseline", "gearbox.npz")
     assert saved.returncode == 0, saved.stderr

@@ -1,4 +1,4 @@
-"""The accelerometer of a plant against a run with dynamics, and what a follower hears in it."""
+"""The accelerometer of a plant against a run with dynamics, and what a follower detects in it."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def plant(duration, duty, changes=(), seed=0, **vibration):
 
 
 def events(played):
-    """Events of a follower that hears readings and vibration."""
+    """Events of a follower of readings and vibration."""
     time, columns = play_readings(played)
     follower = Follower(SCENE)
     follower.add(Readings(time, columns))
@@ -72,7 +72,7 @@ def test_lost_packets_leave_whole_packets():
 
 
 @pytest.mark.slow
-def test_a_crack_of_five_percent_is_heard_as_sidebands_of_its_gear_alone():
+def test_a_crack_of_five_percent_is_detected_as_sidebands_of_its_gear_alone():
     (event,) = events(plant(45.0, {"torque_wander": 0.02}, crack(0.05), seed=2))
     assert event.what == "vibration grew: sidebands of the sun"
     assert event.since <= 25.0 < event.found < 32.0
@@ -81,7 +81,7 @@ def test_a_crack_of_five_percent_is_heard_as_sidebands_of_its_gear_alone():
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("gear", ["sun", "planet"])
-def test_wear_is_heard_as_sidebands_of_its_gear_alone(gear):
+def test_wear_is_detected_as_sidebands_of_its_gear_alone(gear):
     fault = {"kind": "wear", "gear": gear, "tooth": 7, "depth": 4e-6}
     changes = ({"at": 25.0, "faults": [fault]},)
     found = events(plant(45.0, {"torque_wander": 0.02}, changes))
@@ -90,7 +90,7 @@ def test_wear_is_heard_as_sidebands_of_its_gear_alone(gear):
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", range(4))
-def test_a_crack_of_one_percent_is_heard_rightly_or_not_at_all(seed):
+def test_a_crack_of_one_percent_is_detected_rightly_or_not_at_all(seed):
     for event in events(plant(60.0, {"torque_wander": 0.02}, crack(0.01), seed=seed)):
         assert event.what == "vibration grew: sidebands of the sun"
         assert event.since <= 25.0

@@ -13,7 +13,7 @@ from .conftest import Start
 from .peer import TWIN, Peer
 from .test_follower_inputs import BEGIN, FOLLOWER, Rig, stamp
 
-HEARD = 2_000.0  # [Hz] of the accelerometer
+SAMPLED = 2_000.0  # [Hz] of the accelerometer
 MESH = 2.0 * np.pi * 500.0 * 1.00001  # [rad/s] of 30 teeth at 104.72 rad/s
 
 
@@ -22,10 +22,10 @@ def vibrate(rig: Rig, end: float) -> None:
     publisher = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 1000)
     rig.user.until(lambda: rig.is_matched(publisher))
     chance = np.random.default_rng(1)
-    count = round(0.1 * HEARD)
+    count = round(0.1 * SAMPLED)
     for n in range(round(end / 0.1)):
-        time = (n * count + np.arange(count)) / HEARD
-        block = SampledBlock(sequence=n + 1, sample_period=1.0 / HEARD)
+        time = (n * count + np.arange(count)) / SAMPLED
+        block = SampledBlock(sequence=n + 1, sample_period=1.0 / SAMPLED)
         block.names, block.units = ["acceleration"], ["m/s^2"]
         values = 5.0 * np.cos(MESH * time) + 0.1 * chance.standard_normal(count)
         block.samples = values.tolist()
