@@ -1,7 +1,8 @@
 """Processor time and latency of the follower node beside a plant in real time.
 
-Usage: python benchmarks/follower_load.py [SECONDS]. A plant has torques and speeds at 100 Hz and
-encoders at 20 kHz. The start, with tables and signatures, is left out: the second half is measured.
+Usage: python benchmarks/follower_load.py [SECONDS [vibration]]. A plant has torques and speeds at
+100 Hz and encoders at 20 kHz, and with `vibration` an accelerometer at 20 kHz too. The start, with
+tables and signatures, is left out: the second half is measured.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ sensors:
   speed_noise: 0.02 rad/s
   encoders: {rate: 20 kHz, lost: 0.003}
 """
+VIBRATION = "  vibration: {rate: 20 kHz}\n"
 NAMESPACE = "/follower_load"
 TICK = os.sysconf("SC_CLK_TCK")
 
@@ -73,7 +75,7 @@ def main() -> None:
     stay_on_this_machine()
     with tempfile.TemporaryDirectory() as folder:
         hidden = Path(folder, "hidden.yaml")
-        hidden.write_text(HIDDEN)
+        hidden.write_text(HIDDEN + VIBRATION * ("vibration" in sys.argv[2:]))
         given = {"hidden": hidden, "duration": seconds, "wait_for": "[follower]"}
         with (
             Child("follower", NAMESPACE, {}) as follower,

@@ -66,6 +66,21 @@ def follow(  # noqa: PLR0913 - an argument for each option
         ),
     ] = None,
     set_: SetOption = None,
+    baseline: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.npz",
+            help="Compare teeth and vibration with this baseline of --save-baseline.",
+        ),
+    ] = None,
+    save_baseline: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.npz",
+            help="Write the learned baselines of teeth and vibration.",
+            callback=file_ending_in(".npz"),
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -105,6 +120,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
         known = read_sensors(sensors) if sensors is not None else Sensors()
         factors = known.scale | _factors(scale or [])
         follower = Follower(loaded, known, _format(known, encoders), factors)
+        if baseline is not None:
+            follower.load_baseline(baseline)
         readings, begin, unused = _readings(from_, known, factors)
         samples = _samples(encoders, vibration, known, begin)
         _note_unused(unused, samples if from_ in (encoders, vibration) else ())
@@ -113,6 +130,11 @@ def follow(  # noqa: PLR0913 - an argument for each option
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
     print_state(console, loaded.name, states[-1])
+    if save_baseline is not None:
+        try:
+            follower.save_baseline(save_baseline)
+        except (ValueError, OSError) as error:
+            fail(f"--save-baseline = {str(save_baseline)!r}: {error}")
     if out is not None:
         from ..following.notes import write_notes
 

@@ -43,6 +43,14 @@ def plant(
             callback=file_ending_in(*TABLES),
         ),
     ] = None,
+    vibration: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Write samples of the accelerometer to a table.",
+            callback=file_ending_in(*TABLES),
+        ),
+    ] = None,
     duration: Annotated[float, typer.Option(help="Simulated time [s].")] = 60.0,
     set_: SetOption = None,
 ) -> None:
@@ -63,8 +71,10 @@ def plant(
             raise ValueError(f"--duration = {duration!r}: must be above 0 and at most 1e6 s")
         if encoders is not None and truth.sensors.encoders.rate == 0.0:
             raise ValueError("--encoders: requires sensors.encoders.rate in --hidden")
+        if vibration is not None and truth.sensors.vibration.rate == 0.0:
+            raise ValueError("--vibration: requires sensors.vibration.rate in --hidden")
         with make_console().status("simulating"):
-            lines = list(_write(loaded, truth, duration, (out, encoders)))
+            lines = list(_write(loaded, truth, duration, (out, encoders, vibration)))
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
     for line in lines:
@@ -72,13 +82,15 @@ def plant(
 
 
 def _write(
-    scene: Scene, truth: Hidden, duration: float, files: tuple[Path, Path | None]
+    scene: Scene, truth: Hidden, duration: float, files: tuple[Path, Path | None, Path | None]
 ) -> list[str]:
     from ..plant.readings import Plant
-    from ..plant.tables import write_encoders, write_readings
+    from ..plant.tables import write_encoders, write_readings, write_vibration
 
     played = Plant(scene, truth, duration)
     lines = [f"{files[0]}: {write_readings(played, files[0])} readings"]
     if files[1] is not None:
         lines.append(f"{files[1]}: {write_encoders(played, files[1])} samples")
+    if files[2] is not None:
+        lines.append(f"{files[2]}: {write_vibration(played, files[2])} samples")
     return lines

@@ -47,9 +47,12 @@ TURNING = 3_000  # bins whose speed is kept for vibration
 RECENT = 1_200  # bins from which the size of a step is estimated at most
 MARGIN = 5.0  # [s] by which a step may start before the sum of the CUSUM leaves zero
 PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when the load reverses
+MANY = 100.0  # ratio above which a step is not compared with a loss or a torque
+FREQUENT, UNSTEADY = 3, 60.0  # steps in so many seconds that no single cause explains
 IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
-REFUSED = 1.0  # [s] of successive gated balances that cause an event
+REFUSED = 1.0  # [s] of successive gated balances that are a step
+RARE = 3.0  # standard deviations of the first balance above which the readings do not fit the scene
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
          "inertia": "kg m^2"}  # fmt: skip
 REMEDIES = {
@@ -69,19 +72,27 @@ class _Refusals:
     """Successive balances that the gate rejects."""
 
     begin: float = math.nan
-    noted: bool = False
+    rare: bool = False
 
-    def add(self, time: float, gated: bool) -> float | None:
-        """Return the time of the first of them, once they last `REFUSED`."""
-        if not gated:
-            self.begin, self.noted = math.nan, False
+    first: bool = True
+
+    def add(self, time: float, found: Innovation) -> float | None:
+        """Return the time of the first of them, once they last `REFUSED`.
+
+        The filter adapts to the first balance of all, so a rare one counts at once.
+        """
+        rare = self.first and abs(found.value) > RARE * found.sd
+        self.first = False
+        if not (found.gated or rare or self.rare):
+            self.begin = math.nan
             return None
+        self.rare |= rare
         if math.isnan(self.begin):
             self.begin = time
-        if not self.noted and time - self.begin >= REFUSED:
-            self.noted = True
-            return self.begin
-        return None
+        if time - self.begin < REFUSED:
+            return None
+        begin, self.begin, self.rare = self.begin, math.nan, False
+        return begin
 
 
 @dataclass
@@ -127,6 +138,7 @@ class BalanceFollower:
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
         self._before: tuple[BalanceFilter, StepCause, int] | None = None
+        self._steps: deque[float] = deque()  # times of the last steps [s]
         self._last: tuple[float, float] | None = None  # time and speed
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
@@ -183,17 +195,13 @@ class BalanceFollower:
         self._recent.append((read, before))
         self.innovation = innovation
         self.gated += innovation.gated
-        began = self._refusals.add(read.time, innovation.gated)
-        if began is not None:
-            self._wide.reopen()
-        if (step := self._cusum.add(read.time, slow.value, slow.sd)) is not None:
+        began = self._refusals.add(read.time, innovation)
+        step = self._cusum.add(read.time, slow.value, slow.sd)
+        if step is None and began is not None:
+            self._cusum.restart(read.time)
+            step = Step(began, read.time)
+        if step is not None:
             self._alarm(step)
-        elif began is not None:
-            size = not_identifiable("loss_torque_step", innovation.sd, "N m", "")
-            self.events.append(
-                Event("readings do not fit the gearbox", began, read.time, size, (),
-                      f"balance off by {innovation.value:.3g} N m")
-            )  # fmt: skip
         self._compare_causes(read)
 
     def _measured(self, found: Bin) -> Measured:
@@ -252,16 +260,35 @@ class BalanceFollower:
             cause.add(one)
         sense = math.copysign(1.0, self.operating[0])
         size = estimated("loss_torque_step", sense * found.size, found.sd, "N m")
-        loss = self._losses(float(self._slow.x[T]), *self.operating).teeth
-        share = f", {100.0 * size.value / loss:.3g} % of the scene's tooth friction" if loss else ""
-        evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m{share}"
+        torque = float(np.mean([read.input_torque for read in reads[found.likely :]]))
+        loss = self._losses(torque, *self.operating).teeth
+        evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m"
+        for whole, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
+            if abs(size.value) < MANY * whole:
+                evidence += f", {100.0 * size.value / whole:.3g} % of {name}"
         since = float(times[found.first]) - 0.5 * self.period
-        self._before = before, cause, len(self.events)
-        self.events.append(
-            Event("loss torque stepped", since, step.found, size, cause.causes, evidence)
-        )
+        from_start = place + found.first == 0 and len(self._recent) < RECENT
+        what = "readings do not fit the scene" if from_start else "loss torque stepped"
+        self._report(before, cause, Event(what, since, step.found, size, cause.causes, evidence))
+        slope = np.sqrt(np.mean([one.slope**2 for one in balances[found.likely :]], axis=0))
         self._slow.restart()
-        self._wide.reopen()
+        for each in (self._slow, self._wide):
+            each.reopen(found.size, slope)
+
+    def _report(self, before: BalanceFilter, cause: StepCause, event: Event) -> None:
+        """Add an event, unless steps follow each other: then no single cause explains them."""
+        while self._steps and event.found - self._steps[0] > UNSTEADY:
+            self._steps.popleft()
+        self._steps.append(event.found)
+        if len(self._steps) > FREQUENT:
+            return
+        self._before = before, cause, len(self.events)
+        if len(self._steps) == FREQUENT:
+            self._before = None
+            what = f"the torque balance has stepped {FREQUENT} times in {UNSTEADY:g} s"
+            more = f"last by {event.evidence}; steps are not reported while they are so frequent"
+            event = replace(event, what=what, causes=(), evidence=more)
+        self.events.append(event)
 
     def _compare_causes(self, read: Measured) -> None:
         """Update the causes of the last step."""
@@ -360,6 +387,8 @@ class BalanceFollower:
     def _parameter(self, state: int) -> Estimate:
         wide, name = self._wide, STATES[state]
         sd = math.sqrt(max(float(wide.p[state, state]), 0.0))
+        if state == F:  # the loss of the scene is as uncertain as the torque
+            sd = math.hypot(sd, float(wide.x[F] * wide.x[G]))
         prior = float(wide.prior[1][state - F])
         remedy = self._remedy(state)
         if not sd < IDENTIFIABLE * prior:

@@ -51,6 +51,7 @@ GAP = 2.0  # [s] without a bin after which the torque is unknown
 FAR = 10.0  # standard deviation of an unknown torque over the torque of the scene
 FALL = 600.0  # [s] time constant with which the friction law decays to its prior
 SLOW_FALL = 21_600.0  # [s] the same of the other parameters, see interval_coverage.py
+USUAL = 2.0  # standard deviations from its prior beyond which a parameter shows the prior as narrow
 CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
 
 
@@ -86,6 +87,12 @@ class Innovation(NamedTuple):
     """Whether the gate rejects it."""
 
 
+FRICTION, DRAGGING, ZERO, GAIN = (
+    "friction", "drag", "zero of a torque sensor", "gain of a torque sensor",
+)  # fmt: skip
+CAUSES = FRICTION, DRAGGING, ZERO, GAIN  # of a step of the balance
+
+
 class Balance(NamedTuple):
     """Measured minus expected sum of both torques of one bin, without an estimate of the torque."""
 
@@ -95,10 +102,9 @@ class Balance(NamedTuple):
     """Standard deviation of the readings in it [N m]."""
     slope: Array
     """Derivatives of the expected balance over the parameters, (7,)."""
-    friction: float
-    """Expected loss torque of tooth friction, with the sign of the rotation [N m]."""
-    sign: float
-    """Sign of the rotation."""
+    added: Array
+    """What each of `CAUSES` adds to the balance [N m], (4,): all friction of the teeth, a drag of
+    1 N m, a zero of 1 N m, and a gain of 100 %."""
 
 
 @dataclass(frozen=True)
@@ -174,11 +180,20 @@ class BalanceFilter:
         self.excess = 1.0
         """Variance of the innovations over that of the sensors' noise, at least 1."""
 
-    def reopen(self) -> None:
-        """Add the prior variances of friction, zero and drag, after a step of the loss."""
+    def reopen(self, size: float, slope: Array) -> None:
+        """Let friction, zero, drag or gain alone explain a step of the balance.
+
+        Each of them becomes as uncertain as the step requires, and at least as it was before any
+        reading.
+
+        Args:
+            size: size of the step [N m].
+            slope: derivatives of the balance over the parameters, (7,).
+        """
         sd = self.prior[1]
-        for state in (F, B, D):
-            self.p[state, state] += float(sd[state - F]) ** 2
+        for state in (F, B, D, G):
+            needed = abs(size) / max(abs(float(slope[state - F])), LEAST * float(sd[state - F]))
+            self.p[state, state] += max(needed, float(sd[state - F])) ** 2
 
     def update(self, read: Measured) -> Innovation | None:
         """Update the state with one bin.
@@ -230,12 +245,12 @@ class BalanceFilter:
         noise = self.excess * noise + (inertia * read.acceleration_noise) ** 2
         parameters = slope[PARAMETERS]
         law = np.array([F, F_T, F_W])
+        friction = float(slope[law] @ self.x[law])
         return Balance(
             self.train.ratio * read.output_torque - expected,
             math.sqrt(noise),
             parameters,
-            float(slope[law] @ self.x[law]),
-            math.copysign(1.0, read.speed),
+            np.array([friction, math.copysign(1.0, read.speed), 1.0, slope[G]]),
         )
 
     def loss_torque(self, speed: float, temperature: float) -> tuple[float, float]:
@@ -270,7 +285,8 @@ class BalanceFilter:
         self.x[PARAMETERS] = mean + keep * (self.x[PARAMETERS] - mean)
         every = np.concatenate([[1.0, 1.0], keep])
         self.p *= np.outer(every, every)
-        fresh = (1.0 - keep**2) * sd**2 + self.memory.walk**2 * step
+        wide = np.maximum(sd, np.abs(self.x[PARAMETERS] - mean) / USUAL)
+        fresh = (1.0 - keep**2) * wide**2 + self.memory.walk**2 * step
         self.p[np.arange(F, len(STATES)), np.arange(F, len(STATES))] += fresh
 
     def _lose_torque(self) -> None:

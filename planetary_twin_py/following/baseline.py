@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,9 @@ from .tooth_scores import Bank
 Array = NDArray[np.float64]
 
 SEEN = 1.5  # power of a change with the torque over that of noise, above which it is learned
+MOVED = 6.5  # standard deviations by which another position must explain a block better
+SAVED = ("torque", "speed", "needed", "mean", "sd", "known", "taken_off", "digest", "_centre",
+         "_spread")  # fmt: skip
 CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
 
 
@@ -68,6 +72,48 @@ class Baseline:
     _centre: float = 0.0  # mean torque of its blocks [N m]
     _spread: float = 1.0  # sum of squares of their torques about it [N m^2]
     _blocks: list[tuple[HuntingBlock, float]] = field(default_factory=list)
+
+    def fields(self) -> dict[str, NDArray[Any]]:
+        """Values of a learned baseline, from which `of_fields` makes it again."""
+        assert self.mean is not None  # called for learned baselines only
+        found = {name: np.array(getattr(self, name)) for name in SAVED}
+        return found | ({} if self.slope is None else {"slope": self.slope})
+
+    @classmethod
+    def of_fields(cls, fields: Mapping[str, NDArray[Any]], segment: int) -> Baseline:
+        """A learned baseline.
+
+        Args:
+            fields: see `fields`.
+            segment: number of times that the encoders have lost the count of turns.
+
+        Raises:
+            KeyError: a value is missing.
+        """
+        values = {name: fields[name] for name in SAVED}
+        plain: dict[str, Any] = {
+            name: one.item() if one.ndim == 0 else one for name, one in values.items()
+        }
+        return cls(**plain, segment=segment, slope=fields.get("slope"))
+
+    def moved(self, block: HuntingBlock) -> bool:
+        """Whether a block shows the deviation of the baseline at another position of the gears.
+
+        Args:
+            block: a block of this cell.
+
+        Returns:
+            True if another number of mesh cycles between both explains it far better than none.
+        """
+        assert self.mean is not None  # called for learned baselines only
+        there = block.measured & self.known
+        here, mean = np.where(there, block.deviation, 0.0), np.where(self.known, self.mean, 0.0)
+        product = np.fft.rfft(here, axis=0) * np.conj(np.fft.rfft(mean, axis=0))
+        common = np.fft.irfft(product.sum(axis=1), len(mean))
+        best, square = int(np.argmax(common)), float(np.sum(mean**2))
+        left = float(np.sum(here**2)) + square - 2.0 * float(common[best])
+        sd = math.sqrt(2.0 * square * max(left, 0.0) / there.sum())
+        return best != 0 and float(common[best] - common[0]) > MOVED * sd
 
     def covers(self, torque: float, speed: float, segment: int) -> bool:
         """Whether a block belongs to this cell.

@@ -129,9 +129,11 @@ class Checks:
         stored = train.inertia * float(np.ptp(np.abs(speed))) / (len(speed) * self.length)
         sd = math.hypot(self.zero, self.gain * float(np.mean(sign * first)), stored)
         if loss < -GAINED * sd:
+            share = 100.0 * loss / float(np.mean(sign * first))
             yield (
                 f"loss torque = {loss:.3g} N m: must be positive: the signs of both torques or of "
-                "both speeds are probably reversed: scale input_torque and output_torque by -1"
+                "both speeds are reversed (scale input_torque and output_torque by -1), or a "
+                f"torque sensor has a wrong zero or a gain that is wrong by {abs(share):.2g} %"
             )
 
     def _speeds(self, ratio: float) -> Iterator[str]:

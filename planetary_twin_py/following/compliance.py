@@ -114,6 +114,11 @@ class Compliance:
             del self._blocks[self.learning]
 
     @property
+    def first(self) -> np.ndarray:
+        """Torque, speed and error of the first blocks, (n, 3)."""
+        return np.array(self._blocks[: self.learning], dtype=float).reshape(-1, 3)
+
+    @property
     def baseline(self) -> Line | None:
         """Regression over the first blocks."""
         return self._line(0, self.learning) if len(self._blocks) >= self.learning else None

@@ -30,12 +30,14 @@ class _Sum:
     sign: float
     value: float = 0.0
     since: float = math.nan
+    correlation: float = 0.0  # of innovations at that time
     held: bool = False
 
-    def add(self, term: float, time: float, held: bool) -> None:
+    def add(self, term: float, time: float, correlation: float, held: bool) -> None:
         self.value += self.sign * term - KAPPA
         if self.value <= 0.0:
-            self.value, self.since, self.held = 0.0, time, held
+            self.value, self.since = 0.0, time
+            self.correlation, self.held = correlation, held
 
 
 @dataclass
@@ -86,13 +88,26 @@ class Cusum:
         term = sum(self._term) / math.sqrt(len(self._term))
         self._term.clear()
         for one in self._sums:
-            one.add(term, time, self.held)
+            one.add(term, time, self.correlation, self.held)
         for one in self._sums:
             if one.value > LIMIT and not one.held:
                 step = Step(one.since, time)
-                self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
+                self.restart(time)
                 return step
         return None
+
+    def restart(self, time: float) -> None:
+        """Start both sums from zero after a step, which has made innovations correlate.
+
+        Args:
+            time: present time [s].
+        """
+        self.correlation = max(self._sums, key=lambda one: one.value).correlation
+        self._term.clear()
+        self._begin = time
+        self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
+        for one in self._sums:
+            one.correlation = self.correlation
 
     def _correlate(self, time: float, score: float) -> None:
         if self._last is not None:

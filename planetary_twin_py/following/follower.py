@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from ..units import LARGEST
 from .balance import PERIOD, BalanceFollower
 from .balance_filter import Innovation
 from .baseline import LearnedCell
+from .baseline_file import SavedBaseline, read_baseline, write_baseline
 from .bins import CHANNELS
 from .checks import InputError
 from .clock_watch import ClockWatch
@@ -131,6 +133,7 @@ class Follower:
                 raise ValueError(f"scale: {name} = {factor!r}: its magnitude must be 1e-9 to 1e9")
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
+        self._saved = SavedBaseline(None, None)  # for samples that have not come
         self._balance = BalanceFollower(self.scene, self.sensors, self.period)
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
@@ -180,6 +183,8 @@ class Follower:
             self._vibration = VibrationFollower(
                 self._balance.train, block.names, block.period, self.sensors.learning
             )
+            if self._saved.vibration is not None:
+                self._vibration.restore(self._saved.vibration)
         if (block.names, block.period) != (self._vibration.names, self._vibration.period):
             raise InputError("vibration: channels and sample period must be as before")
         return self._vibration
@@ -191,9 +196,58 @@ class Follower:
                 raise ValueError("encoders: their counts per turn and their period are missing")
             self.encoders = block.format
             self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
+            if self._saved.teeth is not None:
+                self._teeth.restore(self._saved.teeth)
         if block.format not in (None, self.encoders):
             raise InputError(f"encoders: {block.format}: must be {self.encoders} as before")
         return self._teeth
+
+    def learn(self) -> None:
+        """Forget the baselines of teeth and vibration and learn new ones, after a repair.
+
+        Events and the torque balance remain.
+        """
+        self._saved = SavedBaseline(None, None)
+        for part in (self._teeth, self._vibration):
+            if part is not None:
+                part.learn()
+
+    def save_baseline(self, path: Path) -> None:
+        """Write the learned baselines of teeth and vibration.
+
+        Args:
+            path: path of the file.
+
+        Raises:
+            ValueError: nothing has been learned.
+            OSError: the file cannot be written.
+        """
+        write_baseline(
+            path, self.scene,
+            SavedBaseline(
+                None if self._teeth is None else self._teeth.saved,
+                None if self._vibration is None else self._vibration.saved,
+            ),
+        )  # fmt: skip
+
+    def load_baseline(self, path: Path) -> None:
+        """Use saved baselines instead of learning.
+
+        A baseline of teeth needs encoders whose counts, whole turns included, have continued. It is
+        compared with the first hunting period, and not used if it belongs to another position.
+
+        Args:
+            path: path of a file of `save_baseline`.
+
+        Raises:
+            ValueError: the file is no baseline of this scene and of these sensors.
+            OSError: the file cannot be read.
+        """
+        self._saved = read_baseline(path, self.scene)
+        if self._teeth is not None and self._saved.teeth is not None:
+            self._teeth.restore(self._saved.teeth)
+        if self._vibration is not None and self._saved.vibration is not None:
+            self._vibration.restore(self._saved.vibration)
 
     def finish(self) -> None:
         """Process the readings and samples that are held back, at the end of a recording.

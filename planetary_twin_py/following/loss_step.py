@@ -1,10 +1,11 @@
 """Size, start and cause of a step of the loss.
 
 The parameters from before the step are kept, so that no filter that has adapted to a part of the
-step understates it. The balances of the readings alone are compared with three causes: a change of
+step understates it. The balances of the readings alone are compared with four causes: a change of
 friction is proportional to the loss of the teeth, a change of drag has the sign of the rotation, a
-change of a zero is constant. They differ once load or direction has varied. The kept parameters are
-uncertain: they are unknowns of each comparison, with their covariance.
+change of a zero is constant, a change of a gain is proportional to the torque. They differ once
+load or direction has varied. The kept parameters are uncertain: they are unknowns of each
+comparison, with their covariance.
 """
 
 from __future__ import annotations
@@ -16,12 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .balance_filter import Balance
+from .balance_filter import CAUSES, Balance
 
 Array = NDArray[np.float64]
 
-FRICTION, DRAG, ZERO = "friction", "drag", "zero of a torque sensor"
-CAUSES = FRICTION, DRAG, ZERO
 LONGEST = 300.0  # [s] from the detection of a step in which balances are compared
 FEWEST = 20  # bins before a cause is excluded
 BETTER = 6.0  # units of log-likelihood by which one cause must be better than the others
@@ -45,8 +44,9 @@ class StepSize(NamedTuple):
 def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     """Size and start of a step that has lasted until the last of some balances.
 
-    Every start has a mean of the balances since then and a likelihood; the result is the mean over
-    all starts. The likelihood is that of a step of unknown size in independent noise.
+    Every start and every cause have a likelihood, for an amount that is unknown, and for errors of
+    the parameters with their covariance; the result is the mean over all of them. A change of
+    friction at a low torque hardly changes the balance, so its start is as uncertain as that shows.
 
     Args:
         balances: successive balances with the parameters from before the step.
@@ -55,18 +55,33 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     Returns:
         The step.
     """
-    values, sd = (np.array([getattr(one, name) for one in balances]) for name in ("value", "sd"))
-    weight = np.cumsum(sd[::-1] ** -2)[::-1]
-    mean = np.cumsum((values / sd**2)[::-1])[::-1] / weight
-    score = 0.5 * weight * mean**2 - 0.5 * np.log(weight)
+    sd = np.array([one.sd for one in balances])
+    value = np.array([one.value for one in balances]) / sd
+    slopes = np.array([one.slope for one in balances]) / sd[:, None]
+    added = np.array([one.added for one in balances])
+    added = added / np.maximum(np.sqrt(np.mean(added**2, axis=0)), 1e-300)
+    shapes = added / sd[:, None]
+    # Whitened readings have the covariance 1 + S P S'; its inverse is 1 - S inner S' (Woodbury).
+    inner = covariance @ np.linalg.inv(np.eye(len(covariance)) + slopes.T @ slopes @ covariance)
+    along = _from_each(shapes[:, :, None] * slopes[:, None, :])  # (n, causes, parameters)
+    square = _from_each(shapes**2) - np.einsum("nci,ij,ncj->nc", along, inner, along)
+    product = _from_each(shapes * value[:, None]) - along @ inner @ (slopes.T @ value)
+    amount = product / square
+    score = 0.5 * product * amount - 0.5 * np.log(square)
     share = np.exp(score - score.max())
     share /= share.sum()
-    size = float(share @ mean)
-    likely = int(np.argmax(share))
-    slope = np.mean([one.slope for one in balances[likely:]], axis=0)
-    variance = float(share @ (1.0 / weight + (mean - size) ** 2) + slope @ covariance @ slope)
-    first = int(np.searchsorted(np.cumsum(share), BEFORE))
-    return StepSize(size, math.sqrt(variance), first, likely)
+    mean = _from_each(added) / np.arange(len(added), 0, -1)[:, None]
+    sizes = amount * mean
+    size = float(np.sum(share * sizes))
+    variance = float(np.sum(share * (mean**2 / square + (sizes - size) ** 2)))
+    starts = share.sum(axis=1)
+    first = int(np.searchsorted(np.cumsum(starts), BEFORE))
+    return StepSize(size, math.sqrt(variance), first, int(np.argmax(starts)))
+
+
+def _from_each(values: Array) -> Array:
+    """Sums from each row to the last."""
+    return np.cumsum(values[::-1], axis=0)[::-1]
 
 
 class StepCause:
@@ -94,7 +109,7 @@ class StepCause:
         Args:
             found: balance with the parameters from before the step.
         """
-        row = np.concatenate([found.slope, [found.friction, found.sign, 1.0]]) / found.sd
+        row = np.concatenate([found.slope, found.added]) / found.sd
         score = found.value / found.sd
         self._matrix += np.outer(row, row)
         self._vector += score * row

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from ..scene import Scene, SceneError
 from .baseline import Baseline, LearnedCell
+from .baseline_file import TeethBaseline
+from .checks import InputError
 from .compliance import Compliance
 from .encoder_check import EncoderCheck
 from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
@@ -27,6 +29,10 @@ from .transmission_error import Counts
 
 Array = NDArray[np.float64]
 
+MISPLACED = (
+    "teeth: the loaded baseline belongs to another position of the encoders and is not used; a "
+    "baseline is learned"
+)
 WINDOWS = 1, 4, 16, 64  # numbers of blocks that are judged together
 UNCERTAIN = 0.15  # relative standard deviation of a size: runout shifts load between teeth
 UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a changed tooth
@@ -101,16 +107,54 @@ class TeethFollower:
         self._hunting = HuntingBlocks(self.train, self.counts_per_turn, self.period)
         self._pending: deque[HuntingBlock] = deque()
         self._banks: dict[tuple[float, float], Bank] = {}  # by torque and speed
+        self._unmeasured = False
+        self.learn()
+
+    def learn(self) -> None:
+        """Forget baselines and changed teeth; events remain. The next blocks are learned."""
         self._cells: list[Baseline] = []
+        self._restored: str | None = None  # remark if the baseline does not fit
+        self._unproven = False  # a restored baseline has not been compared with a block
+        self.teeth, self.every_z, self.outstanding = (), (), -math.inf
         self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: int | None = None
         self._kinds: dict[int, ToothKind] = {}
         self._amounts: dict[int, float] = {}
         self._place: dict[int, int] = {}  # of the event of a tooth
         self._changed_by: dict[int, float] = {}  # time before which a tooth has changed [s]
-        self._unmeasured = False
         self.compliance = Compliance(self.learning)
         self._estimates: tuple[Estimate, ...] | None = None  # since the last hunting period
+
+    @property
+    def saved(self) -> TeethBaseline | None:
+        """Learned baselines with valid positions; None if there are none."""
+        segment = self.counters.segments
+        cells = [one for one in self._cells if one.learned and one.segment == segment]
+        if not cells:
+            return None
+        fields = tuple(one.fields() for one in cells)
+        return TeethBaseline(self.counts_per_turn, self.period, fields, self.compliance.first)
+
+    def restore(self, saved: TeethBaseline) -> None:
+        """Use saved baselines instead of learning.
+
+        Args:
+            saved: baselines of the same encoders, whose counts have continued since.
+
+        Raises:
+            InputError: they are of other encoders.
+        """
+        own = self.counts_per_turn, self.period
+        if (saved.counts_per_turn, saved.period) != own:
+            raise InputError(
+                f"baseline: counts per turn {saved.counts_per_turn} and period {saved.period:g} s: "
+                f"must be {own[0]} and {own[1]:g} s as of the encoders"
+            )
+        self.learn()
+        segment = self.counters.segments
+        self._cells = [Baseline.of_fields(one, segment) for one in saved.cells]
+        self.compliance = Compliance(self.learning, segment, [tuple(b) for b in saved.blocks])
+        self._unproven = True
 
     @property
     def counters(self) -> EncoderCounters:
@@ -183,6 +227,13 @@ class TeethFollower:
         """Index of the operating cell of a block; a new one if there is none."""
         for place, cell in enumerate(self._cells):
             if cell.covers(torque, speed, block.segment):
+                if cell.bank is None:  # restored
+                    cell.bank = self._bank(torque, speed)
+                if self._unproven and cell.learned and cell.moved(block):
+                    self.learn()
+                    self._restored = MISPLACED
+                    break
+                self._unproven = False
                 return place
         bank = self._bank(torque, speed)
         self._cells.append(Baseline(torque, speed, block.segment, self.learning, bank))
@@ -386,6 +437,8 @@ class TeethFollower:
 
     def remarks(self) -> Iterator[str]:
         """Reasons why the estimates are less certain, one line each."""
+        if self._restored:
+            yield self._restored
         if self._unmeasured:
             yield "encoders: the torque is not measured: that of the scene is assumed"
         if self._cells and not any(cell.learned for cell in self._cells):

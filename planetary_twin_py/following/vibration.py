@@ -3,26 +3,34 @@
 The path from the teeth to a sensor on a housing is unknown, so amplitudes tell no friction, no
 stiffness and no size of a fault: only that a pattern has grown, and of which gear. A fault of one
 tooth modulates the meshes once per turn of its gear: its sidebands are 1/Z mesh orders apart
-(McFadden 1986, J. Vib. Acoust. 108(2), 165-170).
+(McFadden 1986, J. Vib. Acoust. 108(2), 165-170). Sidebands that two gears share tell neither of
+them, so those that a gear has alone are used.
 
 Amplitudes are those of a Hann window over one hunting period, in the angle of the input: its speed
 is integrated, and scaled by up to `STRETCH` until the first mesh order is largest, since a sensor's
-gain would shift the lines. They grow with the torque and are divided by it.
+gain would shift the lines. They grow with the torque and are divided by it. A growth is reported
+beyond what the remaining difference of torque and speed from those of the baseline explains. Where
+the speed changes faster than it is measured, the harmonics leak into their neighbourhood: what has
+grown beside the sidebands as well is subtracted.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
 
+from .baseline_file import VibrationBaseline
+from .checks import InputError
 from .estimate import CONFIDENT, Event, estimated, not_identifiable
+from .onset import onset_of
 from .tooth_search import ALARM
 from .train import FollowedTrain
 
@@ -33,6 +41,8 @@ SIDEBANDS = 2  # on each side of a harmonic, for each gear
 STRETCH = 2e-3  # largest relative error of the measured speed
 STEPS = 21  # of the search within it
 CELL = 0.1  # relative distance of torque and speed within which a baseline holds
+OVER_TORQUE = 1.0  # largest exponent over the torque of an amplitude divided by the torque
+OVER_SPEED = 4.0  # the same over the speed: 2 of an acceleration, the rest of resonances
 WINDOWS = 4, 16  # hunting periods that are judged together
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
 STEADY = 0.02  # relative standard deviation of the speed in a hunting period, likewise
@@ -65,6 +75,30 @@ class VibrationSamples(NamedTuple):
     """Of the samples [s]."""
 
 
+class _Line(NamedTuple):
+    """A line of a spectrum over the mesh cycles."""
+
+    mesh: int
+    """Harmonic of the mesh."""
+    side: int
+    """Number of the sideband, negative below the harmonic."""
+    teeth: int
+    """Of its gear, whose rotation separates the sidebands."""
+
+    @property
+    def order(self) -> float:
+        """Order over that of the mesh."""
+        return self.mesh + self.side / self.teeth
+
+
+class _Pattern(NamedTuple):
+    """Lines that grow together."""
+
+    name: str
+    lines: tuple[_Line, ...]
+    causes: tuple[str, ...]
+
+
 @dataclass
 class VibrationCounters:
     """What has become of the samples."""
@@ -78,6 +112,21 @@ class VibrationCounters:
     """With holes, at changing speed, or with no torque."""
 
 
+class _Judged(NamedTuple):
+    """A hunting period."""
+
+    begin: float
+    """[s]."""
+    found: Array
+    """Amplitudes over torque, (channels, patterns)."""
+    floor: Array
+    """The same beside their sidebands, where no gear has lines; NaN without sidebands."""
+    torque: float
+    """Mean torque at the input [N m]."""
+    speed: float
+    """Mean speed of the input [rad/s]."""
+
+
 @dataclass
 class _Baseline:
     """Amplitudes over torque at one torque and speed."""
@@ -86,7 +135,28 @@ class _Baseline:
     speed: float
     highest: float
     """Order of the mesh below which the sample rate resolves a line."""
-    learned: list[Array] = field(default_factory=list)
+    learned: list[_Judged] = field(default_factory=list)
+
+    def fields(self) -> dict[str, NDArray[Any]]:
+        """Values from which `of_fields` makes it again."""
+        found = {name: np.array(getattr(self, name)) for name in ("torque", "speed", "highest")}
+        return found | {
+            name: np.array([getattr(one, name) for one in self.learned])
+            for name in _Judged._fields
+            if name not in found
+        } | {
+            f"each_{name}": np.array([getattr(one, name) for one in self.learned])
+            for name in ("torque", "speed")
+        }  # fmt: skip
+
+    @classmethod
+    def of_fields(cls, fields: Mapping[str, NDArray[Any]]) -> _Baseline:
+        """A baseline; raises KeyError if a value is missing."""
+        columns = [fields[name] for name in ("begin", "found", "floor", "each_torque",
+                                             "each_speed")]  # fmt: skip
+        learned = [_Judged(*row) for row in zip(*columns, strict=True)]
+        torque, speed, highest = (float(fields[name]) for name in ("torque", "speed", "highest"))
+        return cls(torque, speed, highest, learned)
 
     def covers(self, torque: float, speed: float) -> bool:
         near = abs(torque - self.torque) <= CELL * abs(self.torque)
@@ -112,16 +182,47 @@ class VibrationFollower:
         self._train, self._learning = train, learning
         self._turn = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
         self._patterns = tuple(_patterns(train))
+        self._beside = 0.5 / max(train.teeth.values())  # of an order: between two sidebands
         self._waiting: list[tuple[Array, Array]] = []
         self._begin = math.nan  # of the present hunting period [s]
         self._until = math.nan  # of the last call [s]
+        self.learn()
+        # As rare as a z of ALARM, for a standard deviation from `learning` hunting periods.
+        self._limit = -float(stdtrit(learning - 1, ndtr(-ALARM)))
+
+    @property
+    def saved(self) -> VibrationBaseline | None:
+        """Learned baselines; None if there are none."""
+        cells = [one for one in self._baselines if len(one.learned) >= self._learning]
+        if not cells:
+            return None
+        return VibrationBaseline(self.names, self.period, tuple(one.fields() for one in cells))
+
+    def restore(self, saved: VibrationBaseline) -> None:
+        """Use saved baselines instead of learning.
+
+        Args:
+            saved: baselines of the same channels and sample period.
+
+        Raises:
+            InputError: they are of other channels or of another period.
+        """
+        if (saved.names, saved.period) != (self.names, self.period):
+            raise InputError(
+                f"baseline: vibration of {', '.join(saved.names)} at {1.0 / saved.period:g} Hz: "
+                f"must be {', '.join(self.names)} at {1.0 / self.period:g} Hz as measured"
+            )
+        self.learn()
+        self._baselines += [_Baseline.of_fields(one) for one in saved.cells]
+        self._learning = min(len(one.learned) for one in self._baselines)
+
+    def learn(self) -> None:
+        """Forget baselines; events remain. The next hunting periods are learned."""
         self._baselines: list[_Baseline] = []
-        self._recent: deque[tuple[float, Array]] = deque(maxlen=WINDOWS[-1])
+        self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: _Baseline | None = None
         self._known: dict[tuple[int, int], tuple[int, _Baseline]] = {}
         """Place of the event, and where it was found, by channel and pattern."""
-        # As rare as a z of ALARM, for a standard deviation from `learning` hunting periods.
-        self._limit = -float(stdtrit(learning - 1, ndtr(-ALARM)))
 
     def add(self, time: Array, values: Array) -> None:
         """Take samples.
@@ -202,20 +303,22 @@ class VibrationFollower:
             mesh = abs(float(self._train.cycles) * speed) * (1.0 + CELL) / (2.0 * math.pi)  # [Hz]
             cell = _Baseline(torque, speed, RESOLVED / (self.period * mesh))
             self._baselines.append(cell)
-        found = self._amplitudes(time, values, course, cell.highest) / abs(torque)
+        lines, floor = self._amplitudes(time, values, course, cell.highest) / abs(torque)
+        found = _Judged(span[0], lines, floor, torque, speed)
         if cell is not self._cell:
             self._cell = cell
             self._recent.clear()
         if len(cell.learned) < self._learning:
             cell.learned.append(found)
             return
-        self._recent.append((span[0], found))
+        self._recent.append(found)
         self._decide(cell, span[1])
 
     def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
         """Root mean square of the amplitudes of every pattern below an order of the mesh.
 
-        Returns (channels, patterns), NaN for a pattern without such lines.
+        Returns (2, channels, patterns): of the lines, NaN for a pattern without such lines, and
+        beside its sidebands, NaN for a pattern without such.
         """
         middle = np.interp(time, course.time, course.speed)
         angle = np.concatenate([[0.0], np.cumsum(0.5 * (middle[1:] + middle[:-1]) * np.diff(time))])
@@ -223,20 +326,45 @@ class VibrationFollower:
         window = np.hanning(len(time) + 2)[1:-1]
         weighted = (values - values.mean(axis=0)) * (2.0 * window / window.sum())[:, None]
 
-        def at(order: float, stretch: float) -> Array:
-            return np.abs(np.exp(-1j * (order * stretch) * mesh) @ weighted)
-
+        # Waves are powers of few exponentials, which take most of the time.
         stretches = 1.0 + np.linspace(-STRETCH, STRETCH, STEPS)
-        best = max(stretches, key=lambda one: float(np.sum(at(1.0, one))))
-        squares = []
-        for _, orders, _ in self._patterns:
-            lines = [at(order, best) ** 2 for order in orders if order < highest]
-            squares.append(np.mean(lines, axis=0) if lines else np.full(len(self.names), np.nan))
-        return np.sqrt(np.stack(squares, axis=1))
+        first, step = (
+            np.exp(-1j * one * mesh) for one in (stretches[0], stretches[1] - stretches[0])
+        )
+        strength = []
+        for _ in stretches:
+            strength.append(float(np.sum(np.abs(first @ weighted))))
+            first = first * step
+        best = float(stretches[int(np.argmax(strength))])
+        first = np.exp(-1j * best * mesh)
+        shifted = list(itertools.accumulate(range(HARMONICS), lambda one, _: first[:, None] * one,
+                                          initial=weighted.astype(complex)))  # fmt: skip
+        sides = {(1, 0): np.ones_like(first)}
+        for teeth, side in {
+            (line.teeth, abs(line.side)) for one in self._patterns for line in one.lines
+        } - set(sides):
+            sides[teeth, side] = np.exp(-1j * (best * side / teeth) * mesh)
+            sides[teeth, -side] = sides[teeth, side].conj()
+        shift = np.exp(-1j * (best * self._beside) * mesh)[:, None]
+        besides = [[one * shift, one * shift.conj()] for one in shifted]
+
+        def mean_square(lines: Sequence[tuple[_Line, Array]]) -> Array:
+            found = [np.abs(sides[line.teeth, line.side] @ wave) ** 2 for line, wave in lines]
+            return np.mean(found, axis=0) if found else np.full(len(self.names), np.nan)
+
+        squares, floors = [], []
+        for pattern in self._patterns:
+            lines = [line for line in pattern.lines if line.order < highest]
+            squares.append(mean_square([(line, shifted[line.mesh]) for line in lines]))
+            sidebands = [line for line in lines if line.side]
+            floors.append(
+                mean_square([(line, w) for line in sidebands for w in besides[line.mesh]])
+            )
+        return np.sqrt(np.array([np.stack(squares, axis=1), np.stack(floors, axis=1)]))
 
     def _decide(self, cell: _Baseline, now: float) -> None:
         """Report amplitudes that have grown in any window."""
-        learned = np.array(cell.learned)
+        learned = np.array([one.found for one in cell.learned])
         mean, sd = learned.mean(axis=0), learned.std(axis=0, ddof=1)
         for key, (place, where) in self._known.items():
             if where is cell:  # another baseline may have been learned with what has grown
@@ -245,8 +373,13 @@ class VibrationFollower:
             if count > len(self._recent):
                 return
             recent = list(self._recent)[-count:]
-            grown = np.mean([one for _, one in recent], axis=0) - mean
-            noise = sd * math.sqrt(1.0 / count + 1.0 / self._learning)
+            grown = np.mean([one.found for one in recent], axis=0) - mean
+            grown -= _explained(recent, cell.learned) * mean
+            floor = np.nan_to_num(np.mean([one.floor for one in recent], axis=0))
+            quiet = np.nan_to_num(np.mean([one.floor for one in cell.learned], axis=0))
+            grown -= np.maximum(floor - quiet, 0.0)
+            louder = np.maximum(floor / np.where(quiet > 0.0, quiet, np.inf), 1.0)
+            noise = louder * sd * math.sqrt(1.0 / count + 1.0 / self._learning)
             for channel, pattern in np.argwhere(grown > self._limit * noise).tolist():
                 if (channel, pattern) in self._known:
                     continue
@@ -256,12 +389,20 @@ class VibrationFollower:
                 size = not_identifiable("vibration_growth", math.nan, "", "the next hunting period")
                 evidence = f"{self.names[channel]}: z = {z:.1f}{UNKNOWN}"
                 what = f"vibration grew: {name}"
-                self.events.append(Event(what, recent[0][0], now, size, causes, evidence))
+                since = self._since((channel, pattern), mean, sd, now)
+                self.events.append(Event(what, since, now, size, causes, evidence))
+
+    def _since(self, key: tuple[int, int], mean: Array, sd: Array, now: float) -> float:
+        """Earliest time at which a pattern may have grown [s]."""
+        amounts = np.array([one.found[key] for one in self._recent]) - mean[key]
+        first = self._recent[onset_of(amounts, float(sd[key])).first].begin
+        # A step later than half of a hunting period belongs to the next one.
+        return first - 0.5 * (now - self._recent[-1].begin)
 
     def _measure(self, place: int, key: tuple[int, int], baseline: tuple[Array, Array]) -> None:
         """Growth of a pattern in the hunting periods that began after it was found."""
         event = self.events[place]
-        since = np.array([one[key] for begin, one in self._recent if begin >= event.found])
+        since = np.array([one.found[key] for one in self._recent if one.begin >= event.found])
         if not len(since):
             return
         mean, sd = (float(one[key]) for one in baseline)
@@ -293,21 +434,34 @@ class VibrationFollower:
             )
 
 
-def _patterns(train: FollowedTrain) -> Iterator[tuple[str, tuple[float, ...], tuple[str, ...]]]:
-    """Name, orders over that of the mesh, and possible causes of every pattern."""
+def _explained(recent: Sequence[_Judged], learned: Sequence[_Judged]) -> float:
+    """Relative growth that torque and speed explain where they differ from those learned."""
+    (torque, speed), (torques, speeds) = (
+        np.mean([(one.torque, one.speed) for one in some], axis=0) for some in (recent, learned)
+    )
+    return float(OVER_TORQUE * abs(torque / torques - 1.0) + OVER_SPEED * abs(speed / speeds - 1.0))
+
+
+def _patterns(train: FollowedTrain) -> Iterator[_Pattern]:
+    """Mesh harmonics, and the sidebands of every gear."""
     meshes = range(1, HARMONICS + 1)
     for mesh in meshes:
         causes = ("wear of all teeth", "another law of the meshes", "the path to the sensor")
-        yield f"mesh harmonic {mesh}", (float(mesh),), causes
+        yield _Pattern(f"mesh harmonic {mesh}", (_Line(mesh, 0, 1),), causes)
     kinds = {name.partition("_")[0]: count for name, count in train.teeth.items()}
     for gear, count in kinds.items():
-        orders = [
-            mesh + side * n / count
+        others = {other: teeth for other, teeth in kinds.items() if other != gear}
+        sides = range(1, count)
+        own = [n for n in sides if all(n * teeth % count for teeth in others.values())]
+        sharing = [] if own else [other for other, teeth in others.items() if teeth % count == 0]
+        lines = tuple(
+            _Line(mesh, sign * n, count)
             for mesh in meshes
-            for n in range(1, SIDEBANDS + 1)
-            for side in (-1, 1)
-        ]
-        yield f"sidebands of the {gear}", tuple(orders), (f"a tooth of the {gear}", "a runout")
+            for n in (own or sides)[:SIDEBANDS]
+            for sign in (-1, 1)
+        )
+        teeth_of = tuple(f"a tooth of the {one}" for one in (gear, *sharing))
+        yield _Pattern(f"sidebands of the {gear}", lines, (*teeth_of, "a runout"))
 
 
 def _end_of(course: Turning, angle: float, begin: float) -> float | None:

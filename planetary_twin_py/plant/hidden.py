@@ -65,6 +65,19 @@ class EncoderErrors(Section):
     lost: float = quantity("", "share of packets that are lost", 0.0, ge=0.0, lt=1.0)
 
 
+class Accelerometer(Section):
+    """An accelerometer behind a path from the teeth that differs between harmonics."""
+
+    rate: float = quantity("Hz", "sample rate; 0: no accelerometer", 0.0, ge=0.0, le=1e6)
+    noise: float = quantity("m/s^2", "standard deviation of a sample", 0.5, ge=0.0, le=1e6)
+    path: float = quantity(
+        "", "largest factor by which the path amplifies or attenuates a mesh harmonic", 3.0,
+        ge=1.0, le=1e3,
+    )  # fmt: skip
+    packet: int = Field(200, ge=1, le=100_000, description="samples of a packet")
+    lost: float = quantity("", "share of packets that are lost", 0.0, ge=0.0, lt=1.0)
+
+
 class SensorErrors(Section):
     """Errors of all sensors."""
 
@@ -78,6 +91,7 @@ class SensorErrors(Section):
     lost: float = quantity("", "share of readings that are lost", 0.0, ge=0.0, lt=1.0)
     outlying: float = quantity("", "share of readings that are outliers", 0.0, ge=0.0, lt=0.5)
     encoders: EncoderErrors = Field(EncoderErrors(), description="encoders on input and output")
+    vibration: Accelerometer = Field(Accelerometer(), description="accelerometer")
 
 
 class Hidden(Section):

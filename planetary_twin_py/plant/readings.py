@@ -13,6 +13,7 @@ from ..following.train import FollowedTrain, followed_train
 from ..scene import Scene
 from .course import Course, draw_course
 from .hidden import Hidden
+from .pattern import Stage, error_stages
 
 Array = NDArray[np.float64]
 
@@ -59,6 +60,15 @@ class Plant:
         chance = np.random.default_rng([self.hidden.seed, 0])
         hidden = self.hidden
         return draw_course(hidden.duty, hidden.changes, train, self.duration, chance)
+
+    @cached_property
+    def error_stages(self) -> tuple[Stage, ...]:
+        """Transmission error before and after every change of faults; computing it takes seconds.
+
+        Raises:
+            SceneError: the scene cannot be simulated.
+        """
+        return error_stages(self.true_scene, self.hidden.changes, self.train)
 
     def at(self, name: str, time: Array, default: float) -> Array:
         """Value of a quantity that changes by steps.

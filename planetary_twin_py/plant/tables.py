@@ -13,6 +13,7 @@ from ..recording.tables.message_tables import Column
 from ..recording.tables.table_files import FORMATS
 from .encoders import play_encoders
 from .readings import Plant, play_readings
+from .vibration import NAME, play_vibration
 
 
 def write_readings(plant: Plant, path: Path) -> int:
@@ -59,6 +60,31 @@ def write_encoders(plant: Plant, path: Path) -> int:
         columns = (packet.sample, *packet.counts.T)
         table.write(dict(zip(names, columns, strict=True)))
         rows += len(packet.sample)
+    table.close()
+    return rows
+
+
+def write_vibration(plant: Plant, path: Path) -> int:
+    """Write samples of the accelerometer.
+
+    Args:
+        plant: the plant.
+        path: path of the table: .csv, .parquet or .npz.
+
+    Returns:
+        Number of rows.
+
+    Raises:
+        ValueError: the format is unknown, or the scene cannot be simulated.
+        OSError: the file cannot be written.
+    """
+    units = {"time": "s", NAME: "m/s^2"}
+    table = _table(path, [Column(name, unit, np.dtype(float)) for name, unit in units.items()])
+    rows = 0
+    for packet in play_vibration(plant):
+        time = packet.sample / plant.hidden.sensors.vibration.rate
+        table.write({"time": time, NAME: packet.values})
+        rows += len(packet.values)
     table.close()
     return rows
 

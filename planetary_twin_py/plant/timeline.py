@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .encoders import play_encoders
 from .readings import Plant, play_readings
+from .vibration import play_vibration
 
+Number = TypeVar("Number", bound=np.generic)
 WARMTH = "oil_temperature"
 EVERY = 1.0  # [s] between two readings of the oil temperature
 
@@ -47,7 +49,18 @@ class CountPacket(NamedTuple):
     """Counts of input and output since time 0, (n, 2)."""
 
 
-Measured = ShaftReading | OilReading | CountPacket
+class AccelerationPacket(NamedTuple):
+    """Successive samples of an accelerometer."""
+
+    time: float
+    """Time of the last sample [s]."""
+    begin: float
+    """Time of the first sample [s]."""
+    values: NDArray[np.float64]
+    """Accelerations [m/s^2], (n,)."""
+
+
+Measured = ShaftReading | OilReading | CountPacket | AccelerationPacket
 
 
 def timeline(plant: Plant) -> Iterator[Measured]:
@@ -57,7 +70,7 @@ def timeline(plant: Plant) -> Iterator[Measured]:
         plant: the plant.
 
     Returns:
-        Readings and packets of encoder samples, in the order of time.
+        Readings, and packets of encoder samples and accelerations, in the order of time.
 
     Raises:
         SceneError: the scene cannot be simulated.
@@ -65,6 +78,8 @@ def timeline(plant: Plant) -> Iterator[Measured]:
     streams: list[Iterator[Measured]] = [_readings(plant)]
     if plant.hidden.sensors.encoders.rate:
         streams.append(_packets(plant))
+    if plant.hidden.sensors.vibration.rate:
+        streams.append(_accelerations(plant))
     return heapq.merge(*streams, key=lambda one: one.time)
 
 
@@ -87,8 +102,24 @@ def _packets(plant: Plant) -> Iterator[Measured]:
     """Packets of encoder samples, without the lost ones."""
     errors = plant.hidden.sensors.encoders
     for found in play_encoders(plant):
-        cuts = np.flatnonzero(np.diff(found.sample // errors.packet)) + 1
-        parts = zip(np.split(found.sample, cuts), np.split(found.counts, cuts), strict=True)
-        for sample, counts in parts:
-            if len(sample):
-                yield CountPacket(float(sample[-1]) / errors.rate, int(sample[0]), counts)
+        for sample, counts in _cut(found.sample, found.counts, errors.packet):
+            yield CountPacket(float(sample[-1]) / errors.rate, int(sample[0]), counts)
+
+
+def _accelerations(plant: Plant) -> Iterator[Measured]:
+    """Packets of accelerations, without the lost ones."""
+    sensor = plant.hidden.sensors.vibration
+    for found in play_vibration(plant):
+        for sample, values in _cut(found.sample, found.values, sensor.packet):
+            first, last = float(sample[0]), float(sample[-1])
+            yield AccelerationPacket(last / sensor.rate, first / sensor.rate, values)
+
+
+def _cut(
+    sample: NDArray[np.int64], values: NDArray[Number], packet: int
+) -> Iterator[tuple[NDArray[np.int64], NDArray[Number]]]:
+    """Numbers and values of the samples of each packet."""
+    cuts = np.flatnonzero(np.diff(sample // packet)) + 1
+    for numbers, part in zip(np.split(sample, cuts), np.split(values, cuts), strict=True):
+        if len(numbers):
+            yield numbers, part

@@ -7,20 +7,21 @@ from planetary_twin_py.following.balance_filter import Balance
 from planetary_twin_py.following.loss_step import CAUSES, StepCause, size_of
 
 NOISE, STEP, AT = 0.05, 0.04, 150
-COURSES = {"friction": 0, "drag": 1, "zero of a torque sensor": 2}
 
 
 def balances(cause, count=300, seed=0, varied=True):
     """Balances of a train that reverses; a step of one cause from `AT` on."""
+    place = CAUSES.index(cause)
     chance = np.random.default_rng(seed)
     found = []
     for n in range(count):
         sign = -1.0 if varied and n % 40 < 20 else 1.0
         friction = sign * (1.0 if not varied or n % 60 < 30 else 0.4)
-        course = (friction, sign, 1.0)[COURSES[cause]]
-        value = NOISE * chance.standard_normal() + (STEP * course if n >= AT else 0.0)
-        slope = np.array([friction, 1.0, sign, 0.0, 0.0, 0.0, 0.0])
-        found.append(Balance(value, NOISE, slope, friction, sign))
+        torque = -1.0 if varied and n % 100 < 50 else 1.0
+        added = np.array([friction, sign, 1.0, torque])
+        value = NOISE * chance.standard_normal() + (STEP * added[place] if n >= AT else 0.0)
+        slope = np.array([friction, 1.0, sign, torque, 0.0, 0.0, 0.0])
+        found.append(Balance(value, NOISE, slope, added))
     return found
 
 
@@ -42,11 +43,18 @@ def test_a_step_of_either_sign_has_the_same_size():
     assert (one.size, one.sd) == (-other.size, other.sd)
 
 
-def test_errors_of_the_parameters_widen_the_interval():
+def test_the_balances_before_the_step_limit_the_error_of_the_parameters():
     covariance = np.diag([0.0, 0.03**2, 0.0, 0.0, 0.0, 0.0, 0.0])
     rows = balances("drag", varied=False)
     sharp, wide = (size_of(rows, one).sd for one in (np.zeros((7, 7)), covariance))
-    assert wide == pytest.approx(np.hypot(sharp, 0.03))
+    before = (0.03**-2 + AT / NOISE**2) ** -0.5  # of a mean whose prior is 0 +- 0.03
+    assert wide == pytest.approx(np.hypot(sharp, before), rel=0.03)
+
+
+def test_the_start_of_a_change_of_friction_is_sought_where_friction_is():
+    """A step at low torque hardly shows: its start is stated no later than where it happened."""
+    found = [size_of(balances("friction", 200, seed), np.zeros((7, 7))) for seed in range(200)]
+    assert np.mean([one.first <= AT for one in found]) > 0.95
 
 
 @pytest.mark.parametrize("cause", CAUSES)

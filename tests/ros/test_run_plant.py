@@ -20,6 +20,7 @@ sensors:
   input_torque: {noise: 0.1 N m}
   output_torque: {noise: 0.25 N m}
   speed_noise: 0.02 rad/s
+  vibration: {rate: 4 kHz, packet: 40}
 changes: [{at: 6 s, friction: 1.5}]
 """
 
@@ -67,6 +68,7 @@ def test_a_hidden_change_is_found_shown_and_recorded(run: Run, tmp_path: Path) -
     assert figures["estimates"]["input_torque"]["status"] == "ESTIMATED"
     recorded = counts(tmp_path / "recordings" / "rig")
     assert recorded[f"{TWIN}/measured/joint_states"] == 1000
+    assert recorded[f"{TWIN}/measured/vibration"] == 1000
     assert recorded[f"{TWIN}/follower/estimate"] > 50
     assert recorded[f"{TWIN}/follower/event"] >= 1
 
@@ -81,6 +83,18 @@ def test_a_crack_of_one_percent_is_found_in_four_seconds(run: Run, tmp_path: Pat
     assert crack["what"] == "sun tooth 7 changed"
     assert 25.0 < crack["found"] < 29.0
     assert crack["low"] < 0.01 < crack["high"]
+
+
+@pytest.mark.exhaustive
+def test_a_follower_detects_a_crack_by_the_accelerometer_alone(run: Run, tmp_path: Path) -> None:
+    vibrating = CRACK.replace("encoders: {rate: 20 kHz, lost: 0.003}", "vibration: {rate: 10 kHz}")
+    (tmp_path / "vibrating.yaml").write_text(vibrating.replace("0.01}]", "0.1}]"))
+    process = run("--hidden", "vibrating.yaml", "--duration", "40", "--json", "out.json")
+    _, errors = process.communicate(timeout=5 * LONG)
+    assert process.returncode == 0, errors
+    (crack,) = json.loads((tmp_path / "out.json").read_text())["events"]
+    assert crack["what"] == "vibration grew: sidebands of the sun"
+    assert crack["since"] <= 25.0 < crack["found"] < 32.0
 
 
 @pytest.mark.exhaustive

@@ -18,6 +18,7 @@ from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import followed_train
 
+from .baseline_services import BaselineServices
 from .beside import TwinBeside
 from .follower_messages import (
     baseline_message,
@@ -27,7 +28,7 @@ from .follower_messages import (
     teeth_message,
 )
 from .follower_parameters import declare_options, options_of
-from .follower_reports import Feed, Limits, statuses
+from .follower_reports import Feed, Limits, key_of, statuses
 from .following import LiveFollower
 from .heap import return_large_blocks
 from .intake import Intake
@@ -74,6 +75,8 @@ class Follower(ManagedNode):
         self._timer: Timer | None = None
         self._now = StrictClock(self.get_clock())
         self.create_service(Trigger, "~/reset", self._reset)
+        self._acknowledged: set[tuple[str, float]] = set()
+        BaselineServices(self, self)
 
     def configure(self) -> None:
         """Load the scene and the sensors, and create publishers and subscriptions."""
@@ -123,11 +126,26 @@ class Follower(ManagedNode):
             self.destroy_lifecycle_publisher(publisher)
         self._outlets = {}
 
+    # Called by the services.
+
+    def active(self) -> LiveFollower:
+        """Return the live follower; raises `ValueError` if there is none."""
+        if self._live is None:
+            raise ValueError("the follower is not active")
+        return self._live
+
+    def acknowledge(self) -> int:
+        """Acknowledge all events; return how many are new to it."""
+        before = len(self._acknowledged)
+        self._acknowledged.update(key_of(event) for event in self.active().latest.events)
+        return len(self._acknowledged) - before
+
     # Called by the live follower, in its thread.
 
     def started(self) -> None:
         """Count events and hunting periods from one again."""
         self._events, self._periods, self._learned = {}, 0, ""
+        self._acknowledged = set()
 
     def estimated(self, following: Following) -> None:
         """Publish a new estimate."""
@@ -169,7 +187,7 @@ class Follower(ManagedNode):
     def _announce(self, following: Following) -> None:
         """Publish events that are new or have changed."""
         for event in following.events:
-            key = event.what, event.since
+            key = key_of(event)
             number, before = self._events.get(key, (len(self._events) + 1, None))
             if event == before:
                 continue
@@ -213,7 +231,10 @@ class Follower(ManagedNode):
         if live is None or intake is None:
             return
         timeout = self._options.sensor_timeout
-        feed = Feed(live.silent, timeout, live.refusal, self._jumps, live.behind, intake.shared)
+        feed = Feed(
+            live.silent, timeout, live.refusal, self._jumps, live.behind, intake.shared,
+            frozenset(self._acknowledged),
+        )  # fmt: skip
         limits = Limits(*(self.get_parameter(f"{n}_limit").value for n in ("friction", "tooth")))
         message = DiagnosticArray()
         message.status = statuses(

@@ -13,7 +13,7 @@ from planetary_twin_py.following.bins import CHANNELS
 from planetary_twin_py.following.sensors import JointNames, read_sensors
 
 from .parameter_node import ParameterNode
-from .parameters import declare_bounded, declare_changing, declare_fixed
+from .parameters import declare_bounded, declare_changing, declare_changing_text, declare_fixed
 
 _LARGEST = 1e6  # factor on readings
 
@@ -77,6 +77,9 @@ def declare_options(node: ParameterNode) -> None:
     )
     declare_fixed(
         node, "twin", "", "simulation whose operating point follows the estimates; empty: none"
+    )
+    declare_changing_text(
+        node, "baseline", "", "file of the services save_baseline and load_baseline"
     )
     declare_changing(
         node, "friction_limit", 2.0, (1.0, 100.0),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
+from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.recording.ros2.topics import status_name
 
@@ -37,13 +38,25 @@ class Feed(NamedTuple):
     """Time that the last messages waited to be processed [s]."""
     shared: Sequence[str]
     """Topics of one sensor that have several publishers."""
+    acknowledged: Set[tuple[str, float]] = frozenset()
+    """Events that a user knows, by `key_of`."""
+
+
+def key_of(event: Event) -> tuple[str, float]:
+    """Return what identifies an event while its figures change."""
+    return event.what, event.since
 
 
 def statuses(
     state: Following, feed: Feed, limits: Limits, hardware: str, namespace: str
 ) -> list[DiagnosticStatus]:
     """Return the four reports of the follower in `namespace` on a gearbox named `hardware`."""
-    parts = _inputs(state, feed), _clock(state, feed), _estimator(state), _condition(state, limits)
+    parts = (
+        _inputs(state, feed),
+        _clock(state, feed),
+        _estimator(state),
+        _condition(state, limits, feed),
+    )
     return [
         DiagnosticStatus(
             level=level,
@@ -98,10 +111,15 @@ def _estimator(state: Following) -> _Part:
     )
 
 
-def _condition(state: Following, limits: Limits) -> _Part:
-    """Return WARN for a detected change, ERROR if its whole interval is above the limit."""
-    lines = [f"{event.what}: {event.evidence}" for event in state.events]
-    values = {f"event {n}": line for n, line in enumerate(lines, 1)}
+def _condition(state: Following, limits: Limits, feed: Feed) -> _Part:
+    """
+    Return WARN for a detected change, ERROR if its whole interval is above the limit.
+
+    An acknowledged event is no longer a warning; what is above a limit remains an error.
+    """
+    every = {event: f"{event.what}: {event.evidence}" for event in state.events}
+    values = {f"event {n}": line for n, line in enumerate(every.values(), 1)}
+    lines = [line for event, line in every.items() if key_of(event) not in feed.acknowledged]
     friction = next(one for one in state.estimates if one.name == "friction_level")
     worst = [
         f"friction level above {limits.friction:g}: {friction.low:.3g} to {friction.high:.3g}"
@@ -115,4 +133,5 @@ def _condition(state: Following, limits: Limits) -> _Part:
         return DiagnosticStatus.ERROR, "; ".join(worst), values
     if lines:
         return DiagnosticStatus.WARN, "; ".join(lines), values
-    return DiagnosticStatus.OK, "no change found", values
+    found = f"{len(every)} events, all acknowledged" if every else "no change found"
+    return DiagnosticStatus.OK, found, values

@@ -6,8 +6,11 @@ import math
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
+from queue import Queue
 from typing import Protocol
 
+import planetary_twin_py as pt
 from planetary_twin_py.following.bins import closed_by
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Following
@@ -24,6 +27,7 @@ _TICK = 0.04  # [s] between two polls for messages
 _DISCOVERY = 0.2  # [s] between two polls for publishers
 _JUMP = 1.0  # [s] smallest step of stamps back in time that is a jump
 _JUMPED = 5  # successive messages that confirm a jump
+_LONGEST_WAIT = 10.0  # [s] longest time in which a request waits for the thread
 _LONGEST_END = 60.0  # [s] longest time to process waiting messages at the end
 
 
@@ -116,6 +120,7 @@ class LiveFollower:
         """Time that the last messages waited for this thread [s]."""
         self._advanced = time.monotonic()
         self._stop, self._restart = threading.Event(), threading.Event()
+        self._requests: Queue[tuple[Callable[[pt.Follower], None], Future[None]]] = Queue()
         self._thread = threading.Thread(target=self._run, name="follower", daemon=True)
         self._thread.start()
 
@@ -124,6 +129,33 @@ class LiveFollower:
         self._stop.set()
         if self._thread is not threading.current_thread():
             self._thread.join(_LONGEST_END)
+
+    def ask(self, action: Callable[[pt.Follower], None]) -> None:
+        """
+        Run `action` between two messages, in the thread of the follower; raises what it raises.
+
+        Raises `TimeoutError` if the thread is busy for too long; then `action` never runs.
+        """
+        request: Future[None] = Future()
+        self._requests.put((action, request))
+        try:
+            request.result(_LONGEST_WAIT)
+        except TimeoutError:
+            if request.cancel():
+                raise TimeoutError("the follower is busy") from None
+            request.result()
+
+    def _answer(self) -> None:
+        while not self._requests.empty():
+            action, request = self._requests.get()
+            if not request.set_running_or_notify_cancel():
+                continue
+            try:
+                action(self._follower)
+            except Exception as refusal:
+                request.set_exception(refusal)
+            else:
+                request.set_result(None)
 
     def reset(self) -> None:
         """Restart the follower with the next messages."""
@@ -168,8 +200,10 @@ class LiveFollower:
                 self._restart.clear()
                 self._begin()
                 self._report(self.latest)
+            self._answer()
             self._use(self._source.take())
         self._use(self._source.take())
+        self._answer()
         if not self._refusal:
             self._checked(self._follower.finish)
             self._report(self._follower.estimate())

@@ -162,6 +162,11 @@ def declare_changing(
     return _declare_number(node, name, default, descriptor)
 
 
+def declare_changing_text(node: Declaring, name: str, default: str, description: str) -> Any:
+    """Declare a text that may change while the node runs, and return its value."""
+    return _declare(node, name, default, ParameterDescriptor(description=description))
+
+
 def declare_rate_factor(node: Declaring) -> float:
     """
     Declare `rate_factor`, simulated seconds per second, and return its value.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import sys
 import traceback
 from collections.abc import Iterator
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
-from planetary_twin_msgs.msg import EncoderBlock
+from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.qos import QoSProfile
@@ -30,6 +31,7 @@ _TOPICS = {
     JointState: "measured/joint_states",
     Temperature: "measured/oil_temperature",
     EncoderBlock: "measured/encoders",
+    SampledBlock: "measured/vibration",
 }
 _KEPT = QoSProfile(depth=1000)
 _LAST = Duration(seconds=10.0)  # longest wait until the last messages have arrived
@@ -61,14 +63,15 @@ class Plant(ManagedNode):
         given = {n: p.value for n, p in self.get_parameters_by_prefix("").items()}
         hidden = self._hidden(given["hidden"])
         played = Played(pt.load_scene(given["scene"]), hidden, given["duration"])
-        encoders = hidden.sensors.encoders
+        sensors = hidden.sensors
+        rates = {EncoderBlock: sensors.encoders.rate, SampledBlock: sensors.vibration.rate}
         self._outlets = {
             kind: self.create_lifecycle_publisher(kind, topic, _KEPT)
             for kind, topic in _TOPICS.items()
-            if kind is not EncoderBlock or encoders.rate
+            if rates.get(kind, math.inf)
         }
         joints = given["input_joint"], given["output_joint"]
-        self._messages = PlantMessages(joints, encoders, given["frame_id"])
+        self._messages = PlantMessages(joints, sensors, given["frame_id"])
         self._audiences = [Audience(self, name) for name in given["wait_for"] if name]
         measured = timeline(played)
         self._measured = itertools.chain([next(measured)], measured)  # the first takes seconds

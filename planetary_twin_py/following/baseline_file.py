@@ -1,0 +1,139 @@
+"""Baselines in a file, for a follower that starts again at the same gearbox.
+
+Teeth are numbered by the position of the encoders, so a baseline of teeth is valid only where the
+counts, whole turns included, continue. The file is an NPZ archive: arrays, and a description in
+JSON.
+"""
+
+from __future__ import annotations
+
+import json
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, NamedTuple
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+
+VERSION = 1
+ABOUT = "about"
+
+
+class TeethBaseline(NamedTuple):
+    """Baselines of the teeth."""
+
+    counts_per_turn: tuple[int, int]
+    """Of both encoders."""
+    period: float
+    """Of the samples [s]."""
+    cells: tuple[dict[str, NDArray[Any]], ...]
+    """Fields of each learned `Baseline`."""
+    blocks: NDArray[np.float64]
+    """Torque [N m], speed [rad/s] and mean transmission error [m] of the first hunting periods,
+    (n, 3)."""
+
+
+class VibrationBaseline(NamedTuple):
+    """Baselines of the vibration."""
+
+    names: tuple[str, ...]
+    """Of the channels."""
+    period: float
+    """Of the samples [s]."""
+    cells: tuple[dict[str, NDArray[Any]], ...]
+    """Fields of each learned baseline."""
+
+
+class SavedBaseline(NamedTuple):
+    """Contents of a file."""
+
+    teeth: TeethBaseline | None
+    vibration: VibrationBaseline | None
+
+
+def write_baseline(path: Path, scene: Scene, saved: SavedBaseline) -> None:
+    """Write baselines.
+
+    Args:
+        path: path of the file.
+        scene: scene of the gearbox.
+        saved: the baselines.
+
+    Raises:
+        ValueError: nothing has been learned.
+        OSError: the file cannot be written.
+    """
+    if saved == SavedBaseline(None, None):
+        raise ValueError("no baseline has been learned yet")
+    about: dict[str, Any] = {"version": VERSION, "scene": _digest(scene)}
+    arrays = {}
+    for kind, part in saved._asdict().items():
+        if part is None:
+            continue
+        fields = part._asdict()
+        cells = fields.pop("cells")
+        if "blocks" in fields:
+            arrays[f"{kind}/blocks"] = fields.pop("blocks")
+        about[kind] = fields | {"cells": len(cells)}
+        arrays |= {
+            f"{kind}/{n}/{name}": value
+            for n, cell in enumerate(cells)
+            for name, value in cell.items()
+        }
+    with path.open("wb") as file:
+        np.savez(file, allow_pickle=False, **{ABOUT: np.array(json.dumps(about))}, **arrays)
+
+
+def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
+    """Read baselines.
+
+    Args:
+        path: path of a file of `write_baseline`.
+        scene: scene of the gearbox.
+
+    Returns:
+        The baselines.
+
+    Raises:
+        ValueError: the file is not such a file, or belongs to another scene.
+        OSError: the file cannot be read.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            found = {name: archive[name] for name in archive.files}
+        about = json.loads(str(found[ABOUT]))
+        version, digest = about["version"], about["scene"]
+    except (ValueError, KeyError, TypeError, EOFError, BadZipFile) as reason:
+        raise ValueError(f"{path}: is not a baseline") from reason
+    if version != VERSION:
+        raise ValueError(f"{path}: version = {version!r}: must be {VERSION}")
+    if digest != _digest(scene):
+        raise ValueError(f"{path}: belongs to another scene or to other values of its fields")
+    try:
+        return SavedBaseline(*(_part(kind, about, found) for kind in SavedBaseline._fields))
+    except (KeyError, TypeError) as reason:
+        raise ValueError(f"{path}: is incomplete") from reason
+
+
+def _part(kind: str, about: dict[str, Any], found: dict[str, NDArray[Any]]) -> Any:
+    if kind not in about:
+        return None
+    fields = dict(about[kind])
+    cells: list[dict[str, NDArray[Any]]] = [{} for _ in range(fields["cells"])]
+    for name, value in found.items():
+        if name.startswith(f"{kind}/") and name.count("/") == 2:
+            _, place, field = name.split("/")
+            cells[int(place)][field] = value
+    fields["cells"] = tuple(cells)
+    if kind == "vibration":
+        return VibrationBaseline(**fields | {"names": tuple(fields["names"])})
+    counts = tuple(fields["counts_per_turn"])
+    return TeethBaseline(**fields | {"counts_per_turn": counts, "blocks": found["teeth/blocks"]})
+
+
+def _digest(scene: Scene) -> str:
+    """Of the scene without its faults, which a baseline may outlive."""
+    return sha256(scene.replace(faults=()).model_dump_json().encode()).hexdigest()[:16]

@@ -1,0 +1,86 @@
+"""Samples of an accelerometer of a plant.
+
+It measures the acceleration of the transmission error along the line of action, behind a path with
+another gain and phase at each mesh harmonic and the sidebands around it. A filter in front of the
+sampling removes what the sample rate does not resolve.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .hidden import Accelerometer
+from .pattern import POINTS, Pattern, course_of
+from .readings import Plant
+
+Array = NDArray[np.float64]
+
+NAME = "acceleration"
+RESOLVED = 0.4  # share of the sample rate that the filter passes
+CHUNK = 20_000  # samples computed at once
+
+
+class Acceleration(NamedTuple):
+    """Successive samples of an accelerometer."""
+
+    sample: NDArray[np.int64]
+    """Numbers of the samples, (n,); sample 0 is taken at time 0."""
+    values: Array
+    """Accelerations [m/s^2], (n,)."""
+
+
+def play_vibration(plant: Plant) -> Iterator[Acceleration]:
+    """Simulate the accelerometer of a plant, in packets of which some are lost.
+
+    Args:
+        plant: the plant; `hidden.sensors.vibration.rate` must not be 0.
+
+    Returns:
+        Samples of several packets at a time.
+
+    Raises:
+        SceneError: the scene cannot be simulated.
+    """
+    sensor, train = plant.hidden.sensors.vibration, plant.train
+    chance = np.random.default_rng([plant.hidden.seed, 3])
+    per_turn = abs(float(train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian of the input
+    highest = RESOLVED * sensor.rate / (per_turn * train.speed)
+    path = _path(sensor, highest, chance)
+    stages = tuple(
+        one._replace(pattern=_curvature(one.pattern, path)) for one in plant.error_stages
+    )
+    total = int(plant.duration * sensor.rate)
+    for first in range(0, total, CHUNK):
+        sample = np.arange(first, min(first + CHUNK, total))
+        time = sample / sensor.rate
+        angle, torque = plant.course.angle_at(time), plant.course.torque_at(time)
+        cycles = float(train.cycles) * angle / (2.0 * math.pi)
+        curvature = course_of(stages, time, cycles, torque)
+        values = curvature * (per_turn * plant.course.speed_at(time)) ** 2
+        values += sensor.noise * chance.standard_normal(len(time))
+        packet = sample // sensor.packet
+        kept = ~(chance.random(packet[-1] - packet[0] + 1) < sensor.lost)[packet - packet[0]]
+        yield Acceleration(sample[kept], values[kept])
+
+
+def _path(sensor: Accelerometer, highest: float, chance: np.random.Generator) -> NDArray[Any]:
+    """Complex gain of the path at the mesh harmonics below an order, from 0 on."""
+    harmonics = max(int(highest), 0) + 1
+    reach = math.log(sensor.path)
+    gain = np.exp(chance.uniform(-reach, reach, harmonics))
+    return np.asarray(gain * np.exp(2.0j * math.pi * chance.random(harmonics)))
+
+
+def _curvature(pattern: Pattern, path: NDArray[Any]) -> Pattern:
+    """Second derivative of a pattern over the mesh cycles, behind the path."""
+    count = pattern.values.shape[1]
+    order = np.arange(count // 2 + 1) * (POINTS / count)
+    near = np.minimum(np.round(order).astype(int), len(path))
+    gain = np.append(path, 0.0)[near] * -((2.0 * math.pi * order) ** 2)
+    spectrum = np.fft.rfft(pattern.values, axis=1) * gain
+    return Pattern(pattern.torques, np.fft.irfft(spectrum, count, axis=1))
