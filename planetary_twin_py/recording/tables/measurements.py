@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -18,6 +19,7 @@ from ...scene.names import did_you_mean
 from ...units import LARGEST, column_to_si
 from .mat_file import MatError, read_mat
 from .suffixes import SUFFIXES
+from .unpacking import check_unpacked
 
 Array = NDArray[np.float64]
 
@@ -26,7 +28,9 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that an import ignores, because it numbers its own messages."""
 _LONGEST_REASON = 200  # characters
+_LONGEST_VALUE = 60  # characters
 _MOST_COLUMNS = 2000
+_NUMBER = 8  # bytes in memory
 UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
@@ -176,8 +180,18 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
 
 def _read_parquet(stream: BinaryIO) -> pa.Table:
     file = parquet.ParquetFile(stream)
-    _check_columns(file.metadata.num_columns)
-    return file.read()
+    stated, packed = file.metadata, stream.seek(0, os.SEEK_END)
+    _check_columns(stated.num_columns)
+    groups = range(stated.num_row_groups)
+    check_unpacked(packed, sum(stated.row_group(k).total_byte_size for k in groups))
+    # Runs of one value take no room in a file.
+    check_unpacked(packed, _NUMBER * stated.num_rows * stated.num_columns)
+    for k in range(stated.num_columns):
+        if file.schema.column(k).max_repetition_level > 0:
+            raise ValueError(f"column {file.schema.column(k).path!r}: must be numbers, not lists")
+    # Texts stay as they are stored, once each.
+    texts = [f.name for f in file.schema_arrow if pa.types.is_string(f.type)]
+    return parquet.ParquetFile(stream, read_dictionary=texts).read()
 
 
 def _check_columns(number: int) -> None:
@@ -236,17 +250,20 @@ def _numbers(name: str, column: pa.ChunkedArray) -> Array:
     """Values (rows,) of a column, NaN where it is empty."""
     if pa.types.is_boolean(column.type):
         raise ValueError(f"{name}: must be numbers, not true or false")
+    if pa.types.is_dictionary(column.type):  # texts: value by value, as a cast would copy each
+        return np.array([_number(name, k, cell.as_py()) for k, cell in enumerate(column, 1)])
     try:
         return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row
-        return np.array([_number(name, k, value) for k, value in enumerate(column.to_pylist(), 1)])
+        return np.array([_number(name, k, cell.as_py()) for k, cell in enumerate(column, 1)])
 
 
 def _number(name: str, row: int, value: Any) -> float:
     try:
         return math.nan if value is None else float(value)
     except (TypeError, ValueError):
-        raise ValueError(f"row {row}: {name} = {str(value)!r}: must be a number") from None
+        shown = one_line(str(value), _LONGEST_VALUE)
+        raise ValueError(f"row {row}: {name} = {shown!r}: must be a number") from None
 
 
 def time_step(time: Array) -> float:
