@@ -97,7 +97,7 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     teeth, runout, errors = scene.gearset.tooth_numbers, scene.mesh.runout, scene.errors
     angle = scene.gearset.geometry.meshes[kind].pressure_angle
     one = np.ones(len(leaders))
-    own = -np.array([errors.of_planet(i)[3] for i in leaders])
+    own = -np.array([errors.of_planet(i).runout_phase for i in leaders])
     central = ("ring", 1.0, -errors.ring_runout_phase * one) if kind else (
         "sun", 1.0, errors.sun_runout_phase * one
     )  # fmt: skip
@@ -114,7 +114,7 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
 def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     """Lines of displaced pins and held axes, and of thicker teeth."""
     errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
-    outwards, across, thicker, _ = np.array([errors.of_planet(i) for i in leaders]).T
+    outwards, across, thicker = np.array([errors.of_planet(i)[:3] for i in leaders]).T
     if scene.moving_axes:
         outwards, across = np.zeros((2, len(leaders)))
     sign = -1.0 if kind else 1.0

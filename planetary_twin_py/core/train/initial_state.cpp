@@ -93,7 +93,7 @@ void yield_to_forces(Start& start) {
     std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k =
-            mesh_stiffness(train, train.kind[i], start.state.segment[i], start.step.start[i]);
+            mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
         if (MOVING && start.state.side[i] == OPEN) continue;
         add_outer(balance.stiffness, train.body[i], train.sign[i], entries_of(train),
                   train.copies[i] * k);
@@ -119,7 +119,7 @@ void balance_mean_forces(Start& start) {
     double* force = start.balance.force;
     std::fill(force, force + BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
+        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
         for (int g = 0; g < ENTRIES; ++g)
@@ -160,7 +160,7 @@ void forces_at_rest(Start& start) {
     std::fill(force, force + BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (state.side[i] == OPEN) continue;
-        double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
+        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
         for (int j = 0; j < entries_of(train); ++j)
