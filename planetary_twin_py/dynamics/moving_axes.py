@@ -253,7 +253,7 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "stiffness": [stiffness for stiffness, _ in linear],
         "damping": [damping for _, damping in linear],
         "clearance": [support.clearance for support in held],
-        "centre": _centres(scene) + [errors.of_planet(i)[:2] for i in range(planets)],
+        "centre": [(0.0, 0.0)] * 3 + [errors.of_planet(i)[:2] for i in range(planets)],
     }
 
 
@@ -281,12 +281,3 @@ def _gravity(scene: Scene) -> dict[str, Any]:
         "turn_numerator": [ratio.numerator for ratio in per_turn],
         "turn_denominator": [ratio.denominator for ratio in per_turn],
     }
-
-
-def _centres(scene: Scene) -> list[tuple[float, float]]:
-    """Displacements at which the bearings of sun, ring and carrier are centred [m]."""
-    offsets = (None, scene.errors.ring_offset, scene.errors.carrier_offset)
-    return [
-        (at.size * math.cos(at.angle), at.size * math.sin(at.angle)) if at else (0.0, 0.0)
-        for at in offsets
-    ]

@@ -51,7 +51,8 @@ class LoadSharing(NamedTuple):
     """Force of sun, ring and carrier on their bearings, x and y in the frame of the carrier [N],
     (P, 3, 2)."""
     displacement: np.ndarray
-    """Displacement of sun, ring and carrier, x and y in the carrier's frame [m], (P, 3, 2)."""
+    """Displacement of sun, ring and carrier, x and y in the carrier's frame [m], (P, 3, 2): of an
+    axis with `errors.*_offset`, from that offset."""
     element_load: np.ndarray
     """Load of the most loaded rolling element in the bearings of sun, ring, carrier and planets,
     NaN in other bearings [N], (P, 3 + N)."""
@@ -297,7 +298,7 @@ def _result(
         sun_mesh / sun_mesh.mean(axis=1, keepdims=True),
         pins,
         bearing + np.eye(3)[2][:, None] * on_carrier[:, None, place : place + 2],
-        moved[:, :, :2] + (errors.axis if scene.supports is None else 0.0),
+        moved[:, :, :2] - (0.0 if scene.supports is None else errors.axis),
         elements,
     )
 

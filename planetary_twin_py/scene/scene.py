@@ -212,11 +212,6 @@ class Scene(Section):
             yield f"lubrication.friction_torque = 'printed': must be 'sliding' {why}"
         if self.mesh.backlash == "regulatory_factor":
             yield f"mesh.backlash = 'regulatory_factor': must be 'dead_zone' {why}"
-        if self.errors.of_axes and held != "carrier":
-            yield (
-                "errors: ring_offset and carrier_offset require gearset.held = 'carrier' "
-                f"{why}; command load-sharing accepts them"
-            )
 
     @property
     def moving_axes(self) -> bool:

@@ -188,12 +188,9 @@ def test_what_moving_axes_do_not_hold_is_refused_in_one_line(changes, said):
         planar(**changes)
 
 
-def test_offsets_of_axes_are_refused_where_the_carrier_turns():
-    offset = {"errors.ring_offset": {"size": 1e-5}}
-    with pytest.raises(SceneError, match="ring_offset and carrier_offset require"):
-        planar(FLOWS[2], **offset)
-    static = load_sharing(planar(FLOWS[0], {"sun": 0.0}, **offset))
-    run = simulate(planar(FLOWS[0], {"sun": 0.0}, **offset), 0.01, settling=0.03)
+def test_a_free_sun_follows_an_offset_of_the_ring_as_in_statics():
+    given = planar(FLOWS[0], {"sun": 0.0}, **{"errors.ring_offset": {"size": 1e-5}})
+    static, run = load_sharing(given), simulate(given, 0.01, settling=0.03)
     moved = static.displacement.mean(axis=0)
     assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=2e-2, abs=1e-7)
 

@@ -202,6 +202,19 @@ void balance_axes(Start& start) {
     }
 }
 
+// Largest force on a body at rest at x, into `found`: none where the axes have settled.
+void find_unbalanced(Start& start, Beginning& found) {
+    touch_flanks(start);
+    place_pairs(start);
+    forces_at_rest(start);
+    for (std::int64_t j = 0; j < start.model.train.bodies; ++j) {
+        const double force = std::fabs(start.balance.force[j]);
+        if (force <= found.unbalanced) continue;
+        found.unbalanced = force;
+        found.body = j;
+    }
+}
+
 // Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 //
 // The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
@@ -298,9 +311,10 @@ bool is_closed(const Train& train, const State& state) {
 
 }  // namespace
 
-State initial_state(const Model& model, const double* speed, double force) {
+Beginning initial_state(const Model& model, const double* speed, double force) {
     const Train& train = model.train;
-    State state{};
+    Beginning found{};
+    State& state = found.state;
     std::copy(speed, speed + AXES, state.speed);
     std::copy(speed, speed + AXES, state.set_speed);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -315,7 +329,10 @@ State initial_state(const Model& model, const double* speed, double force) {
     double drags[AXES];
     mean_drag(*start, drags);
     balance_at_angle(*start);
-    if constexpr (!MOVING) choose_sides(*start);
+    if constexpr (MOVING)
+        find_unbalanced(*start, found);
+    else
+        choose_sides(*start);
     trim(model, drags, state);
     if (is_closed(train, state) && creeps(train, frame_cycle_rate(train, state))) {
         for (int n = 0; n < BALANCING_PASSES; ++n) {
@@ -323,7 +340,7 @@ State initial_state(const Model& model, const double* speed, double force) {
             trim(model, drags, state);
         }
     }
-    return state;
+    return found;
 }
 
 }  // namespace gearbox
