@@ -103,9 +103,13 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     missing = unsettled(elapsed * rate, rate)
     yield from course_warnings(
         Course(
-            stats.flank_events, stats.reversals, stats.repeated_steps, missing, stats.both_flanks,
+            stats.flank_events,
+            stats.reversals,
+            stats.repeated_steps,
+            missing,
+            stats.both_flanks,
             run.start_warning,
-        )  # fmt: skip
+        )
     )
 
 

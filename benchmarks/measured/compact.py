@@ -80,8 +80,8 @@ def rig_stiffness() -> Iterator[Row]:
         "stiffness at the output, published",
         f"{PUBLISHED_STIFFNESS} N m/rad",
         f"{whole:.0f} N m/rad: teeth {teeth:.3g}, output coupling "
-        f"{scene.drive.output.coupling_stiffness:g}; {_test().stiffness_with_couplings:.0f} N m/rad "
-        "by the command `lost-motion`, with friction and the coupling of the motor",
+        f"{scene.drive.output.coupling_stiffness:g}; {_test().stiffness_with_couplings:.0f} "
+        "N m/rad by the command `lost-motion`, with friction and the coupling of the motor",
         INPUT,
         "the coupling has the compliance of pins, bearings, shafts and housing, all of printed "
         "plastic. It is chosen so that the scene has the published stiffness.",

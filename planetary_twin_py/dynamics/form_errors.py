@@ -7,8 +7,8 @@ backlash. Harmonics of the meshing frequency have e_T only. Runout repeats with 
 and has both parts, at the pressure angle, with opposite sign on the other flank. Errors of pins,
 planet teeth and axes have both parts, too. All errors are sines of the mesh cycle,
 e_T = a sin(angle) and e_R = b cos(angle). Where axes move, errors of pins are displacements of
-bearings instead, and the axes of ring and carrier move from where their bearings hold them, which is
-at rest in the housing.
+bearings instead, and the axes of ring and carrier move from where their bearings hold them, which
+is at rest in the housing.
 """
 
 from __future__ import annotations

@@ -111,7 +111,8 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
     doubled = {
         name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
         for name in (
-            "copies", "kind", "phase", "stiffness_factor", "line_tangential", "line_radial", "line_phase",
+            "copies", "kind", "phase", "stiffness_factor",
+            "line_tangential", "line_radial", "line_phase",
         )
     }  # fmt: skip
     lever = np.zeros((3, 2 * meshes))

@@ -88,7 +88,8 @@ class Errors(Section):
             for place, factor in enumerate(getattr(self, name), 1):
                 if not low <= factor <= high:
                     raise ValueError(
-                        f"{name} = {factor:g} of planet {place}: must be within {low:g} and {high:g}"
+                        f"{name} = {factor:g} of planet {place}: must be within {low:g} and "
+                        f"{high:g}"
                     )
         return self
 

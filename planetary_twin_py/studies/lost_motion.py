@@ -84,7 +84,6 @@ class LostMotion:
         back = np.polyfit(*_between(twist, torque, -largest, -UPPER * largest), 1)
         return float(0.5 * (loading[0] + back[0]))
 
-
     @property
     def stiffness_with_couplings(self) -> float:
         """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
@@ -113,8 +112,8 @@ def lost_motion(
     The scene runs at speed 0, with dynamics, so that friction holds and breaks away by the laws of
     the scene. Machines and couplings of the scene are replaced by stiff, well damped ones, which
     hold the input and come to rest between two torques. Inertias are replaced by those with which
-    the gears swing slowly: those of light gears would demand steps of a microsecond. Neither changes
-    the statics.
+    the gears swing slowly: those of light gears would demand steps of a microsecond. Neither
+    changes the statics.
 
     Args:
         scene: with one input.

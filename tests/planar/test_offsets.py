@@ -1,9 +1,9 @@
 """Axes of ring or carrier off that of the housing while the carrier turns, against closed forms.
 
-An offset E of the ring closes the branches sun-planet-ring by the first harmonic E over the planets,
-one of the carrier by 2 cos(alpha) E. In the frame of the carrier it turns once with each turn of the
-carrier. With held axes the share of a planet swings by K/F of that, K the stiffness of a branch and
-F the mean mesh force; a free sun follows, and the shares stay even.
+An offset E of the ring closes the branches sun-planet-ring by the first harmonic E over the
+planets, one of the carrier by 2 cos(alpha) E. In the frame of the carrier it turns once with each
+turn of the carrier. With held axes the share of a planet swings by K/F of that, K the stiffness of
+a branch and F the mean mesh force; a free sun follows, and the shares stay even.
 """
 
 import math

@@ -6,10 +6,13 @@ import re
 import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, evenly, planar
+from planar.published_set import scene as published
 from power_flows import DIFFERENTIALS, FLOWS, flow_name
 
 from planetary_twin_py import SceneError, Twin, load_scene, simulate
+from planetary_twin_py.accuracy import course_warnings
 from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.run import start
 
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
@@ -200,3 +203,20 @@ def test_a_scene_with_supports_runs_in_torsion_as_without():
     one, other = (simulate(each, 0.005) for each in (scene, scene.replace(supports=None)))
     assert one.axes is None
     assert (one.dte == other.dte).all()
+
+
+def test_a_start_without_equilibrium_is_warned_of_and_names_what_is_not_balanced():
+    steady = published(5, dynamics="planar")
+    assert start(steady, 1e-4).start_warning == ""
+    # Five planets with gaps on all sides under next to no load.
+    errors = {
+        "pin_tangential": (-23.4e-6, 24.0e-6, -12.3e-6, -13.2e-6, -21.3e-6),
+        "planet_thickness": (-8.8e-6, -2.4e-6, -1.1e-6, -3.7e-6, -9.9e-6),
+    }
+    changes = {"dynamics": "planar", "input_torque": 0.1, "supports.planet.clearance": 5e-6}
+    loose = published(5, errors, **changes)
+    said = start(loose, 1e-4).start_warning
+    assert re.fullmatch(r"no static equilibrium .* a force of \S+ N on \w+(\.\w+)? is not .*", said)
+    twin = Twin(loose)
+    assert said in course_warnings(twin.advance(1e-4).course)
+    assert said not in course_warnings(twin.advance(1e-4).course)

@@ -1,10 +1,10 @@
 """Planets that differ in the stiffness of meshes and bearings, against closed forms.
 
-A branch sun-planet-ring yields by 1/K_i = 2/(f_i k) + 4 cos^2(alpha)/(p_i k_p) per force, f_i and p_i
-the factors on both meshes and on the bearing of its planet. With held axes all branches are wound up
-by the same angle, so L_i = N K_i/sum(K). A free sun demands that the forces have no resultant: of
-four evenly spaced planets opposite ones carry the same, and each pair what its branches yield in
-series.
+A branch sun-planet-ring yields by 1/K_i = 2/(f_i k) + 4 cos^2(alpha)/(p_i k_p) per force, f_i and
+p_i the factors on both meshes and on the bearing of its planet. With held axes all branches are
+wound up by the same angle, so L_i = N K_i/sum(K). A free sun demands that the forces have no
+resultant: of four evenly spaced planets opposite ones carry the same, and each pair what its
+branches yield in series.
 """
 
 import math
