@@ -92,8 +92,7 @@ void yield_to_forces(Start& start) {
     Balance& balance = start.balance;
     std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k =
-            mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
+        double k = mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
         if (MOVING && start.state.side[i] == OPEN) continue;
         add_outer(balance.stiffness, train.body[i], train.sign[i], entries_of(train),
                   train.copies[i] * k);
