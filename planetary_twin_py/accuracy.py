@@ -39,6 +39,8 @@ class Course(NamedTuple):
     """Remaining time until friction has forgotten the initial state [s]."""
     both_flanks: int = 0
     """Steps in which both flanks of a mesh touch; the model has a force on one of them only."""
+    start_warning: str = ""
+    """Why the start of the run is no equilibrium, "" if it is one."""
 
     @property
     def unrepeated_flank_events(self) -> int:
@@ -53,6 +55,7 @@ class Course(NamedTuple):
             self.repeated_steps - before.repeated_steps,
             self.unsettled,
             self.both_flanks - before.both_flanks,
+            self.start_warning,
         )
 
     def joined(self, later: Course) -> Course:
@@ -63,6 +66,7 @@ class Course(NamedTuple):
             self.repeated_steps + later.repeated_steps,
             later.unsettled,
             self.both_flanks + later.both_flanks,
+            self.start_warning or later.start_warning,
         )
 
 
@@ -99,13 +103,20 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     missing = unsettled(elapsed * rate, rate)
     yield from course_warnings(
         Course(
-            stats.flank_events, stats.reversals, stats.repeated_steps, missing, stats.both_flanks
+            stats.flank_events,
+            stats.reversals,
+            stats.repeated_steps,
+            missing,
+            stats.both_flanks,
+            run.start_warning,
         )
     )
 
 
 def course_warnings(course: Course) -> Iterator[str]:
     """Warnings of `accuracy_warnings` for a run or a part of it, from its counters."""
+    if course.start_warning:
+        yield course.start_warning
     if course.unsettled > 0.0:
         yield (
             "the gears creep, and friction has not forgotten the initial state: losses and "

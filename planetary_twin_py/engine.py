@@ -96,7 +96,8 @@ class Engine:
         self._cycles: dict[bool, int] = {}
         self._pause = SETTLING / bandwidth(scene)
         self._load(scene.operating_point)
-        self.march.begin = self.march.end = start_state(scene, self.model)
+        state, self.start_warning = start_state(scene, self.model)
+        self.march.begin = self.march.end = state
         self._prepare()
 
     def _prepare(self) -> None:

@@ -152,6 +152,8 @@ class Result:
     """Of the sun-planet and of the planet-ring meshes: 1 - friction loss/transmitted power."""
     stats: Stats
     """Statistics of the integration."""
+    start_warning: str = ""
+    """Why the start of the run is no equilibrium, "" if it is one."""
     choice: DynamicsChoice | None = None
     """Selection by dynamics: auto, with reasons; None if the scene gives its dynamics."""
     axes: AxesMotion | None = None

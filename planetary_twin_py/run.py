@@ -22,6 +22,8 @@ class Run(Protocol):
     """A model that is advanced in time."""
 
     train: Train
+    start_warning: str
+    """Why the start is no equilibrium, "" if it is one."""
 
     @property
     def reached(self) -> Fraction:

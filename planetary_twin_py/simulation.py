@@ -217,6 +217,7 @@ def _result(
             wall_time=wall,
             real_time_factor=float(engine.reached) / wall,
         ),
+        start_warning=engine.start_warning,
     )
 
 

@@ -380,6 +380,8 @@ class Twin:
         self._results.evaluate(begin, end, plan)
         self._ticks, self._ends = plan.end, (end, begin)
         course = self._follow((plan.end - plan.begin) / TICKS)
+        if plan.begin == 0:
+            course = course._replace(start_warning=self._engine.start_warning)
         return self._results.window(plan, self.tolerance, self.sample_rate, course)
 
     def _follow(self, duration: float) -> Course:

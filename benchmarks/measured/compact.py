@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 import planetary_twin_py as pt
+from planetary_twin_py.studies.lost_motion import LostMotion, lost_motion
 
 from .compact_readings import highest_between, measured_line
 from .compact_twist import (
@@ -24,6 +26,7 @@ from .row import INPUT, MISSES, UNDECIDED, Row, verdict
 
 SCENE = "compact_actuator"
 PUBLISHED_STIFFNESS = 242.7  # [N m/rad]
+TEST_TORQUE = 7.2  # [N m] on the output: that of the operating point
 CLEAR = 1.2  # times the highest value where the twin has no line
 RESOLUTION = 0.25  # orders of the measured spectrum
 CARRIER_SPEED = 10.0 / 60.0  # [turns/s] of the output while the spectra were measured
@@ -50,7 +53,8 @@ def rig_lost_motion() -> Iterator[Row]:
         "lost motion at the output, range of all readings (published: 0.59 deg)",
         f"{math.degrees(whole):.3f} deg",
         f"{math.degrees(_play(scene)):.3f} deg from a backlash of {1e3 * backlash:.3f} mm in the "
-        "scene",
+        f"scene; {math.degrees(_test().lost_motion):.3f} deg by the command `lost-motion`, with "
+        "friction, at 3 % of the torque",
         INPUT,
         "backlash is a parameter; the row only shows that the scene has this lost motion.",
     )
@@ -76,7 +80,8 @@ def rig_stiffness() -> Iterator[Row]:
         "stiffness at the output, published",
         f"{PUBLISHED_STIFFNESS} N m/rad",
         f"{whole:.0f} N m/rad: teeth {teeth:.3g}, output coupling "
-        f"{scene.drive.output.coupling_stiffness:g}",
+        f"{scene.drive.output.coupling_stiffness:g}; {_test().stiffness_with_couplings:.0f} "
+        "N m/rad by the command `lost-motion`, with friction and the coupling of the motor",
         INPUT,
         "the coupling has the compliance of pins, bearings, shafts and housing, all of printed "
         "plastic. It is chosen so that the scene has the published stiffness.",
@@ -111,6 +116,12 @@ def rig_stiffness() -> Iterator[Row]:
         "bound: 50 %. The plastic creeps, and its static friction is higher than the friction in "
         "the steady runs; the twin models neither.",
     )
+
+
+@cache
+def _test() -> LostMotion:
+    """The test of the command `lost-motion`."""
+    return lost_motion(pt.load_scene(SCENE), TEST_TORQUE)
 
 
 def _pin_lever(scene: pt.Scene) -> float:

@@ -66,9 +66,13 @@ def meshing_cycle(evidence: Evidence) -> Entry:
 def _curves(scene: Scene) -> list[np.ndarray]:
     """Stiffness [N/m] of both kinds of mesh over one cycle."""
     train = build_train(scene)
+    first = {SUN: 0, RING: train.meshes // 2}  # mesh of each kind
     return [
         np.array(
-            [mesh_stiffness(train, kind, find_segment(train, kind, x, 1.0), x) for x in _CYCLE]
+            [
+                mesh_stiffness(train, first[kind], find_segment(train, kind, x, 1.0), x)
+                for x in _CYCLE
+            ]
         )
         for kind in (SUN, RING)
     ]

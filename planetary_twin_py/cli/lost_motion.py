@@ -45,7 +45,8 @@ def lost_motion(
     """Measure lost motion, hysteresis and torsional stiffness of SCENE.
 
     The input is held, and the output is loaded slowly from 0 to TORQUE, to its opposite and back.
-    Angles are those of the members of the gear set, without the couplings.
+    Angles are those of the members of the gear set, without the couplings; the last stiffness is
+    that from the motor to the load.
 
     Example: planetary-twin lost-motion paper --torque '100 N m' --picture loop.png
     """
@@ -87,6 +88,7 @@ def _print(console: Console, found: LostMotion, largest: float) -> None:
         (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),
         ("hysteresis at zero torque [deg]", math.degrees(found.hysteresis)),
         ("torsional stiffness, half to full torque [N m/rad]", found.stiffness),
+        ("the same, motor to load with couplings [N m/rad]", found.stiffness_with_couplings),
     ):
         console.print(f"{name:<52}{value:.6g}", highlight=False, markup=False)
 
@@ -96,6 +98,7 @@ def _figures(found: LostMotion) -> dict[str, object]:
         "lost_motion": found.lost_motion,
         "hysteresis": found.hysteresis,
         "stiffness": found.stiffness,
+        "stiffness_with_couplings": found.stiffness_with_couplings,
         "settled": found.settled,
         "torque": found.torque.tolist(),
         "twist": found.twist.tolist(),

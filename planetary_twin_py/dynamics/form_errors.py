@@ -5,9 +5,10 @@ backlash. e = e_T + side e_R: the tangential part e_T shifts both flanks of a to
 direction; the radial part e_R moves both flanks away from the other gear and increases the
 backlash. Harmonics of the meshing frequency have e_T only. Runout repeats with each turn of a gear
 and has both parts, at the pressure angle, with opposite sign on the other flank. Errors of pins,
-planet teeth and axes have both parts, too, where the axes are held. All errors are sines of the
-mesh cycle, e_T = a sin(angle) and e_R = b cos(angle). Where axes move, errors of pins and axes are
-displacements of bearings instead.
+planet teeth and axes have both parts, too. All errors are sines of the mesh cycle,
+e_T = a sin(angle) and e_R = b cos(angle). Where axes move, errors of pins are displacements of
+bearings instead, and the axes of ring and carrier move from where their bearings hold them, which
+is at rest in the housing.
 """
 
 from __future__ import annotations
@@ -97,7 +98,7 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     teeth, runout, errors = scene.gearset.tooth_numbers, scene.mesh.runout, scene.errors
     angle = scene.gearset.geometry.meshes[kind].pressure_angle
     one = np.ones(len(leaders))
-    own = -np.array([errors.of_planet(i)[3] for i in leaders])
+    own = -np.array([errors.of_planet(i).runout_phase for i in leaders])
     central = ("ring", 1.0, -errors.ring_runout_phase * one) if kind else (
         "sun", 1.0, errors.sun_runout_phase * one
     )  # fmt: skip
@@ -112,9 +113,9 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
 
 
 def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
-    """Lines of displaced pins and held axes, and of thicker teeth."""
+    """Lines of displaced pins and axes, and of thicker teeth."""
     errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
-    outwards, across, thicker, _ = np.array([errors.of_planet(i) for i in leaders]).T
+    outwards, across, thicker = np.array([errors.of_planet(i)[:3] for i in leaders]).T
     if scene.moving_axes:
         outwards, across = np.zeros((2, len(leaders)))
     sign = -1.0 if kind else 1.0
@@ -131,8 +132,6 @@ def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
                 np.full(len(leaders), CONSTANT),
             )
         )
-    if scene.moving_axes:
-        return found
     carried, offset = errors.carrier_offset, errors.ring_offset
     moved = carried.size * np.exp(1j * carried.angle)
     if kind:

@@ -48,6 +48,7 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "stiffness": stiffness,
         "stiffness_base": np.array([law.base for law in laws]),
         "stiffness_gain": np.array([law.gain for law in laws]),
+        "stiffness_factor": [scene.errors.of_planet(i).stiffness for i in groups.leaders] * 2,
         "damping_time": steady_damping_times(scene, stiffness),
         "damping_cycles": damping_cycles(scene),
         "lowest_frequency": damping.lowest_frequency,

@@ -39,21 +39,23 @@ BEARING_DAMPING = 1.25e-5
 0.25e-5 to 2.5e-5 s of Friswell, Penny, Garvey and Lees 2010, Dynamics of Rotating Machines."""
 
 
-def linear_bearing(scene: Scene, kind: str) -> tuple[float, float]:
-    """Linear bearing of a kind of body.
+def linear_bearing(scene: Scene, name: str) -> tuple[float, float]:
+    """Linear bearing of a body.
 
     Args:
         scene: with supports.
-        kind: "sun", "planet", "ring" or "carrier".
+        name: "sun", "ring", "carrier" or that of a planet, "planet_1".
 
     Returns:
         Radial stiffness [N/m] and damping [N s/m]: of a rolling bearing those along a nominal load,
         for a planet that of its pin, for the others a mesh force, which is of the size of what
         errors leave to them. They decide how fast the equations are solved, not the solution.
     """
+    kind, _, number = name.partition("_")
     support: Support = getattr(scene.supports, kind)
     if support.rolling is None:
-        stiffness = support.bearing or 0.0
+        factor = scene.errors.of_planet(int(number) - 1).pin_stiffness if number else 1.0
+        stiffness = factor * (support.bearing or 0.0)
         return stiffness, default_damping(support.damping, stiffness)
     law, clearance = rolling_bearing(support.rolling), support.clearance
     load = max(abs(mesh_force(scene, scene.operating_point.input_torque)), LEAST_LOAD)
@@ -100,7 +102,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         **_gravity(scene),
         **_bearings(scene, bodies),
     )
-    for name, law in zip(_bearing_names(scene), moving.rolling, strict=False):
+    for name, law in zip(bearing_names(scene), moving.rolling, strict=False):
         _fill_rolling(getattr(scene.supports, name.split("_")[0]).rolling, law)
     if scene.tilting_axes:
         moving.slope_place, moving.slope = _slopes(scene, bodies)
@@ -109,7 +111,8 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
     doubled = {
         name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
         for name in (
-            "copies", "kind", "phase", "line_tangential", "line_radial", "line_phase",
+            "copies", "kind", "phase", "stiffness_factor",
+            "line_tangential", "line_radial", "line_phase",
         )
     }  # fmt: skip
     lever = np.zeros((3, 2 * meshes))
@@ -200,7 +203,7 @@ def _fill_tilting(scene: Scene, bodies: Bodies, moving: MovingAxes) -> None:
     """Fill axial and tilting motion of all bearings, in their order."""
     supports, radii = scene.supports, tilting_radii(scene)
     polar, diametral = polar_masses(scene), tilting_masses(scene)
-    for name, axis in zip(_bearing_names(scene), moving.tilting, strict=False):
+    for name, axis in zip(bearing_names(scene), moving.tilting, strict=False):
         kind = name.split("_")[0]
         support, r = getattr(supports, kind), radii[kind]
         axis.lift = bodies.place[f"{name}.z"]
@@ -237,8 +240,8 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     supports, planets = scene.supports, scene.gearset.planets
     assert supports is not None  # the scene has been checked
     held = [getattr(supports, kind) for kind in CENTRAL] + [supports.planet] * planets
-    names = _bearing_names(scene)
-    linear = [linear_bearing(scene, name.split("_")[0]) for name in names]
+    names = bearing_names(scene)
+    linear = [linear_bearing(scene, name) for name in names]
     angles, errors = scene.gearset.planet_angles, scene.errors
     pin = 1.0 / math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
     return {
@@ -251,11 +254,11 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "stiffness": [stiffness for stiffness, _ in linear],
         "damping": [damping for _, damping in linear],
         "clearance": [support.clearance for support in held],
-        "centre": _centres(scene) + [errors.of_planet(i)[:2] for i in range(planets)],
+        "centre": [(0.0, 0.0)] * 3 + [errors.of_planet(i)[:2] for i in range(planets)],
     }
 
 
-def _bearing_names(scene: Scene) -> list[str]:
+def bearing_names(scene: Scene) -> list[str]:
     """Bodies on bearings, in the order of the core."""
     return [*CENTRAL, *(f"planet_{i + 1}" for i in range(scene.gearset.planets))]
 
@@ -279,12 +282,3 @@ def _gravity(scene: Scene) -> dict[str, Any]:
         "turn_numerator": [ratio.numerator for ratio in per_turn],
         "turn_denominator": [ratio.denominator for ratio in per_turn],
     }
-
-
-def _centres(scene: Scene) -> list[tuple[float, float]]:
-    """Displacements at which the bearings of sun, ring and carrier are centred [m]."""
-    offsets = (None, scene.errors.ring_offset, scene.errors.carrier_offset)
-    return [
-        (at.size * math.cos(at.angle), at.size * math.sin(at.angle)) if at else (0.0, 0.0)
-        for at in offsets
-    ]

@@ -181,7 +181,7 @@ class LinearTrain:
     def __init__(self, scene: Scene, train: Train) -> None:
         meshes, machines = train.meshes, train.machines
         coupling, found = slice(machines), mean_stiffness(train)
-        mesh = (train.copies * found[train.kind])[:meshes]
+        mesh = (train.copies * train.stiffness_factor * found[train.kind])[:meshes]
         springs = np.concatenate([mesh, train.coupling_stiffness[coupling]])
         rows = np.zeros((meshes + machines, train.bodies + 1))  # elongation of each spring
         place = meshes + np.arange(machines)[:, None]

@@ -20,10 +20,13 @@ from .._core import (
 )
 from ..integrators.clock import Instant
 from ..scene import OperatingPoint, Scene
-from .bodies import MOTOR
+from .bodies import MOTOR, build_bodies
 from .library import library
 from .point_laws import point_laws, record_of
 from .static_load import mesh_force
+
+UNBALANCED = 1e-3  # of the mean mesh force, above which the start is no equilibrium
+LIGHTEST = 1.0  # [N] mean mesh force that counts at least
 
 _CAUSALITIES = {"machine": BY_MACHINE, "torque": BY_TORQUE, "motion": BY_MOTION}
 
@@ -63,11 +66,27 @@ def build_load(scene: Scene, point: OperatingPoint, train: Train) -> Load:
     return LoadBuilder(scene, train).build(point)
 
 
-def start_state(scene: Scene, model: Model) -> State:
-    """State at the start of a run, at time zero and motor angle zero."""
+def start_state(scene: Scene, model: Model) -> tuple[State, str]:
+    """State at the start of a run, at time zero and motor angle zero.
+
+    Args:
+        scene: the scene.
+        model: its train at the operating point.
+
+    Returns:
+        The state; and a warning if axes that move are not in equilibrium there, else "".
+    """
     speed = model.load.target_speed.copy()
     if scene.drive.speed_control.start_speed is not None:
         speed[0] = scene.drive.speed_control.start_speed
     force = mesh_force(scene, float(model.load.torque[MOTOR]))
-    state: State = library(scene).initial_state(model, speed, force)
-    return state
+    state, unbalanced, body = library(scene).initial_state(model, speed, force)
+    if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
+        return state, ""
+    place = build_bodies(scene).place
+    name = next(name for name, number in place.items() if number == body)
+    return state, (
+        f"no static equilibrium is found at the start: a force of {unbalanced:.3g} N on {name} is "
+        "not balanced, so the run starts with a vibration that no mesh excites; simulate with "
+        "--settling, or check supports and backlash"
+    )

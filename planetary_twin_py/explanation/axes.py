@@ -36,8 +36,8 @@ def meaning_of_held_axes(scene: Scene) -> str:
 def _in_balance(scene: Scene) -> bool:
     """Whether planets are equal, in phase, and evenly spaced, so that their forces balance."""
     gearset, runout = scene.gearset, scene.mesh.runout
-    errors = [scene.errors.of_planet(i)[:3] for i in range(gearset.planets)]
-    uneven = scene.errors.of_axes or any(any(error) for error in errors)
+    errors = [scene.errors.of_planet(i) for i in range(gearset.planets)]
+    uneven = scene.errors.of_axes or any(planet.uneven for planet in errors)
     if uneven or scene.faults or runout.sun or runout.planet or runout.ring:
         return False
     teeth = gearset.tooth_numbers

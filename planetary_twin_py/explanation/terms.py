@@ -11,6 +11,7 @@ from ..scene import Scene
 from .axes import meaning_of_held_axes
 
 KINDS = ("planet", "sun", "ring", "carrier")
+_FACTORS = ("planet_stiffness", "pin_stiffness")  # of scene.errors
 
 
 class Term(NamedTuple):
@@ -184,7 +185,19 @@ def _positions(scene: Scene) -> Term | None:
     errors, planets = scene.errors, range(scene.gearset.planets)
     if not (errors.of_axes or any(any(errors.of_planet(i)[:3]) for i in planets)):
         return None
-    return Term("errors of position", "pins, teeth and axes off their places", {"errors": {}})
+    without = {"errors": {name: getattr(errors, name) for name in _FACTORS}}
+    return Term("errors of position", "pins, teeth and axes off their places", without)
+
+
+def _unequal_stiffness(scene: Scene) -> Term | None:
+    planets = [scene.errors.of_planet(i) for i in range(scene.gearset.planets)]
+    meshes = len({planet.stiffness for planet in planets}) > 1
+    pins = len({planet.pin_stiffness for planet in planets}) > 1 and scene.moving_axes
+    found = [name for name, differ in (("meshes", meshes), ("pins", pins)) if differ]
+    if not found:
+        return None
+    without: dict[str, Any] = {f"errors.{name}": () for name in _FACTORS}
+    return Term("unequal stiffness", f"{' and '.join(found)} of the planets", without)
 
 
 def _damping(scene: Scene) -> Term | None:
@@ -259,6 +272,8 @@ _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _damping,
     _errors,
     _runout,
+    _positions,
+    _unequal_stiffness,
     _faults,
     _ripple,
     _friction,

@@ -85,6 +85,8 @@ def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "singl
 
 
 def _printed_set(scene: Scene, mesh: MeshStiffness) -> PrintedSet:
+    if scene.errors.planet_stiffness:
+        raise ValueError("errors.planet_stiffness: model = 'printed' has equal planets only")
     mass, gearset = scene.gearset.rim_masses, scene.gearset
     return PrintedSet(
         mass.sun,
@@ -133,6 +135,16 @@ def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
         mesh.planet_ring,
         sun_planet.pressure_angle,
         planet_ring.pressure_angle,
+        *_factors(scene),
+    )
+
+
+def _factors(scene: Scene) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Factors of the planets on the stiffness of meshes and of bearings."""
+    planets = [scene.errors.of_planet(i) for i in range(scene.gearset.planets)]
+    return (
+        tuple(planet.stiffness for planet in planets),
+        tuple(planet.pin_stiffness for planet in planets),
     )
 
 
@@ -174,4 +186,5 @@ def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
         gearset.base_helix,
         planet_ring.pressure_angle,
         gearset.face_width,
+        *_factors(scene),
     )

@@ -49,6 +49,10 @@ class PlanarSet:
     """Transverse pressure angle of the sun-planet meshes [rad]."""
     ring_angle: float
     """Transverse pressure angle of the planet-ring meshes [rad]."""
+    mesh_factors: tuple[float, ...] = ()
+    """Factors on the stiffness of both meshes of each planet, (planets,); default: 1."""
+    pin_factors: tuple[float, ...] = ()
+    """Factors on the radial stiffness of each planet's bearing, (planets,); default: 1."""
 
     @property
     def planets(self) -> tuple[str, ...]:
@@ -74,12 +78,14 @@ def planar_model(data: PlanarSet) -> SpringModel:
     ]
     planets = len(data.planets)
     kinds = ["sun_planet"] * planets + ["planet_ring"] * planets
-    for kind, row in zip(kinds, rows.flanks(DRIVE), strict=True):
-        springs.append(Spring(kind, getattr(data, kind), row))
+    factors = 2 * (data.mesh_factors or (1.0,) * planets)
+    for kind, row, own in zip(kinds, rows.flanks(DRIVE), factors, strict=True):
+        springs.append(Spring(kind, own * getattr(data, kind), row, own))
     across = data.planet.bearing if data.planet.across is None else data.planet.across
-    for outwards, sideways in rows.pin:
-        springs.append(Spring("planet_bearing", data.planet.bearing, outwards))
-        springs.append(Spring("planet_bearing", across, sideways))
+    factors = data.pin_factors or (1.0,) * planets
+    for (outwards, sideways), own in zip(rows.pin, factors, strict=True):
+        springs.append(Spring("planet_bearing", own * data.planet.bearing, outwards, own))
+        springs.append(Spring("planet_bearing", own * across, sideways, own))
     masses = []
     for body in (*CENTRAL, *data.planets):
         values = getattr(data, body) if body in CENTRAL else data.planet

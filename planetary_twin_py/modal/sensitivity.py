@@ -6,6 +6,8 @@ frequencies separate in the directions that diagonalise this product.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .modes import clusters, modes_of
@@ -14,6 +16,8 @@ from .springs import SpringModel
 
 def frequency_sensitivities(model: SpringModel) -> dict[str, np.ndarray]:
     """Derivatives of the natural frequencies with respect to stiffness (Fox and Kapoor 1968).
+
+    The stiffness of a kind is that of a spring with `factor` 1.
 
     Args:
         model: masses and springs.
@@ -25,7 +29,8 @@ def frequency_sensitivities(model: SpringModel) -> dict[str, np.ndarray]:
     modes = modes_of(model)
     result = {}
     for kind in dict.fromkeys(spring.kind for spring in model.springs):
-        rows = np.array([spring.row for spring in model.springs if spring.kind == kind])
+        springs = [spring for spring in model.springs if spring.kind == kind]
+        rows = np.array([math.sqrt(spring.factor) * spring.row for spring in springs])
         stretch = rows @ modes.shapes
         slopes = np.full(len(modes.frequencies), np.nan)
         for cluster in clusters(modes.frequencies):

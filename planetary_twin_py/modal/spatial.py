@@ -69,6 +69,10 @@ class SpatialSet:
     """Working pressure angle of the planet-ring meshes [rad]; default: that of the others."""
     face_width: float = 0.0
     """Face width, along which each mesh resists tilting [m]; 0: at one point."""
+    mesh_factors: tuple[float, ...] = ()
+    """Factors on the stiffness of both meshes of each planet, (planets,); default: 1."""
+    pin_factors: tuple[float, ...] = ()
+    """Factors on the radial stiffness of each planet's bearing, (planets,); default: 1."""
 
 
 def spatial_model(data: SpatialSet) -> SpringModel:
@@ -89,8 +93,11 @@ def spatial_model(data: SpatialSet) -> SpringModel:
         masses += [body.mass] * 3 + [body.tilt_mass] * 2 + [body.rim_mass]
         if name in CENTRAL:
             springs += _supports(body, name, row)
-    for planet, psi in zip(planets, data.planet_angles, strict=True):
-        springs += _meshes(data, row, planet, psi) + _pin(data, row, planet, psi)
+    meshes, pins = (
+        factors or (1.0,) * len(planets) for factors in (data.mesh_factors, data.pin_factors)
+    )
+    for planet, psi, mesh, pin in zip(planets, data.planet_angles, meshes, pins, strict=True):
+        springs += _meshes(data, row, planet, psi, mesh) + _pin(data, row, planet, psi, pin)
     return SpringModel(coordinates, np.array(masses), tuple(springs))
 
 
@@ -117,8 +124,8 @@ def _relative(first: dict[str, float], second: dict[str, float]) -> dict[str, fl
     return first | {name: -value for name, value in second.items()}
 
 
-def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
-    """Springs along the contact normals at the pitch points."""
+def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float, own: float) -> list[Spring]:
+    """Springs along the contact normals at the pitch points, `own` times as stiff as nominal."""
     radial, springs = np.array([math.cos(psi), math.sin(psi), 0.0]), []
     ring = data.pressure_angle if data.ring_angle is None else data.ring_angle
     for gear, lean, hand in (("sun", -1.0, 1.0), ("ring", 1.0, -1.0)):
@@ -132,13 +139,13 @@ def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring
             _velocity(data, gear, normal, central), _velocity(data, planet, normal, outward)
         )
         kind = "sun_planet" if gear == "sun" else "planet_ring"
-        stiffness = getattr(data, kind) / math.cos(data.base_helix) ** 2
-        springs.append(Spring(kind, stiffness, row(parts)))
-        tilting = getattr(data, kind) * data.face_width**2 / 12.0
+        stiffness = own * getattr(data, kind) / math.cos(data.base_helix) ** 2
+        springs.append(Spring(kind, stiffness, row(parts), own))
+        tilting = own * getattr(data, kind) * data.face_width**2 / 12.0
         if tilting > 0.0:
             slope = np.cross([0.0, 0.0, 1.0], flat)
             parts = _relative(_tilt(data, gear, slope), _tilt(data, planet, slope))
-            springs.append(Spring(f"{kind}_tilting", tilting, row(parts)))
+            springs.append(Spring(f"{kind}_tilting", tilting, row(parts), own))
     return springs
 
 
@@ -148,21 +155,24 @@ def _tilt(data: SpatialSet, name: str, direction: Vector) -> dict[str, float]:
     return {f"{name}.{m}": part / radius for m, part in zip(("wx", "wy"), direction, strict=False)}
 
 
-def _pin(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
-    """Springs of the bearing of a planet: three directions, and tilting relative to the carrier."""
+def _pin(data: SpatialSet, row: Rows, planet: str, psi: float, own: float) -> list[Spring]:
+    """Springs of the bearing of a planet: three directions, and tilting relative to the carrier.
+
+    Its radial stiffness is `own` times the nominal one.
+    """
     outwards = np.array([math.cos(psi), math.sin(psi), 0.0])
     sideways = np.array([-math.sin(psi), math.cos(psi), 0.0])
     arm = data.carrier.radius * outwards
     body, springs = data.planet, []
     across = body.bearing if body.across is None else body.across
-    for direction, kind, stiffness in (
-        (outwards, "bearing", body.bearing),
-        (sideways, "bearing", across),
-        (np.array([0.0, 0.0, 1.0]), "axial", body.axial),
+    for direction, kind, stiffness, factor in (
+        (outwards, "bearing", body.bearing, own),
+        (sideways, "bearing", across, own),
+        (np.array([0.0, 0.0, 1.0]), "axial", body.axial, 1.0),
     ):
         carried = _velocity(data, "carrier", direction, arm)
         parts = _relative(_velocity(data, planet, direction, np.zeros(3)), carried)
-        springs.append(Spring(f"planet_{kind}", stiffness, row(parts)))
+        springs.append(Spring(f"planet_{kind}", factor * stiffness, row(parts), factor))
     share = body.radius / data.carrier.radius
     for motion in ("wx", "wy"):
         parts = {f"{planet}.{motion}": 1.0, f"carrier.{motion}": -share}

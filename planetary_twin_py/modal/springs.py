@@ -15,11 +15,14 @@ class Spring(NamedTuple):
     """A spring."""
 
     kind: str
-    """Name that springs with a common stiffness share, e.g. all sun-planet meshes."""
+    """Name that springs with a common stiffness share, but for `factor`, e.g. all sun-planet
+    meshes."""
     stiffness: float
     """[N/m]"""
     row: np.ndarray
     """Deformation per displacement of each coordinate, (coordinates,)."""
+    factor: float = 1.0
+    """Stiffness over the common stiffness of its kind."""
 
 
 class SpringModel(NamedTuple):

@@ -39,8 +39,9 @@ def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = Fal
         planet = f"planet_{i + 1}.u"
         sun_row = row({"sun.u": 1.0, planet: 1.0, "carrier.u": -1.0})
         ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -carried})
-        springs += [Spring("sun_planet", mesh.sun_planet, sun_row)]
-        springs += [Spring("planet_ring", mesh.planet_ring, ring_row)]
+        own = scene.errors.of_planet(i).stiffness
+        springs += [Spring("sun_planet", own * mesh.sun_planet, sun_row, own)]
+        springs += [Spring("planet_ring", own * mesh.planet_ring, ring_row, own)]
     if with_machines:
         radii = base_radii(scene)
         for name, machine in found.items():

@@ -16,7 +16,7 @@ import numpy as np
 from .._core import TERMS, TOTAL, Train
 from .._core.axes import RollingBearing
 from ..dynamics.bodies import rigid_ratios
-from ..dynamics.moving_axes import linear_bearing
+from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
 from ..dynamics.rolling_bearings import largest_element_load, rolling_bearing
 from ..dynamics.static_load import mesh_force
@@ -51,7 +51,8 @@ class LoadSharing(NamedTuple):
     """Force of sun, ring and carrier on their bearings, x and y in the frame of the carrier [N],
     (P, 3, 2)."""
     displacement: np.ndarray
-    """Displacement of sun, ring and carrier, x and y in the carrier's frame [m], (P, 3, 2)."""
+    """Displacement of sun, ring and carrier, x and y in the carrier's frame [m], (P, 3, 2): of an
+    axis with `errors.*_offset`, from that offset."""
     element_load: np.ndarray
     """Load of the most loaded rolling element in the bearings of sun, ring, carrier and planets,
     NaN in other bearings [N], (P, 3 + N)."""
@@ -216,7 +217,7 @@ def _kinds(scene: Scene) -> list[str]:
 
 def _of_bodies(scene: Scene, supports: Supports) -> tuple[np.ndarray, np.ndarray]:
     kinds = _kinds(scene)
-    stiffness = np.array([linear_bearing(scene, kind)[0] for kind in kinds])
+    stiffness = np.array([linear_bearing(scene, name)[0] for name in bearing_names(scene)])
     return stiffness, np.array([getattr(supports, kind).clearance for kind in kinds])
 
 
@@ -255,9 +256,9 @@ def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
     lead = np.array([mesh.coast_lead for mesh in scene.gearset.geometry.meshes])[kinds]
     cycles = side * _cycles(scene, turns) + (lead if side == COAST else 0.0)
     fractions = cycles - np.floor(cycles)
-    return np.column_stack(
-        [_mesh_stiffness(train, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
-    )
+    nominal = [_mesh_stiffness(train, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
+    factors = [scene.errors.of_planet(i).stiffness for i in range(planets)]
+    return np.column_stack(nominal) * np.tile(factors, 2)
 
 
 def _mesh_stiffness(train: Train, kind: int, fraction: np.ndarray) -> np.ndarray:
@@ -297,7 +298,7 @@ def _result(
         sun_mesh / sun_mesh.mean(axis=1, keepdims=True),
         pins,
         bearing + np.eye(3)[2][:, None] * on_carrier[:, None, place : place + 2],
-        moved[:, :, :2] + (errors.axis if scene.supports is None else 0.0),
+        moved[:, :, :2] - (0.0 if scene.supports is None else errors.axis),
         elements,
     )
 

@@ -60,6 +60,7 @@ class QuasiStaticEngine:
         # Nothing vibrates, so damping has no effect.
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
+        self.start_warning = ""  # without equilibrium there is no run
         self._limits = Limits(scene, self.train)
         self.control = Control()
         self.reached = Fraction(0)

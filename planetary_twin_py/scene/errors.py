@@ -2,12 +2,37 @@
 
 from __future__ import annotations
 
-from pydantic import Field
+from typing import NamedTuple, Self
+
+from pydantic import Field, model_validator
 
 from .quantity import Section, quantity
 
 LARGEST = 1e-2  # [m]
 _PLANETS = 7  # at most
+FACTORS = (0.01, 100.0)  # range of factors on a stiffness
+
+
+class PlanetErrors(NamedTuple):
+    """Deviations of one planet."""
+
+    pin_radial: float = 0.0
+    """Displacement of the pin outwards [m]."""
+    pin_tangential: float = 0.0
+    """Displacement of the pin counter-clockwise [m]."""
+    thickness: float = 0.0
+    """By which its teeth are thicker [m]."""
+    runout_phase: float = 0.0
+    """Angle of its runout at the start [rad]."""
+    stiffness: float = 1.0
+    """Factor on the stiffness of both meshes."""
+    pin_stiffness: float = 1.0
+    """Factor on the radial stiffness of its bearing."""
+
+    @property
+    def uneven(self) -> bool:
+        """Whether the planet differs from its nominal position, dimensions and stiffness."""
+        return self._replace(runout_phase=0.0) != PlanetErrors()
 
 
 class Offset(Section):
@@ -22,8 +47,8 @@ class Offset(Section):
 class Errors(Section):
     """Deviations of gears and carrier from their nominal positions and dimensions.
 
-    Lists have an entry for each planet; an empty list means zeros. The eccentricities of the gears
-    are in `mesh.runout`; their phases are here.
+    Lists have an entry for each planet; an empty list means zeros, or factors of 1. The
+    eccentricities of the gears are in `mesh.runout`; their phases are here.
     """
 
     pin_radial: tuple[float, ...] = quantity(
@@ -45,24 +70,50 @@ class Errors(Section):
     planet_runout_phases: tuple[float, ...] = quantity(
         "rad", "angles of mesh.runout.planet at the start", (), max_length=_PLANETS
     )
+    planet_stiffness: tuple[float, ...] = quantity(
+        "", "factors on the stiffness of both meshes of the planets, each within "
+        f"{FACTORS[0]:g} and {FACTORS[1]:g}", (), max_length=_PLANETS,
+    )  # fmt: skip
+    pin_stiffness: tuple[float, ...] = quantity(
+        "", "factors on supports.planet.bearing, the radial stiffness of the planets on their "
+        f"pins, each within {FACTORS[0]:g} and {FACTORS[1]:g}", (), max_length=_PLANETS,
+    )  # fmt: skip
     ring_offset: Offset = Field(Offset(), description="offset of the ring from the housing")
     carrier_offset: Offset = Field(Offset(), description="offset of the carrier from the housing")
+
+    @model_validator(mode="after")
+    def _factors_in_range(self) -> Self:
+        low, high = FACTORS
+        for name in ("planet_stiffness", "pin_stiffness"):
+            for place, factor in enumerate(getattr(self, name), 1):
+                if not low <= factor <= high:
+                    raise ValueError(
+                        f"{name} = {factor:g} of planet {place}: must be within {low:g} and "
+                        f"{high:g}"
+                    )
+        return self
 
     @property
     def of_axes(self) -> bool:
         """Whether an axis is off that of the housing."""
         return bool(self.ring_offset.size or self.carrier_offset.size)
 
-    def of_planet(self, planet: int) -> tuple[float, ...]:
-        """Displacements of the pin, thickness of the teeth, phase of the runout of a planet.
+    def of_planet(self, planet: int) -> PlanetErrors:
+        """Deviations of a planet.
 
         Args:
             planet: counted from 0.
 
         Returns:
-            Radial and tangential displacement of the pin [m], thickness [m], phase [rad].
+            Its deviations.
         """
-        lists = (
-            self.pin_radial, self.pin_tangential, self.planet_thickness, self.planet_runout_phases,
-        )  # fmt: skip
-        return tuple(values[planet] if values else 0.0 for values in lists)
+        given = zip(PlanetErrors._fields, PER_PLANET, strict=True)
+        lists = {field: getattr(self, name) for field, name in given}
+        return PlanetErrors(**{field: values[planet] for field, values in lists.items() if values})
+
+
+PER_PLANET = (
+    "pin_radial", "pin_tangential", "planet_thickness", "planet_runout_phases",
+    "planet_stiffness", "pin_stiffness",
+)  # fmt: skip
+"""Fields of `Errors` with an entry for each planet, in the order of `PlanetErrors`."""

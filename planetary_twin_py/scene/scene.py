@@ -11,7 +11,7 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 from ..spatial.bearings import missing_stiffnesses
 from .defect import explain
 from .drive import Drive
-from .errors import Errors
+from .errors import PER_PLANET, Errors
 from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import FIELDS_ALONE, Gearset
 from .losses import Losses
@@ -177,12 +177,15 @@ class Scene(Section):
     def _errors_of_planets(self) -> Iterator[str]:
         """Errors of lists that have no entry for each planet."""
         planets = self.gearset.planets
-        for name in (
-            "pin_radial", "pin_tangential", "planet_thickness", "planet_runout_phases",
-        ):  # fmt: skip
+        for name in PER_PLANET:
             count = len(getattr(self.errors, name))
             if count not in (0, planets):
                 yield f"errors.{name}: has {count} entries: must have {planets}, one a planet"
+        if self.errors.pin_stiffness and self.supports and self.supports.planet.rolling:
+            yield (
+                "errors.pin_stiffness: requires planets on linear bearings, without "
+                "supports.planet.rolling"
+            )
         if self.errors.of_axes and self.gearset.held == "none":
             yield "errors: ring_offset and carrier_offset require a fixed member (gearset.held)"
 
@@ -209,11 +212,6 @@ class Scene(Section):
             yield f"lubrication.friction_torque = 'printed': must be 'sliding' {why}"
         if self.mesh.backlash == "regulatory_factor":
             yield f"mesh.backlash = 'regulatory_factor': must be 'dead_zone' {why}"
-        if self.errors.of_axes and held != "carrier":
-            yield (
-                "errors: ring_offset and carrier_offset require gearset.held = 'carrier' "
-                f"{why}; command load-sharing accepts them"
-            )
 
     @property
     def moving_axes(self) -> bool:

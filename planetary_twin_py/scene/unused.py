@@ -40,7 +40,7 @@ def not_in_use(scene: Scene, name: str) -> str | None:
     beyond_plane = plain.endswith((".axial", ".tilting", ".axial_damping", ".tilting_damping"))
     if plain.startswith("supports.") and beyond_plane and not scene.tilting_axes:
         return "axes do not tilt; set dynamics = spatial, or see the command modal"
-    if plain.startswith("supports.") and not scene.moving_axes:
+    if plain.startswith(("supports.", "errors.pin_stiffness")) and not scene.moving_axes:
         return (
             "runs hold the axes; set dynamics = planar to move them, or see the commands "
             "load-sharing and modal"

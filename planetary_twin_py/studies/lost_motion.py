@@ -25,8 +25,11 @@ SHARE = 0.03  # of the torque, at which lost motion is measured
 UPPER = 0.5  # of the torque, from which the stiffness is measured
 LEVELS = 25  # torques from 0 to the largest
 DWELL = 0.01  # [s] from one look at the twist to the next
-PATIENCE = 100  # looks at most at each torque
+LOOKS = 4  # of which the last must agree, as two of a vibration may
+PATIENCE = 100  # more looks at most at each torque
 FREQUENCY = 200.0  # [Hz] of a machine of the bench on the gear set
+GEARS = 1000.0  # [Hz] of a gear of the bench on its meshes
+CARRIED = 0.1  # mass of the planets on the carrier, over J/r^2 of the carrier
 COUPLING = 10.0  # stiffness of its coupling over that of the gear set
 MESH_DAMPING = 0.3  # damping ratio of a mesh on the bench
 SETTLED = 1e-4  # of the elastic twist, by which it may still move between two looks
@@ -44,6 +47,8 @@ class LostMotion:
     """Whether the twist came to rest at every torque."""
     share: float
     """Part of the largest torque at which lost motion is measured."""
+    couplings: float
+    """Compliance of the couplings of the scene, at the output with the motor held [rad/(N m)]."""
 
     def _branches(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Torque and twist of the falling branch, reversed, and of the rising one."""
@@ -79,6 +84,11 @@ class LostMotion:
         back = np.polyfit(*_between(twist, torque, -largest, -UPPER * largest), 1)
         return float(0.5 * (loading[0] + back[0]))
 
+    @property
+    def stiffness_with_couplings(self) -> float:
+        """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
+        return 1.0 / (1.0 / self.stiffness + self.couplings)
+
 
 def _between(
     twist: np.ndarray, torque: np.ndarray, low: float, high: float
@@ -101,7 +111,9 @@ def lost_motion(
 
     The scene runs at speed 0, with dynamics, so that friction holds and breaks away by the laws of
     the scene. Machines and couplings of the scene are replaced by stiff, well damped ones, which
-    hold the input and come to rest between two torques; they do not change the statics.
+    hold the input and come to rest between two torques. Inertias are replaced by those with which
+    the gears swing slowly: those of light gears would demand steps of a microsecond. Neither
+    changes the statics.
 
     Args:
         scene: with one input.
@@ -134,16 +146,22 @@ def lost_motion(
     loop, moving = [], 0.0
     for step in steps:
         twin.set(input_torque=float(step / per_input))
-        last = _twist(twin, still, dwell)
+        looks = [_twist(twin, still, dwell) for _ in range(LOOKS)]
         for _ in range(PATIENCE):
-            before, last = last, _twist(twin, still, dwell)
-            if abs(last[1] - before[1]) <= rest:
+            if _motion(looks) <= rest:
                 break
-        moving = max(moving, abs(last[1] - before[1]))
-        loop.append(last)
+            looks = [*looks[1:], _twist(twin, still, dwell)]
+        moving = max(moving, _motion(looks))
+        loop.append(looks[-1])
         report(1)
     closed = np.array(loop[len(up) - 1 :])
-    return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share)
+    couplings = _compliance_of_couplings(scene)
+    return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share, couplings)
+
+
+def _motion(looks: list[tuple[float, float]]) -> float:
+    """Largest change of the twist from one look to the next [rad], without the first look."""
+    return float(np.abs(np.diff([twist for _, twist in looks[1:]])).max())
 
 
 def _on_bench(scene: Scene) -> Scene:
@@ -155,6 +173,7 @@ def _on_bench(scene: Scene) -> Scene:
         "dynamics": "torsional",
         "mesh.damping": {"law": "viscous", "damping_ratio": MESH_DAMPING},
         "drive.speed_control": {},
+        **_heavy_gears(scene),
     }
     for side in ("input", "output"):
         member = getattr(scene.drive, side).member
@@ -168,6 +187,35 @@ def _on_bench(scene: Scene) -> Scene:
             "coupling_damping": math.sqrt(coupling * inertia),
         }
     return scene.replace(**changes)
+
+
+def _heavy_gears(scene: Scene) -> dict[str, object]:
+    """Inertias with which each gear alone has the frequency `GEARS` on its meshes."""
+    gears, planets = scene.gearset.geometry, scene.gearset.planets
+    sun, ring = (law.single for law in stiffness_laws(scene))
+    per_planet = {"sun": sun, "planet": sun + ring, "ring": ring, "carrier": sun + ring}
+    radius = {
+        "sun": gears.sun.base_radius,
+        "planet": gears.planet.base_radius,
+        "ring": gears.ring.base_radius,
+        "carrier": gears.centre_distance,
+    }
+    inertia = {}
+    for kind, stiffness in per_planet.items():
+        meshes = 1 if kind == "planet" else planets
+        inertia[kind] = meshes * stiffness * radius[kind] ** 2 / (2.0 * math.pi * GEARS) ** 2
+    return {
+        "gearset.inertia": inertia,
+        "gearset.equivalent_mass": None,
+        "gearset.planet_mass": CARRIED * inertia["carrier"] / (planets * radius["carrier"] ** 2),
+    }
+
+
+def _compliance_of_couplings(scene: Scene) -> float:
+    """Twist of the output per torque on it by both couplings, with the motor held [rad/(N m)]."""
+    sides = scene.drive.input, scene.drive.output
+    driving, driven = (1.0 / machine.coupling_stiffness for machine in sides)
+    return driven + driving * float(rigid_ratios(scene)[sides[1].member][0]) ** 2
 
 
 def _stiffness(scene: Scene, member: str) -> float:

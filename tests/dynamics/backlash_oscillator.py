@@ -38,7 +38,7 @@ class Oscillator:
         train.cycles[0] = 1.0
         train.cycles_numerator[0] = 1
         train.cycles_denominator[:] = 1
-        train.stiffness[0] = train.stiffness_base[0] = 1.0
+        train.stiffness[0] = train.stiffness_base[0] = train.stiffness_factor[0] = 1.0
         train.lowest_frequency = 1.0
         train.segments[0], train.present[0, 0], train.terms = 1, 1, 2
         train.edge[0, 1:] = 1.0

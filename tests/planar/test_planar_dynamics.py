@@ -6,10 +6,13 @@ import re
 import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, evenly, planar
+from planar.published_set import scene as published
 from power_flows import DIFFERENTIALS, FLOWS, flow_name
 
 from planetary_twin_py import SceneError, Twin, load_scene, simulate
+from planetary_twin_py.accuracy import course_warnings
 from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.run import start
 
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
@@ -188,12 +191,9 @@ def test_what_moving_axes_do_not_hold_is_refused_in_one_line(changes, said):
         planar(**changes)
 
 
-def test_offsets_of_axes_are_refused_where_the_carrier_turns():
-    offset = {"errors.ring_offset": {"size": 1e-5}}
-    with pytest.raises(SceneError, match="ring_offset and carrier_offset require"):
-        planar(FLOWS[2], **offset)
-    static = load_sharing(planar(FLOWS[0], {"sun": 0.0}, **offset))
-    run = simulate(planar(FLOWS[0], {"sun": 0.0}, **offset), 0.01, settling=0.03)
+def test_a_free_sun_follows_an_offset_of_the_ring_as_in_statics():
+    given = planar(FLOWS[0], {"sun": 0.0}, **{"errors.ring_offset": {"size": 1e-5}})
+    static, run = load_sharing(given), simulate(given, 0.01, settling=0.03)
     moved = static.displacement.mean(axis=0)
     assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=2e-2, abs=1e-7)
 
@@ -203,3 +203,20 @@ def test_a_scene_with_supports_runs_in_torsion_as_without():
     one, other = (simulate(each, 0.005) for each in (scene, scene.replace(supports=None)))
     assert one.axes is None
     assert (one.dte == other.dte).all()
+
+
+def test_a_start_without_equilibrium_is_warned_of_and_names_what_is_not_balanced():
+    steady = published(5, dynamics="planar")
+    assert start(steady, 1e-4).start_warning == ""
+    # Five planets with gaps on all sides under next to no load.
+    errors = {
+        "pin_tangential": (-23.4e-6, 24.0e-6, -12.3e-6, -13.2e-6, -21.3e-6),
+        "planet_thickness": (-8.8e-6, -2.4e-6, -1.1e-6, -3.7e-6, -9.9e-6),
+    }
+    changes = {"dynamics": "planar", "input_torque": 0.1, "supports.planet.clearance": 5e-6}
+    loose = published(5, errors, **changes)
+    said = start(loose, 1e-4).start_warning
+    assert re.fullmatch(r"no static equilibrium .* a force of \S+ N on \w+(\.\w+)? is not .*", said)
+    twin = Twin(loose)
+    assert said in course_warnings(twin.advance(1e-4).course)
+    assert said not in course_warnings(twin.advance(1e-4).course)

@@ -185,3 +185,26 @@ def test_a_node_picks_the_dynamics_of_a_scene_that_leaves_them_open_and_reports_
     peer.until(warned)
     now = report()
     assert now is not None and now.message.startswith("input_torque changed since; dynamics =")
+
+
+def test_a_twin_without_vibration_moves_its_axes_and_is_repeated_bit_for_bit(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    scene = tmp_path / "still.yaml"
+    scene.write_text("base: floating_sun\nname: still\ndynamics: quasi_static_planar\n")
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    states = peer.listen(AxesState, f"{TWIN}/axes_state", 1000)
+    options = (f"scene:={scene}", f"wait_for:={TWIN}/logger", *SLOWLY)
+    given = [part for option in options for part in ("-p", option)]
+    start("planetary_twin.simulation", "--ros-args", *given)
+    peer.until(lambda: len(states) >= 20, 120.0)
+    expected = load_sharing(pt.load_scene(scene)).share.mean(axis=0)
+    assert np.array(states[-1].load_share[:4]) == pytest.approx(expected, rel=5e-3)
+    assert peer.set(f"{TWIN}/simulation", input_torque=30.0).successful
+    changed = len(states)
+    peer.until(lambda: len(states) >= changed + 5)
+    logger.terminate()
+    _, errors = logger.communicate(timeout=LONG)
+    assert logger.returncode == 0 and "Traceback" not in errors
+    found = verify(tmp_path / "recordings/bag", TWIN)
+    assert found.identical and found.messages["axes_state"] >= 20

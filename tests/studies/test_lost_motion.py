@@ -40,6 +40,20 @@ def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
     assert found.lost_motion == pytest.approx(FREE_PLAY + elastic, rel=1e-3)
     assert np.ptp(found.twist) == pytest.approx(FREE_PLAY + 2.0 * TORQUE / STIFFNESS, rel=1e-3)
     assert found.hysteresis < 1e-3 * FREE_PLAY
+    motor, load = SMOOTH.drive.input, SMOOTH.drive.output
+    ratio = 1.0 + SMOOTH.gearset.teeth.ring / SMOOTH.gearset.teeth.sun
+    series = 1.0 / found.stiffness + 1.0 / load.coupling_stiffness
+    series += 1.0 / (ratio**2 * motor.coupling_stiffness)
+    assert found.stiffness_with_couplings == pytest.approx(1.0 / series)
+
+
+@pytest.mark.exhaustive
+def test_printed_gears_have_the_lost_motion_and_the_stiffness_of_their_rig():
+    # Backlash and output coupling of the scene are chosen so; friction of 0.8, light gears.
+    found = lost_motion(pt.load_scene("compact_actuator"), 7.2)
+    assert found.settled
+    assert math.degrees(found.lost_motion) == pytest.approx(0.591, abs=5e-3)
+    assert found.stiffness_with_couplings == pytest.approx(242.7, rel=0.01)
 
 
 def test_friction_opens_a_loop_that_takes_energy():

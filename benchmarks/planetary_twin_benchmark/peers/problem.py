@@ -32,7 +32,7 @@ class Problem:
         train, point = build_train(scene), scene.operating_point
         load = build_load(scene, point, train)
         model = Model(train=train, oil=build_oil(scene, point), load=load)
-        start = start_state(scene, model)
+        start = start_state(scene, model)[0]
         self.record = Record(model=model, start=start)
         self._train = train
         self.bodies, self.axes, self.meshes = train.bodies, train.axes, train.meshes

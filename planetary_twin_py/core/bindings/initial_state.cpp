@@ -11,18 +11,27 @@ namespace gearbox {
 
 namespace {
 
-State py_initial_state(const Model& model, const ConstArray& speed, double force) {
+nb::tuple py_initial_state(const Model& model, const ConstArray& speed, double force) {
     check_size("speed", speed.size(), AXES);
-    Unlocked release;
-    return initial_state(model, speed.data(), force);
+    Beginning found;
+    {
+        Unlocked release;
+        found = initial_state(model, speed.data(), force);
+    }
+    return nb::make_tuple(found.state, found.unbalanced, found.body);
 }
 
 }  // namespace
 
 void bind_initial_state(nb::module_& m) {
-    m.def("initial_state", &py_initial_state, nb::arg("model"), nb::arg("speed"), nb::arg("force"),
-          "The state in which a run begins: speeds of the motors (AXES,) [rad/s], mean force of\n"
-          "every mesh [N].");
+    m.def(
+        "initial_state", &py_initial_state, nb::arg("model"), nb::arg("speed"), nb::arg("force"),
+        nb::sig("def initial_state(model: Model, speed: Annotated[NDArray[numpy.float64], "
+                "dict(order='C', device='cpu', writable=False)], force: float) -> "
+                "tuple[State, float, int]"),
+        "The state in which a run begins: speeds of the motors (AXES,) [rad/s], mean force of\n"
+        "every mesh [N]. With it the largest force [N] on a body that nothing balances, and that\n"
+        "body.");
 }
 
 }  // namespace gearbox

@@ -145,6 +145,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Train, stiffness)
         .FIELD(Train, stiffness_base)
         .FIELD(Train, stiffness_gain)
+        .FIELD(Train, stiffness_factor)
         .FIELD(Train, damping_time)
         .FIELD(Train, damping_cycles)
         .FIELD(Train, lowest_frequency)

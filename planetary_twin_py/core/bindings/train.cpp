@@ -123,8 +123,8 @@ void bind_form(nb::module_& m) {
         [](const Train& train, const State& state, std::int64_t i, std::int64_t side, double start,
            StepConstants& step) { find_faults(train, state, i, side, start, step.faulty); },
         "train"_a, "state"_a, "i"_a, "side"_a, "start"_a, "step"_a);
-    m.def("mesh_stiffness", &mesh_stiffness, "train"_a, "kind"_a, "segment"_a, "cycle"_a,
-          "Stiffness [N/m] of a mesh without faults at a fraction of its cycle.");
+    m.def("mesh_stiffness", &mesh_stiffness, "train"_a, "i"_a, "segment"_a, "cycle"_a,
+          "Stiffness [N/m] of mesh i without faults at a fraction of its cycle.");
     m.def(
         "pair_stiffness",
         [](const Train& train, const StepConstants& step, std::int64_t i, std::int64_t segment,

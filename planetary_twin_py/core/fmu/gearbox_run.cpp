@@ -112,7 +112,8 @@ void start(const Exported& scene, RunState& run) {
     load_point(scene, run);
     March& march = run.march;
     double speed[AXES] = {start_speed(scene.laws, run.point), run.point.second_input_speed};
-    march.end = initial_state(run.model, speed, mesh_force(scene.laws, run.model.load.torque[0]));
+    const double force = mesh_force(scene.laws, run.model.load.torque[0]);
+    march.end = initial_state(run.model, speed, force).state;
     march.begin = march.end;
     begin_step(run.model, march);
     march.end = march.begin;  // tooth pairs may have started to stick

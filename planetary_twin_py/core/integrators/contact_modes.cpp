@@ -24,8 +24,8 @@ void find_stiffness(const Train& train, const State& state, ContactState& modes)
         if (state.side[i] != OPEN) {
             std::int64_t kind = train.kind[i], segment = state.segment[i];
             const double* edge = &train.edge[kind][segment];
-            k = mesh_stiffness(train, kind, segment, 0.5 * (edge[0] + edge[1]));
-            double at_edge = mesh_stiffness(train, kind, segment, edge[0]);
+            k = mesh_stiffness(train, i, segment, 0.5 * (edge[0] + edge[1]));
+            double at_edge = mesh_stiffness(train, i, segment, edge[0]);
             modes.varies |= std::fabs(at_edge - k) > STEADY * k;
             k *= train.copies[i];
         }

@@ -45,7 +45,7 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
         for (int j = 0; j < entries_of(train); ++j)
             work.drift[train.body[i][j]] -= side * drift * train.sign[i][j];
         double cycle = constants.start[i] + side * pace * 0.5 * h;
-        double k = copies * mesh_stiffness(train, kind, state.segment[i], cycle);
+        double k = copies * mesh_stiffness(train, i, state.segment[i], cycle);
         add_outer(work.stiffness, train.body[i], train.sign[i], entries_of(train), k);
         add_outer(work.system, train.body[i], train.sign[i], entries_of(train),
                   k * (constants.tau[kind] + step));

@@ -67,13 +67,13 @@ inline void change_contact(const Model& model, State& state, StepConstants& step
     state.energy[DAMPING] += before - stored_energy(model, state, step, i);
 }
 
-// Whether the stiffness of a kind of mesh without faults jumps from a segment to the next.
-inline bool stiffness_jumps(const Train& train, std::int64_t kind, std::int64_t segment,
+// Whether the stiffness of mesh i without faults jumps from a segment to the next.
+inline bool stiffness_jumps(const Train& train, std::int64_t i, std::int64_t segment,
                             std::int64_t after, bool forwards) {
     constexpr double ROUNDING = 1e-12;
-    const double* edge = train.edge[kind];
-    double before = mesh_stiffness(train, kind, segment, edge[forwards ? segment + 1 : segment]);
-    double then = mesh_stiffness(train, kind, after, edge[forwards ? after : after + 1]);
+    const double* edge = train.edge[train.kind[i]];
+    double before = mesh_stiffness(train, i, segment, edge[forwards ? segment + 1 : segment]);
+    double then = mesh_stiffness(train, i, after, edge[forwards ? after : after + 1]);
     return std::abs(then - before) > ROUNDING * before;
 }
 
@@ -84,7 +84,7 @@ inline void change_segment(const Model& model, State& state, StepConstants& step
     const std::int64_t kind = train.kind[i], segment = state.segment[i];
     const std::int64_t count = train.segments[kind], after = (segment + direction + count) % count;
     pass_bristles(train, state.bristle, i, segment, direction);
-    if (train.faults == 0 && !stiffness_jumps(train, kind, segment, after, direction > 0)) {
+    if (train.faults == 0 && !stiffness_jumps(train, i, segment, after, direction > 0)) {
         state.segment[i] = after;
         return;
     }

@@ -250,9 +250,9 @@ inline double push_drift(const Model& model, const State& state, const StepConst
     auto [d, rate, error_rate] = deflection(train, step, i, state.x, state.v, 0.0, pace);
     auto [total, growth] = total_weight(train, kind, state.segment[i], u);
     double push = side * d - model.load.offset + tau * side * rate;
-    double drift = train.stiffness_gain[kind] * growth * side * pace * push;
+    double drift = step.gain[i] * growth * side * pace * push;
     if (train.lines[kind] > 0) {
-        double k = train.stiffness_base[kind] + train.stiffness_gain[kind] * total;
+        double k = step.base[i] + step.gain[i] * total;
         double bend = form_error_bend(train, i, step.side[i], step.line_angle, pace);
         drift -= k * side * (error_rate + tau * bend);
     }

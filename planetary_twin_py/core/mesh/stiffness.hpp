@@ -28,11 +28,13 @@ inline ValueAndSlope total_weight(const Train& train, std::int64_t kind, std::in
     return polynomial(train.weight[kind][segment][TOTAL], u, train.terms);
 }
 
-// Stiffness [N/m] of a mesh without faults at a fraction of its cycle.
-inline double mesh_stiffness(const Train& train, std::int64_t kind, std::int64_t segment,
+// Stiffness [N/m] of mesh i without faults at a fraction of its cycle.
+inline double mesh_stiffness(const Train& train, std::int64_t i, std::int64_t segment,
                              double cycle) {
+    const std::int64_t kind = train.kind[i];
     double total = total_weight(train, kind, segment, cycle - train.edge[kind][segment]).value;
-    return train.stiffness_base[kind] + train.stiffness_gain[kind] * total;
+    return train.stiffness_factor[i] *
+           (train.stiffness_base[kind] + train.stiffness_gain[kind] * total);
 }
 
 struct FaultEffect {
@@ -66,7 +68,7 @@ inline StiffnessAndGap pair_stiffness(const Train& train, const StepConstants& s
     double per_weight = train.stiffness_base[kind] / total + train.stiffness_gain[kind];
     double weight = polynomial(train.weight[kind][segment][pair], u, train.terms).value;
     FaultEffect effect = fault_effect(train, step, i, segment, pair, u);
-    return {per_weight * weight * effect.factor, effect.gap};
+    return {train.stiffness_factor[i] * per_weight * weight * effect.factor, effect.gap};
 }
 
 }  // namespace gearbox

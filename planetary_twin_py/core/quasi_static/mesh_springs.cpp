@@ -74,8 +74,7 @@ void place_springs(const Model& model, Equilibrium& run) {
         // what a flank that does not carry stands off is positive.
         run.play[i][DRIVE_PLAY] = run.play[i][COAST_PLAY] = std::abs(play);
         run.play[i][carrying] = play;
-        Spring spring{mesh_stiffness(train, train.kind[i], run.state.segment[i], step.start[i]),
-                      0.0};
+        Spring spring{mesh_stiffness(train, i, run.state.segment[i], step.start[i]), 0.0};
         if (train.faults > 0) spring = faulty_spring(model, run, i, spring.stiffness);
         run.stiffness[i] = spring.stiffness;
         run.play[i][carrying] += spring.gap;

@@ -92,8 +92,7 @@ void yield_to_forces(Start& start) {
     Balance& balance = start.balance;
     std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k =
-            mesh_stiffness(train, train.kind[i], start.state.segment[i], start.step.start[i]);
+        double k = mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
         if (MOVING && start.state.side[i] == OPEN) continue;
         add_outer(balance.stiffness, train.body[i], train.sign[i], entries_of(train),
                   train.copies[i] * k);
@@ -119,7 +118,7 @@ void balance_mean_forces(Start& start) {
     double* force = start.balance.force;
     std::fill(force, force + BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
+        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
         for (int g = 0; g < ENTRIES; ++g)
@@ -160,7 +159,7 @@ void forces_at_rest(Start& start) {
     std::fill(force, force + BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (state.side[i] == OPEN) continue;
-        double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
+        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
         for (int j = 0; j < entries_of(train); ++j)
@@ -199,6 +198,19 @@ void balance_axes(Start& start) {
             state.x[j] = before.x[j] + share * (state.x[j] - before.x[j]);
         }
         if (pass > 0 && !changes && moved < AT_REST) return;
+    }
+}
+
+// Largest force on a body at rest at x, into `found`: none where the axes have settled.
+void find_unbalanced(Start& start, Beginning& found) {
+    touch_flanks(start);
+    place_pairs(start);
+    forces_at_rest(start);
+    for (std::int64_t j = 0; j < start.model.train.bodies; ++j) {
+        const double force = std::fabs(start.balance.force[j]);
+        if (force <= found.unbalanced) continue;
+        found.unbalanced = force;
+        found.body = j;
     }
 }
 
@@ -298,9 +310,10 @@ bool is_closed(const Train& train, const State& state) {
 
 }  // namespace
 
-State initial_state(const Model& model, const double* speed, double force) {
+Beginning initial_state(const Model& model, const double* speed, double force) {
     const Train& train = model.train;
-    State state{};
+    Beginning found{};
+    State& state = found.state;
     std::copy(speed, speed + AXES, state.speed);
     std::copy(speed, speed + AXES, state.set_speed);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -315,7 +328,10 @@ State initial_state(const Model& model, const double* speed, double force) {
     double drags[AXES];
     mean_drag(*start, drags);
     balance_at_angle(*start);
-    if constexpr (!MOVING) choose_sides(*start);
+    if constexpr (MOVING)
+        find_unbalanced(*start, found);
+    else
+        choose_sides(*start);
     trim(model, drags, state);
     if (is_closed(train, state) && creeps(train, frame_cycle_rate(train, state))) {
         for (int n = 0; n < BALANCING_PASSES; ++n) {
@@ -323,7 +339,7 @@ State initial_state(const Model& model, const double* speed, double force) {
             trim(model, drags, state);
         }
     }
-    return state;
+    return found;
 }
 
 }  // namespace gearbox

@@ -13,11 +13,17 @@
 
 namespace gearbox {
 
+struct Beginning {
+    State state;
+    double unbalanced;  // largest force that nothing balances there, friction apart [N]
+    std::int64_t body;  // on which it acts
+};
+
 // The state in which a run begins, at time zero and motor angle zero.
 //
 // model: the train at its operating point.
 // speed: of the motors (AXES,) [rad/s].
 // force: mean force of every mesh [N].
-State initial_state(const Model& model, const double* speed, double force);
+Beginning initial_state(const Model& model, const double* speed, double force);
 
 }  // namespace gearbox

@@ -20,8 +20,8 @@ inline void take_segment(const Train& train, const State& state, StepConstants& 
     std::int64_t kind = train.kind[i], segment = state.segment[i], side = state.side[i];
     step.side[i] = static_cast<double>(side);
     step.segment[i] = segment + 1;
-    step.base[i] = train.stiffness_base[kind];
-    step.gain[i] = train.stiffness_gain[kind];
+    step.base[i] = train.stiffness_factor[i] * train.stiffness_base[kind];
+    step.gain[i] = train.stiffness_factor[i] * train.stiffness_gain[kind];
     step.fixed[i] = train.damping_time[kind];
     step.external[i] = train.external[kind];
     step.low[i] = train.edge[kind][segment];

@@ -41,6 +41,7 @@ struct alignas(64) Train {
     double stiffness[KINDS];           // of one tooth pair, about [N/m]
     double stiffness_base[KINDS];      // of the law of stiffness, see `tooth_pairs` [N/m]
     double stiffness_gain[KINDS];
+    alignas(64) double stiffness_factor[MESHES];  // on both, of the planet of a mesh [-]
     double damping_time[KINDS];        // tau of c = tau k [s]; 0: by the meshing frequency
     double damping_cycles;             // tau times meshing frequency [-]
     double lowest_frequency;           // [Hz]
