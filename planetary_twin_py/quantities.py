@@ -237,7 +237,7 @@ COURSE = {
         "Time to settle", "s", "time until creeping gears have forgotten their initial state"
     ),
     "reversals": Quantity(
-        "Reversals", description="steps in which vibration stops gears, or slows them much"
+        "Reversals", description="steps in which vibration stops gears, or slows them strongly"
     ),
     "both_flanks": Quantity(
         "Both flanks", description="steps in which both flanks of a tooth touch"

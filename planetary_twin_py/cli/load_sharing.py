@@ -9,7 +9,7 @@ import typer
 
 from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import PICTURES, file_ending_in
 from ..terminal.settings import changed_scene, settings
@@ -65,7 +65,7 @@ def load_sharing(
         except (OSError, ValueError) as error:
             fail(f"--picture = {str(picture)!r}: {error}")
     if json_ is not None:
-        put_figures(_figures(loaded, found), json_)
+        write_json(_figures(loaded, found), json_)
 
 
 def _planets(scene: Scene, found: LoadSharing) -> Table:
