@@ -102,7 +102,8 @@ MESH = {
     "boundary_friction": Quantity("Boundary friction", "N", "boundary friction of a mesh, mean"),
     "viscous_friction": Quantity("Viscous friction", "N", "viscous friction of a mesh, mean"),
     "power_loss": Quantity(
-        "Tooth friction loss", "W", "tooth friction of all these meshes, mean", over_meshes=np.sum
+        "Tooth friction loss", "W", "tooth friction of all meshes of this kind, mean",
+        over_meshes=np.sum,
     ),
 }  # fmt: skip
 """Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `mesh_statistics`."""

@@ -78,16 +78,19 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     planets = scene.gearset.planets
     largest = found.mesh_force.max(axis=0)
     pins = np.linalg.norm(found.planet_bearing, axis=2)
+    rolling = not np.isnan(found.element_load[:, len(CENTRAL) :]).all()
     table = Table(
         title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
         caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
-        "and coast flanks of the sun mesh, on the pin, and on an element of a rolling bearing",
+        "flanks and coast flanks of the sun mesh, on the pin"
+        + ", on an element of a rolling bearing"
+        * rolling,
     )
     for heading in (
         "planet", "share, mean", "smallest", "largest", "drive flank", "coast flank", "pin"
     ):  # fmt: skip
         table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
-    if not np.isnan(found.element_load[:, len(CENTRAL) :]).all():
+    if rolling:
         table.add_column("rolling\nelement", justify="right", no_wrap=True)
     for i in range(planets):
         share, element = found.share[:, i], found.element_load[:, len(CENTRAL) + i].max()

@@ -147,6 +147,8 @@ def _check(asked: Options) -> None:
     given = (asked.column, asked.speed, asked.sample_rate, asked.scene, asked.set_)
     if asked.is_table:
         need("analysis", "pyarrow")
+        if (asked.mesh, asked.quantity) != (Options.mesh, Options.quantity):
+            fail(f"{asked.file}: --mesh and --quantity are not for tables")
         if asked.order and asked.scene is None and asked.speed is None:
             fail("--order: needs --speed, or --scene, which defines a constant speed")
         if asked.set_ and asked.scene is None:
