@@ -32,7 +32,7 @@ class Course(NamedTuple):
     flank_events: int = 0
     """Engagements and separations of flanks."""
     reversals: int = 0
-    """Steps in which vibration stops gears, or slows them much."""
+    """Steps in which vibration stops gears, or slows them strongly."""
     repeated_steps: int = 0
     """Steps that were not computed because the motion is periodic."""
     unsettled: float = 0.0
@@ -125,7 +125,7 @@ def course_warnings(course: Course) -> Iterator[str]:
         )
     if course.reversals > 0:
         yield (
-            f"vibration stops gears relative to the carrier, or slows them much, in "
+            f"vibration stops gears relative to the carrier, or slows them strongly, in "
             f"{course.reversals} steps: errors grow when friction reverses, or feeds the vibration "
             "of creeping gears, and may exceed ten times the tolerance; compare with a run at a "
             "tighter tolerance"

@@ -1,4 +1,4 @@
-"""Commands at the ports of a run: torques and speeds that are given from outside, over time."""
+"""Commands at the ports of a run: torques and motions from outside, over simulated time."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ NAMES = (
     "input_position",
     "output_position",
 )
-"""Of the values of a command."""
+"""Names of the values of a command."""
 SIDES = ("input", "output")
 
 
 class Command(NamedTuple):
-    """What is given at the ports; `None`: what acts stays as it is."""
+    """Values at the ports; None leaves a value unchanged."""
 
     input_torque: float | None = None
-    """On the input shaft [N m]."""
+    """Torque on the input shaft [N m]."""
     output_torque: float | None = None
-    """On the output shaft [N m]."""
+    """Torque on the output shaft [N m]."""
     input_speed: float | None = None
-    """Of the input shaft [rad/s]."""
+    """Speed of the input shaft [rad/s]."""
     output_speed: float | None = None
-    """Of the output shaft [rad/s]."""
+    """Speed of the output shaft [rad/s]."""
     input_position: float | None = None
     """Angle that the input shaft reaches at the end of the step [rad]."""
     output_position: float | None = None
@@ -47,12 +47,12 @@ class Command(NamedTuple):
 
     @property
     def values(self) -> dict[str, float]:
-        """Values that are given, by name."""
+        """Values other than None, by name."""
         named = zip(NAMES, self, strict=True)
         return {name: value for name, value in named if value is not None}
 
     def check(self, scene: Scene, ranges: PortRanges) -> None:
-        """Check that the ports of a scene take this command.
+        """Check that the ports of a scene accept this command.
 
         Args:
             scene: the scene, with its present ports.
@@ -106,9 +106,9 @@ class Command(NamedTuple):
                 )
 
 
-NOTHING = Command()  # gives no value
+NOTHING = Command()  # changes no value
 CAUSALITIES: dict[str, Causality] = {"torque": "torque", "speed": "motion", "position": "motion"}
-"""Port at which a quantity is given."""
+"""Kind of port that accepts a quantity."""
 UNITS = {"torque": "N m", "speed": "rad/s", "position": "rad"}
 """SI unit of a quantity."""
 
@@ -121,7 +121,7 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
         train: from `dynamics.train.build_train`.
 
     Returns:
-        Limits at input and output: those of the drive, carried to the output by the tooth numbers.
+        Limits at input and output: those of the drive, and these converted by the gear ratio.
     """
     drive, bodies = scene.drive, train.coupling[[MOTOR, LOAD_MACHINE], 0]
     ranges: PortRanges = library(scene).PortRanges(
@@ -133,13 +133,13 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
 
 @dataclass(frozen=True)
 class Commands:
-    """A course of commands: what is given at the ports of a run, over simulated time.
+    """Commands at the ports of a run over simulated time.
 
     With `drive.interpolation = hold`, torques and speeds act from their time on. With `linear`,
-    they are reached at their time along a straight line from what acted before; a value at time 0
+    they are reached at their time along a straight line from the previous value; a value at time 0
     acts at once. A position is reached at its time, at constant speed from the time of the command
-    before it; then the shaft has the speed of the same command, or stops. NaN, like an array that
-    is left out, leaves the port as it is.
+    before it; then the shaft has the speed of the same command, or stops. NaN, or an omitted array,
+    leaves the value at the port unchanged.
 
     Raises:
         ValueError: times do not increase, shapes differ, or a position is given at time 0.
@@ -206,14 +206,14 @@ def _value(value: float) -> float | None:
 
 
 class Action(NamedTuple):
-    """A command of a course that begins to act."""
+    """A command, with the times at which it starts and ends to act."""
 
     begin: int
     """Time from which it acts, in ticks of the clock."""
     end: int
-    """Time at which its positions are reached, and its values along straight lines, in ticks."""
+    """Time at which positions, and values along straight lines, are reached, in ticks."""
     command: Command
-    """What is given."""
+    """Values of the command."""
 
 
 def actions(commands: Commands, linear: bool) -> Iterator[Action]:
@@ -234,7 +234,7 @@ def actions(commands: Commands, linear: bool) -> Iterator[Action]:
 
 
 def _heading_for(following: Command, held: Command) -> Command:
-    """What acts after `held` until `following`, whose positions are reached."""
+    """Values after `held` until `following`, at whose time its positions are reached."""
     change: dict[str, float | None] = {}
     for side in SIDES:
         position = change[f"{side}_position"] = getattr(following, f"{side}_position")
@@ -260,7 +260,7 @@ class CommandLog:
         Args:
             begin: start of the step, in ticks of the clock.
             end: end of the step, in ticks of the clock.
-            command: what was given for it.
+            command: command of the step.
         """
         if self._linear:
             self._add(end, command)

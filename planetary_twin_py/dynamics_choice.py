@@ -74,17 +74,17 @@ class DynamicsChoice:
                 parts.append(f"{name} is not possible: {candidate.refused}")
             elif candidate.error > self.allowed:
                 worst = max(candidate.errors, key=lambda figure: candidate.errors[figure])
-                parts.append(f"{name} has an error of {candidate.error:.2g} ({worst})")
+                parts.append(f"{name} has an error of {_share(candidate.error)} ({_plain(worst)})")
         return "; ".join(parts)
 
     def _kept(self) -> str:
         if self.dynamics == self.reference:
-            return f"no simpler dynamics is within {self.allowed:g} of {self.reference}"
+            return f"no simpler dynamics is within {_share(self.allowed)} of {self.reference}"
         (own,) = (each for each in self.candidates if each.dynamics == self.dynamics)
         worst = max(own.errors, key=lambda figure: own.errors[figure])
         return (
-            f"it is the simplest dynamics within {self.allowed:g} of {self.reference} "
-            f"(largest error {own.error:.2g}, {worst})"
+            f"it is the simplest dynamics within {_share(self.allowed)} of {self.reference} "
+            f"(largest error {_share(own.error)}, {_plain(worst)})"
         )
 
     @property
@@ -163,11 +163,11 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
     begin = time.perf_counter()
     run = start(scene, TOLERANCE)
     run.advance(duration, 1, 1.0, 0)
-    run.take_ledger()
+    run.pop_energy_ledger()
     run.take_mesh_sums(duration)
     before = run.reached
     run.advance(2.0 * duration, 1, 1.0, 0)
-    ledger, sums = run.take_ledger(), run.take_mesh_sums(2.0 * duration)
+    ledger, sums = run.pop_energy_ledger(), run.take_mesh_sums(2.0 * duration)
     spent = time.perf_counter() - begin
     found = mesh_statistics(in_order(sums, mesh_names(scene).place))
     lost = sum(ledger[item] for item in (FRICTION, BEARING, CHURNING))
@@ -207,3 +207,12 @@ def _point(scene: Scene) -> str:
     """Speed and torque of the operating point, as text."""
     point = scene.operating_point
     return f"{point.input_speed * 30.0 / np.pi:.6g} rpm and {point.input_torque:.6g} N m"
+
+
+def _share(error: float) -> str:
+    return f"{100.0 * error:.2g} %"
+
+
+def _plain(figure: str) -> str:
+    """Name of a compared quantity as text: "dte_rms" is "DTE rms"."""
+    return figure.replace("dte", "DTE").replace("_", " ")

@@ -50,8 +50,8 @@ from .step_scale import POINTS, StepScale, new_march
 from .tolerance import check_tolerance
 from .window_jobs import WindowJob, WindowJobs
 
-SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
-WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
+SETTLING = 1.0  # periods of the speed loop until steady running may be recognised
+WATCHED = Fraction(1, 10)  # [s] between two checks of a run against its limits
 LONGEST_UNWATCHED = float(WATCHED)
 
 
@@ -61,9 +61,9 @@ class Engine:
     Args:
         scene: scene to simulate.
         tolerance: local error of a step, relative to the static deflection of the meshes.
-        method: one of METHODS; "march" makes steps by collocation wherever that is fit, else by
-            Rosenbrock's method; "auto" makes none where steady running repeats itself. Where gears
-            creep, every method makes its steps by Rosenbrock's.
+        method: one of METHODS; "march" uses collocation where it is applicable, otherwise
+            Rosenbrock's method; "auto" also repeats periodic motion without computing it. Creeping
+            gears are always integrated by Rosenbrock's method.
 
     Raises:
         ValueError: the tolerance is out of range, or the scene cannot be built.
@@ -118,7 +118,7 @@ class Engine:
                 oil_at,
             )
         load, ports = record_in(self._core, self._loads.build(point)), self.scene.drive.ports
-        if self._given:  # what is given stays, whatever the operating point
+        if self._given:  # values given at ports do not depend on the operating point
             keep_given(self.model.load, load)
         self.model.load, self._given = load, ports.given
         control, scale = self.march.control, self._scale
@@ -174,10 +174,10 @@ class Engine:
     ) -> WindowJobs:
         """Integrate to `until` [ticks]; fill the waveform, and all that is known at its end.
 
-        Yields the parts of the window; each is to be sent its outcome.
+        Yields the parts of the window, and receives the outcome of each by `send`.
 
         Raises:
-            RunawayError: no step leads on, or to what no gearbox can show, see `runaway`.
+            RunawayError: no step is possible, or a limit is exceeded, see `runaway`.
         """
         if self._failure is not None:
             raise self._failure
@@ -199,7 +199,7 @@ class Engine:
         self._watch((yield part_to(goal, out, True)), end)
 
     def _watch(self, outcome: int, end: WindowEnd) -> None:
-        """Stop the run where the core has found no step, or what no gearbox can show."""
+        """Stop the run if the core has found no possible step, or has exceeded a limit."""
         try:
             if outcome == NOT_FINITE:
                 raise ArithmeticError(NO_FINITE_STATE)
@@ -299,7 +299,7 @@ class Engine:
         """Time derivative of the ledger [W] at `reached`."""
         return np.array(self._last.power)
 
-    def take_ledger(self) -> np.ndarray:
+    def pop_energy_ledger(self) -> np.ndarray:
         """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
 
         They restart at zero, so that rounding does not grow with the length of the run.

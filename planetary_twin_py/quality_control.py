@@ -55,9 +55,9 @@ class QualityControl:
     higher sample rate if the load is comfortable. If a setting proves too expensive, the next
     attempt waits twice as long, and the cost of a tolerance is stored, to avoid oscillation.
 
-    Windows that are repeated lead back up to the rung to begin with, no higher: they do not show
-    what a tolerance costs, but a short overload, as of the start of other processes, must not keep
-    the tolerance loose for good.
+    A repeated window does not show the cost of a tolerance, so such windows improve the quality up
+    to the initial setting only. Without this, a short overload, such as the start of other
+    processes, would leave the tolerance loose for the rest of the run.
 
     Args:
         ladder: from `settings_of`.

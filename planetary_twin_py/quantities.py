@@ -102,7 +102,8 @@ MESH = {
     "boundary_friction": Quantity("Boundary friction", "N", "boundary friction of a mesh, mean"),
     "viscous_friction": Quantity("Viscous friction", "N", "viscous friction of a mesh, mean"),
     "power_loss": Quantity(
-        "Tooth friction loss", "W", "tooth friction of all these meshes, mean", over_meshes=np.sum
+        "Tooth friction loss", "W", "tooth friction of all meshes of this kind, mean",
+        over_meshes=np.sum,
     ),
 }  # fmt: skip
 """Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `mesh_statistics`."""
@@ -237,7 +238,7 @@ COURSE = {
         "Time to settle", "s", "time until creeping gears have forgotten their initial state"
     ),
     "reversals": Quantity(
-        "Reversals", description="steps in which vibration stops gears, or slows them much"
+        "Reversals", description="steps in which vibration stops gears, or slows them strongly"
     ),
     "both_flanks": Quantity(
         "Both flanks", description="steps in which both flanks of a tooth touch"

@@ -55,14 +55,19 @@ class Energy:
         return -self.machines[LOAD_MACHINE]
 
     @property
-    def put_in(self) -> float:
+    def driving_work(self) -> float:
         """Work of the driving machines [J]."""
         return sum(max(work, 0.0) for work in self.machines)
 
     @property
+    def put_in(self) -> float:
+        """Deprecated name of `driving_work` [J]."""
+        return self.driving_work
+
+    @property
     def driven(self) -> bool:
-        """Whether the machines put in more than rounding errors, unlike at standstill."""
-        return self.put_in > ROUNDING * self.stored
+        """Whether the driving work exceeds rounding errors, unlike at standstill."""
+        return self.driving_work > ROUNDING * self.stored
 
     @property
     def residual(self) -> float:
@@ -172,7 +177,7 @@ class Result:
 
     @property
     def efficiency(self) -> float:
-        """1 - loss/put_in over `duration`; NaN if no machine drives, as at standstill."""
+        """1 - loss/driving work over `duration`; NaN if no machine drives, as at standstill."""
         if not self.energy.driven:
             return float("nan")
-        return 1.0 - self.energy.loss / self.energy.put_in
+        return 1.0 - self.energy.loss / self.energy.driving_work

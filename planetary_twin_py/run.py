@@ -64,7 +64,7 @@ class Run(Protocol):
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Change operating point and tolerance at `time` [s], the end of the last window."""
 
-    def take_ledger(self) -> np.ndarray:
+    def pop_energy_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since the last call."""
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:

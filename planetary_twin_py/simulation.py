@@ -74,7 +74,7 @@ def simulate(
         tolerance: relative local error tolerance.
         settling: simulated time before the result [s], which excludes the initial transient. The
             times of the result include it.
-        commands: what is given at the ports over time, from the start of settling on; None: the
+        commands: commands at the ports over time, from the start of settling on; None: the
             torques and speeds of the operating point, as at the start.
 
     Returns:
@@ -99,7 +99,7 @@ def simulate(
     begin = time.perf_counter()
     passed, end = (samples_until(t, sample_rate) for t in (settling, settling + duration))
     driven.advance(settling, passed + 1, sample_rate, 0)
-    engine.take_ledger()
+    engine.pop_energy_ledger()
     engine.take_mesh_sums(settling)
     before = _Start(engine.reached, engine.stored(), passed, _turned(engine, settling))
     axes = None
@@ -237,7 +237,7 @@ def _mesh_efficiency(sums: MeshSums) -> tuple[float, float]:
 
 
 def _energy(engine: Run, stored: tuple[float, float]) -> Energy:
-    ledger, now = engine.take_ledger(), engine.stored()
+    ledger, now = engine.pop_energy_ledger(), engine.stored()
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
         kinetic=now[0] - stored[0],

@@ -99,7 +99,7 @@ class Window:
     course: Course
     """Counters from which the accuracy is estimated, see `accuracy`."""
     given: Mapping[str, float]
-    """What was given at the ports from the start of the window on, by arguments of `advance`."""
+    """Commands at the ports from the start of the window on, by arguments of `Twin.advance`."""
     axes: AxesMotion | None
     """Motion of the axes and forces on their bearings; None where the axes are held."""
     members: tuple[int, ...]
@@ -160,9 +160,9 @@ class Window:
     def efficiency(self) -> float:
         """1 - power_loss/power of the driving machines; NaN if no machine drives, as at
         standstill."""
-        put_in = float(np.maximum(self.machine_power, 0.0).sum())
+        driving = float(np.maximum(self.machine_power, 0.0).sum())
         least = ROUNDING * self.stored_energy / (self.end - self.start)
-        return 1.0 - self.power_loss / put_in if put_in > least else math.nan
+        return 1.0 - self.power_loss / driving if driving > least else math.nan
 
 
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:

@@ -1,7 +1,7 @@
 """Windows of runs as jobs for the core: one run alone, or many together in threads.
 
 A window is computed in parts of at most 0.1 s, between which the run is checked and the
-interpreter can be interrupted. `Run.window` yields each part as a job and is sent its outcome.
+interpreter can be interrupted. `Run.window` yields each part as a job, and receives its outcome.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class WindowJob(NamedTuple):
 
 
 WindowJobs = Generator[WindowJob, int, None]
-"""Jobs of a window, each answered by its outcome."""
+"""Yields the jobs of a window, and receives the outcome of each."""
 
 
 def _core_of(job: WindowJob) -> ModuleType:
@@ -53,9 +53,9 @@ def run_alone(jobs: WindowJobs) -> None:
 
 
 def run_together(windows: Sequence[WindowJobs], workers: int) -> dict[int, RunawayError]:
-    """Compute windows of many runs in so many threads.
+    """Compute the windows of many runs in `workers` threads.
 
-    Returns the errors of those that failed, by place.
+    Returns the errors of the runs that failed, by index.
     """
     errors = dict[int, RunawayError]()
     pending = dict[int, WindowJob]()

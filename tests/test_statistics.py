@@ -103,7 +103,7 @@ def test_losses_of_the_meshes_add_up_to_the_energy_ledger(changes):
     for time in (0.01, 0.05):
         engine.advance(time, 1, 1.0, 0)
         engine.advance(engine.reached, 1, 1.0, 0)
-        friction = engine.take_ledger()[FRICTION]
+        friction = engine.pop_energy_ledger()[FRICTION]
         lost = engine.take_mesh_sums(engine.reached).integral[POWER_LOSS]
     copies = engine.train.copies[: len(lost)]
     assert (lost * copies).sum() == pytest.approx(friction, rel=1e-4, abs=1e-12)
@@ -141,7 +141,7 @@ def test_settling_leaves_the_start_out_and_changes_no_sample():
     assert np.array_equal(late.time, whole.time[1500:])
     assert np.array_equal(late.dte, whole.dte[1500:])
     assert late.duration == pytest.approx(0.02, abs=1e-3)
-    assert late.energy.residual == pytest.approx(0.0, abs=1e-3 * late.energy.put_in)
+    assert late.energy.residual == pytest.approx(0.0, abs=1e-3 * late.energy.driving_work)
     for settling in (-0.1, math.inf, math.nan):
         with pytest.raises(ValueError, match=r"^settling = "):
             pt.simulate(PAPER, 0.01, settling=settling)

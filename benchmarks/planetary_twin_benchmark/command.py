@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
-from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail, need
 from planetary_twin_py.terminal.output_files import output_file
 
@@ -84,4 +84,4 @@ def bench(
     if json_ is not None:
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]
         figures = [row.figures() for row in rows] + [row.figures() for row in minutes]
-        put_figures(figures, json_)
+        write_json(figures, json_)

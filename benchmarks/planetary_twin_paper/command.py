@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
-from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail, need
 from planetary_twin_py.terminal.output_files import PICTURES
 
@@ -61,7 +61,7 @@ def paper(
             fail(f"--out = {str(out)!r}: {error.strerror}")
     console.print(_table(found))
     console.print(f"{out}")
-    put_figures(figures(found, evidence), json_)
+    write_json(figures(found, evidence), json_)
 
 
 def _table(entries: list[Entry]) -> Table:

@@ -200,7 +200,7 @@ def run(point: Point) -> Outcome:
         input_power=abs(point.torque * rpm(point.speed)),
         sliding_loss=float(result.total_power_loss[settled].mean()),
         ledger_efficiency=result.efficiency,
-        residual=result.energy.residual / result.energy.put_in,
+        residual=result.energy.residual / result.energy.driving_work,
     )
 
 

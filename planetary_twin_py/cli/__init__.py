@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from typing import Annotated
 
 import typer
 
@@ -32,8 +33,27 @@ def build_app() -> typer.Typer:
         rich_markup_mode=PLAIN,
         pretty_exceptions_enable=False,
     )
-    app.callback()(lambda: None)  # Typer makes a group only if there is a callback
+    app.callback()(_group)
     return app
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(version("planetary_twin_py"))
+        raise typer.Exit
+
+
+def _group(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="Show the version and exit."
+        ),
+    ] = False,
+) -> None:
+    """Options of `planetary-twin` itself; Typer makes a group only if there is a callback."""
 
 
 def main() -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from ..terminal.arguments import JsonOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 
 if TYPE_CHECKING:
     from ..doctor.finding import Finding
@@ -39,7 +39,7 @@ def doctor(
         state = Text(finding.state, colour)
         table.add_row(finding.part, state, Text(finding.details), Text(finding.fix))
     console.print(table)
-    put_figures([_as_figures(finding) for finding in found], json_)
+    write_json([_as_figures(finding) for finding in found], json_)
     if any(finding.state == "broken" for finding in found):
         raise typer.Exit(1)
 

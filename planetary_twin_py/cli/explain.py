@@ -12,7 +12,7 @@ from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.console import print_list
 from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, remark
 from ..terminal.settings import changed_scene, settings
 
@@ -70,7 +70,7 @@ def explain(
     console.print(_limits(loaded))
     for line in found.remarks:
         remark(f"warning: {line}")
-    put_figures(_as_figures(found) | _mesh_figures(meshes), json_)
+    write_json(_as_figures(found) | _mesh_figures(meshes), json_)
 
 
 def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
@@ -155,18 +155,17 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
         caption=f"Within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}, because "
-        f"{found.reason}.\nBearing forces and orbits need axes that move: planar, spatial, "
-        "quasi_static_planar.",
+        f"{found.reason}.\nRun time is computing time per simulated second. Bearing forces and "
+        "orbits need axes that move: planar, spatial, quasi_static_planar.",
     )
     table.add_column("dynamics")
-    for name in (*FIGURES, "computing time per second"):
-        table.add_column(name.replace("_", " "), justify="right")
+    for name in (*FIGURES, "run time \\[s]"):
+        table.add_column(name.replace("_", " ").replace("dte", "DTE"), justify="right")
     for each in found.candidates:
-        if each.refused:
-            table.add_row(each.dynamics, *["-"] * (len(FIGURES) + 1))
+        if each.refused:  # the caption has the reason
             continue
-        errors = (f"{100.0 * each.errors[name]:.3g}" for name in FIGURES)
-        table.add_row(each.dynamics, *errors, f"{each.cost:.3g} s")
+        errors = (f"{100.0 * each.errors[name]:.2f}" for name in FIGURES)
+        table.add_row(each.dynamics, *errors, f"{each.cost:.2g}")
     return table
 
 

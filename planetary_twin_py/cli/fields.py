@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..terminal.arguments import JsonOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail
 
 
@@ -49,4 +49,4 @@ def fields(
         name = f"{field.name} ({kind})" if kind else field.name
         table.add_row(*(text.replace("[", r"\[") for text in (name, *field[1:])))
     console.print(table, highlight=False)
-    put_figures([{"kind": kind, **field._asdict()} for kind, field in found], json_)
+    write_json([{"kind": kind, **field._asdict()} for kind, field in found], json_)

@@ -10,7 +10,7 @@ import typer
 
 from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
 from ..terminal.durations import SECONDS
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import file_ending_in
 from ..terminal.settings import settings
@@ -111,7 +111,7 @@ def fit(  # noqa: PLR0913 - an argument for each option
     _print(console, found)
     for line in warnings:
         remark(f"warning: {line}")
-    put_figures(_figures(found) | {"remarks": warnings}, json_)
+    write_json(_figures(found) | {"remarks": warnings}, json_)
     if report is not None:
         from ..studies.fit.report import report_of_points
 
@@ -136,7 +136,7 @@ def _manoeuvre(
         found, warnings = fit_manoeuvre(console, file, scene, given, (begin, end), span)
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    put_figures(course_figures(found, warnings), out[1])
+    write_json(course_figures(found, warnings), out[1])
     if out[0] is not None:
         from ..studies.fit.report import report_of_course
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
 from ..terminal.output_files import TABLES, file_ending_in
 from ..terminal.settings import changed_scene, settings
@@ -91,7 +91,7 @@ def fleet(
         except (ValueError, OSError) as error:
             fail(f"--out = {str(out)!r}: {error}")
     if json_ is not None:
-        put_figures({one.gearbox: _figures(one) for one in found}, json_)
+        write_json({one.gearbox: _figures(one) for one in found}, json_)
 
 
 @contextmanager

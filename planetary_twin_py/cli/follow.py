@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, note, remark
 from ..terminal.output_files import PICTURES, TABLES, file_ending_in
 from ..terminal.settings import changed_scene, settings
@@ -152,7 +152,7 @@ def follow(  # noqa: PLR0913 - an argument for each option
         except (ValueError, OSError) as error:
             fail(f"--picture = {str(picture)!r}: {error}")
     if json_ is not None:
-        put_figures(state_figures(states[-1]), json_)
+        write_json(state_figures(states[-1]), json_)
 
 
 def _format(sensors: Sensors, encoders: Path | None) -> EncoderFormat | None:

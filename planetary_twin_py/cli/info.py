@@ -9,7 +9,7 @@ import typer
 
 from ..terminal.arguments import FileArgument, JsonOption
 from ..terminal.console import busy
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def info(
         if happened is not None:
             figures["changes"] = [change._asdict() for change in found.changes]
             figures["events"] = [{"namespace": n, **event._asdict()} for n, event in happened]
-        put_figures(figures, json_)
+        write_json(figures, json_)
 
 
 def _events(file: Path, found: Info) -> list[tuple[str, Event]]:

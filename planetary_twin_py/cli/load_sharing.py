@@ -9,7 +9,7 @@ import typer
 
 from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import PICTURES, file_ending_in
 from ..terminal.settings import changed_scene, settings
@@ -65,7 +65,7 @@ def load_sharing(
         except (OSError, ValueError) as error:
             fail(f"--picture = {str(picture)!r}: {error}")
     if json_ is not None:
-        put_figures(_figures(loaded, found), json_)
+        write_json(_figures(loaded, found), json_)
 
 
 def _planets(scene: Scene, found: LoadSharing) -> Table:
@@ -78,16 +78,19 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     planets = scene.gearset.planets
     largest = found.mesh_force.max(axis=0)
     pins = np.linalg.norm(found.planet_bearing, axis=2)
+    rolling = not np.isnan(found.element_load[:, len(CENTRAL) :]).all()
     table = Table(
         title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
         caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
-        "and coast flanks of the sun mesh, on the pin, and on an element of a rolling bearing",
+        "flanks and coast flanks of the sun mesh, on the pin"
+        + ", on an element of a rolling bearing"
+        * rolling,
     )
     for heading in (
         "planet", "share, mean", "smallest", "largest", "drive flank", "coast flank", "pin"
     ):  # fmt: skip
         table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
-    if not np.isnan(found.element_load[:, len(CENTRAL) :]).all():
+    if rolling:
         table.add_column("rolling\nelement", justify="right", no_wrap=True)
     for i in range(planets):
         share, element = found.share[:, i], found.element_load[:, len(CENTRAL) + i].max()

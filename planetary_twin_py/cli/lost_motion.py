@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import PICTURES, file_ending_in
 from ..terminal.settings import changed_scene, settings
@@ -79,7 +79,7 @@ def lost_motion(
         except (OSError, ValueError) as error:
             fail(f"--picture = {str(picture)!r}: {error}")
     if json_ is not None:
-        put_figures(_figures(found), json_)
+        write_json(_figures(found), json_)
 
 
 def _print(console: Console, found: LostMotion, largest: float) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
 from ..terminal.output_files import output_file
 from ..terminal.settings import changed_scene, settings
@@ -82,7 +82,7 @@ def modal(
     if json_ is not None:
         speeds = {"input_speed": speed, "speed_limit": limit}
         resonant = {"resonances": [resonance._asdict() for resonance in found]}
-        put_figures(_frequencies(single, mean) | speeds | resonant, json_)
+        write_json(_frequencies(single, mean) | speeds | resonant, json_)
 
 
 def _speed(text: str, model: str) -> float:

@@ -19,7 +19,7 @@ from ..terminal.arguments import (
 from ..terminal.console import print_list
 from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import check_file, check_recording
 from ..terminal.settings import changed_scene, settings
@@ -106,7 +106,7 @@ def simulate(
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
         remark(f"warning: {line}")
-    put_figures(chosen | train | meshes | axes | {"remarks": warned}, json_)
+    write_json(chosen | train | meshes | axes | {"remarks": warned}, json_)
 
 
 def _check(out: Path) -> None:
@@ -165,7 +165,7 @@ def _train(scene: Scene, result: Result) -> dict[str, float]:
         "mean_mesh_force_N": seen.mesh_force_mean,
         "mesh_force_peak_N": seen.mesh_force_peak,
         "mesh_frequency_Hz": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
-        "energy_residual": energy.residual / energy.put_in if energy.driven else 0.0,
+        "energy_residual": energy.residual / energy.driving_work if energy.driven else 0.0,
         "real_time_factor": result.stats.real_time_factor,
     }
 

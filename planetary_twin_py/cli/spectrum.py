@@ -14,7 +14,7 @@ import typer
 from ..terminal.arguments import JsonOption, SetOption, complete_recording, complete_scene
 from ..terminal.console import busy
 from ..terminal.durations import SECONDS
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import output_file
 from ..terminal.settings import changed_scene, settings
@@ -128,7 +128,7 @@ def spectrum(**given: Any) -> None:
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
     figures |= _figures(asked, signal, found)
     _print(console_beside(asked.json_), figures, subject)
-    put_figures(figures, asked.json_)
+    write_json(figures, asked.json_)
 
 
 # Typer reads the options from the signature.
@@ -147,6 +147,8 @@ def _check(asked: Options) -> None:
     given = (asked.column, asked.speed, asked.sample_rate, asked.scene, asked.set_)
     if asked.is_table:
         need("analysis", "pyarrow")
+        if (asked.mesh, asked.quantity) != (Options.mesh, Options.quantity):
+            fail(f"{asked.file}: --mesh and --quantity are not for tables")
         if asked.order and asked.scene is None and asked.speed is None:
             fail("--order: needs --speed, or --scene, which defines a constant speed")
         if asked.set_ and asked.scene is None:

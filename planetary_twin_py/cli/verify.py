@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
-from ..terminal.json_output import console_beside, put_figures
+from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def verify(
     except (RecordingError, OSError) as error:
         fail(error)
     _print(console, result)
-    put_figures(_figures(result), json_)
+    write_json(_figures(result), json_)
     if not (result.identical if result.same_makers else result.within_bound):
         raise typer.Exit(1)
 

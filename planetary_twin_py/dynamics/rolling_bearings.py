@@ -80,7 +80,7 @@ def largest_element_load(rolling: Rolling, clearance: float, size: np.ndarray) -
 
 
 def press(bearing: RollingBearing, clearance: float, size: np.ndarray) -> np.ndarray:
-    """What a bearing does along its eccentricity.
+    """Energy, force and stiffness of a bearing along its eccentricity.
 
     Args:
         bearing: law of the bearing.

@@ -28,7 +28,9 @@ class MeshFigures(NamedTuple):
     overlap_ratio: float  # of helical teeth
     approach: float  # length of the path of contact up to the pitch point [base pitches]
     recess: float  # and after it
-    tooth_play: float  # by profile shift and centre distance alone, along the line of action [m]
+    geometric_backlash: (
+        float  # by profile shift and centre distance alone, along the line of action [m]
+    )
     tip_clearances: tuple[float, float]  # of the tips of both gears from the mating root [m]
     single_stiffness: float  # of one pair, about the pitch point [N/m]
     mean_stiffness: float  # over the mesh cycle [N/m]
@@ -84,7 +86,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             ),
             approach=paths[kind].approach,
             recess=paths[kind].recess,
-            tooth_play=found[kind].backlash,
+            geometric_backlash=found[kind].backlash,
             tip_clearances=found[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
             mean_stiffness=float(mean[kind]),

@@ -246,8 +246,8 @@ def slot_of(time: float, length: float) -> int:
     """Number of the bin of a time.
 
     Args:
-        time: [s].
-        length: of a bin [s].
+        time: the time [s].
+        length: length of a bin [s].
     """
     return int(np.floor(time / length + 1e-9))
 
@@ -256,8 +256,8 @@ def closed_by(stamp: float, length: float) -> int:
     """Number of the first bin that stays open after a reading.
 
     Args:
-        stamp: of the reading [s].
-        length: of a bin [s].
+        stamp: stamp of the reading [s].
+        length: length of a bin [s].
     """
     return slot_of(stamp - LAG, length)
 

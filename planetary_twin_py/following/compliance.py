@@ -1,4 +1,4 @@
-"""Compliance and play of a gearbox: regression of the mean transmission error on torque and speed.
+"""Compliance and backlash: regression of the mean transmission error on torque and speed.
 
 A delay between the two encoders shifts the error in proportion to the speed, so the speed is a
 regressor, too.

@@ -80,6 +80,6 @@ class EncoderCheck:
 
 
 def _whole(counts: float) -> str:
-    """Counts per turn as far as the check knows them, as a power of two if one is near."""
+    """Counts per turn to the accuracy of the check: a power of two if one is near."""
     power = 2 ** round(np.log2(counts)) if counts >= 1.0 else 0
     return f"{power}" if abs(power - counts) < NEAR * counts else f"about {counts:.3g}"

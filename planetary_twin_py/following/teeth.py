@@ -1,4 +1,4 @@
-"""Estimates changes of teeth from two encoders: cracks, wear, compliance and play."""
+"""Estimates changes of teeth from two encoders: cracks, wear, compliance and backlash."""
 
 from __future__ import annotations
 
@@ -371,7 +371,7 @@ class TeethFollower:
         )
 
     def _forget(self) -> None:
-        """No tooth has changed; teeth named before remain until the window is full."""
+        """Report no changed tooth; teeth found before remain until the window is full."""
         if len(self._recent) >= WINDOWS[2]:
             self.teeth, self._amounts = (), {}
 
@@ -449,7 +449,7 @@ class TeethFollower:
             yield f"encoders: {dropped} hunting periods with gaps or reversals are not used"
 
     def estimates(self) -> tuple[Estimate, ...]:
-        """Compliance, and changes of compliance and play since the baseline."""
+        """Compliance, and changes of compliance and backlash since the baseline."""
         if self._estimates is None:
             self._estimates = self._of_compliance()
         return self._estimates
@@ -463,7 +463,8 @@ class TeethFollower:
             return tuple(
                 not_identifiable(name, math.nan, unit, wait, "LEARNING")
                 for name, unit in (
-                    ("compliance", "rad/(N m)"), ("compliance_change", ""), ("play_change", "m"),
+                    ("compliance", "rad/(N m)"), ("compliance_change", ""),
+                    ("backlash_change", "m"),
                 )
             )  # fmt: skip
         slope, sd = abs(line.slope) * per_input, line.sd * per_input
@@ -474,7 +475,7 @@ class TeethFollower:
         ]
         if both is None or not (both[0].significant and both[1].significant):
             status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
-            names = (("compliance_change", ""), ("play_change", "m"))
+            names = (("compliance_change", ""), ("backlash_change", "m"))
             return (
                 *found,
                 *(not_identifiable(name, math.nan, unit, remedy, status) for name, unit in names),
@@ -486,7 +487,7 @@ class TeethFollower:
         now, here = last.at(*last.centre)
         then, there = first.at(*last.centre)
         found.append(
-            estimated("play_change", 2.0 * (now - then), 2.0 * math.hypot(here, there), "m")
+            estimated("backlash_change", 2.0 * (now - then), 2.0 * math.hypot(here, there), "m")
         )
         return tuple(found)
 

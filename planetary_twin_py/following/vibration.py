@@ -1,17 +1,18 @@
 """Follows vibration: amplitudes at mesh orders and at their sidebands, against a learned baseline.
 
-The path from the teeth to a sensor on a housing is unknown, so amplitudes tell no friction, no
-stiffness and no size of a fault: only that a pattern has grown, and of which gear. A fault of one
-tooth modulates the meshes once per turn of its gear: its sidebands are 1/Z mesh orders apart
-(McFadden 1986, J. Vib. Acoust. 108(2), 165-170). Sidebands that two gears share tell neither of
-them, so those that a gear has alone are used.
+The transfer path from the teeth to a sensor on a housing is unknown. So amplitudes determine no
+friction, no stiffness and no size of a fault, only that a pattern has grown, and of which gear. A
+fault of one tooth modulates the meshes once per turn of its gear: its sidebands are 1/Z mesh orders
+apart (McFadden 1986, J. Vib. Acoust. 108(2), 165-170). Sidebands that two gears share identify
+neither of them, so only those that one gear alone has are used.
 
-Amplitudes are those of a Hann window over one hunting period, in the angle of the input: its speed
-is integrated, and scaled by up to `STRETCH` until the first mesh order is largest, since a sensor's
-gain would shift the lines. They grow with the torque and are divided by it. A growth is reported
-beyond what the remaining difference of torque and speed from those of the baseline explains. Where
-the speed changes faster than it is measured, the harmonics leak into their neighbourhood: what has
-grown beside the sidebands as well is subtracted.
+Amplitudes are those of a Hann window over one hunting period, over the angle of the input. The
+angle is the integral of the measured speed. The gain error of the speed sensor would shift the
+lines, so the speed is scaled, by up to `STRETCH`, to the maximum of the first mesh order.
+Amplitudes grow with the torque and are divided by it. A growth is reported only beyond what the
+remaining difference of torque and speed from those of the baseline explains. Where the speed changes
+faster than it is measured, harmonics leak into their neighbourhood, so what has grown beside the
+sidebands as well is subtracted.
 """
 
 from __future__ import annotations
@@ -36,30 +37,30 @@ from .train import FollowedTrain
 
 Array = NDArray[np.float64]
 
-HARMONICS = 3  # of the mesh
+HARMONICS = 3  # of the mesh frequency
 SIDEBANDS = 2  # on each side of a harmonic, for each gear
 STRETCH = 2e-3  # largest relative error of the measured speed
-STEPS = 21  # of the search within it
-CELL = 0.1  # relative distance of torque and speed within which a baseline holds
+STEPS = 21  # trial values of the scale of the speed within `STRETCH`
+CELL = 0.1  # relative distance of torque and speed within which a baseline applies
 OVER_TORQUE = 1.0  # largest exponent over the torque of an amplitude divided by the torque
 OVER_SPEED = 4.0  # the same over the speed: 2 of an acceleration, the rest of resonances
 WINDOWS = 4, 16  # hunting periods that are judged together
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
-STEADY = 0.02  # relative standard deviation of the speed in a hunting period, likewise
+STEADY = 0.02  # relative standard deviation of the speed, above which it is not used
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
-SLOWEST = 0.05  # of the speed of the scene, below which there is no hunting period
+SLOWEST = 0.05  # share of the speed of the scene, below which the train counts as at rest
 UNKNOWN = "; size of the fault: NOT IDENTIFIABLE, as the path to the sensor is unknown"
 
 
 class Turning(NamedTuple):
-    """Speed and torque over a time."""
+    """Speed and torque over time."""
 
     time: Array
     """Middles of the bins [s], (n,)."""
     speed: Array
-    """Of the input [rad/s], (n,)."""
+    """Speed of the input [rad/s], (n,)."""
     torque: Array
-    """At the input [N m], (n,)."""
+    """Torque of the input [N m], (n,)."""
 
 
 class VibrationSamples(NamedTuple):
@@ -68,11 +69,11 @@ class VibrationSamples(NamedTuple):
     time: Array
     """Stamps [s], (n,)."""
     values: Array
-    """In the units of the channels, (n, channels)."""
+    """Samples in the units of the channels, (n, channels)."""
     names: tuple[str, ...]
-    """Of the channels."""
+    """Names of the channels."""
     period: float
-    """Of the samples [s]."""
+    """Sample period [s]."""
 
 
 class _Line(NamedTuple):
@@ -101,15 +102,16 @@ class _Pattern(NamedTuple):
 
 @dataclass
 class VibrationCounters:
-    """What has become of the samples."""
+    """Numbers of samples and hunting periods that were used, or not used, by reason."""
 
     used: int = 0
+    """Samples that are used."""
     late: int = 0
-    """Before the begin of the present hunting period, doubled, or not a finite number."""
+    """Samples that arrived after their hunting period, occur twice, or are not finite."""
     periods: int = 0
     """Hunting periods that were judged or learned."""
     dropped_periods: int = 0
-    """With holes, at changing speed, or with no torque."""
+    """Hunting periods with missing samples, with a varying speed, or with too little torque."""
 
 
 class _Judged(NamedTuple):
@@ -129,16 +131,16 @@ class _Judged(NamedTuple):
 
 @dataclass
 class _Baseline:
-    """Amplitudes over torque at one torque and speed."""
+    """Amplitudes divided by the torque, at one torque and speed."""
 
     torque: float
     speed: float
     highest: float
-    """Order of the mesh below which the sample rate resolves a line."""
+    """Mesh order below which the sample rate resolves a line."""
     learned: list[_Judged] = field(default_factory=list)
 
     def fields(self) -> dict[str, NDArray[Any]]:
-        """Values from which `of_fields` makes it again."""
+        """Values from which `of_fields` restores the baseline."""
         found = {name: np.array(getattr(self, name)) for name in ("torque", "speed", "highest")}
         return found | {
             name: np.array([getattr(one, name) for one in self.learned])
@@ -164,13 +166,13 @@ class _Baseline:
 
 
 class VibrationFollower:
-    """Learns amplitudes of healthy running, and reports which have grown.
+    """Learns the amplitudes of the healthy gearbox, and reports which have grown.
 
     Args:
-        train: whose meshes are expected.
-        names: of the channels.
-        period: of the samples [s].
-        learning: hunting periods of a baseline, for each torque and speed.
+        train: gear train, which defines the mesh orders.
+        names: names of the channels.
+        period: sample period [s].
+        learning: number of hunting periods of a baseline, for each torque and speed.
     """
 
     def __init__(
@@ -184,10 +186,11 @@ class VibrationFollower:
         self._patterns = tuple(_patterns(train))
         self._beside = 0.5 / max(train.teeth.values())  # of an order: between two sidebands
         self._waiting: list[tuple[Array, Array]] = []
-        self._begin = math.nan  # of the present hunting period [s]
-        self._until = math.nan  # of the last call [s]
+        self._begin = math.nan  # start of the present hunting period [s]
+        self._until = math.nan  # time of the last call of `judge` [s]
         self.learn()
-        # As rare as a z of ALARM, for a standard deviation from `learning` hunting periods.
+        # The standard deviation is known from `learning` hunting periods only, so this is the
+        # quantile of Student's distribution that has the probability of a normal z of ALARM.
         self._limit = -float(stdtrit(learning - 1, ndtr(-ALARM)))
 
     @property
@@ -222,14 +225,14 @@ class VibrationFollower:
         self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: _Baseline | None = None
         self._known: dict[tuple[int, int], tuple[int, _Baseline]] = {}
-        """Place of the event, and where it was found, by channel and pattern."""
+        """Index of the event, and the baseline that showed it, by channel and pattern."""
 
     def add(self, time: Array, values: Array) -> None:
-        """Take samples.
+        """Add samples in the order of their arrival.
 
         Args:
             time: stamps [s], (n,).
-            values: (n, channels).
+            values: samples in the units of the channels, (n, channels).
         """
         there = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
         self.counters.late += int(np.sum(~there))
@@ -240,7 +243,7 @@ class VibrationFollower:
 
         Args:
             until: time up to which the speed is known [s].
-            turning: bins of speed and torque between two times.
+            turning: function of two times [s] that returns speed and torque between them.
         """
         if until == self._until:
             return
@@ -252,7 +255,7 @@ class VibrationFollower:
             course = turning(self._begin, min(until, self._begin + longest))
             end = _end_of(course, self._turn, self._begin)
             if end is None:
-                if until > self._begin + longest:  # it stands still
+                if until > self._begin + longest:  # the train is at rest
                     self._take(until)
                     self._begin = until
                 return
@@ -263,7 +266,7 @@ class VibrationFollower:
             self._judge(span, *self._take(end), course)
 
     def _start(self, course: Turning) -> bool:
-        """Begin with the first sample whose speed is known; return whether there is one."""
+        """Start at the first sample whose speed is known; return whether there is one."""
         firsts = [float(time.min()) for time, _ in self._waiting if len(time)]
         if not (firsts and len(course.time)):
             return False
@@ -272,7 +275,7 @@ class VibrationFollower:
         return True
 
     def _take(self, until: float) -> tuple[Array, Array]:
-        """Samples before a time, in order, each once; the others stay."""
+        """Remove and return the samples before a time, in order, without duplicates."""
         time = np.concatenate([part for part, _ in self._waiting])
         values = np.concatenate([part for _, part in self._waiting])
         order = np.argsort(time, kind="stable")
@@ -315,10 +318,10 @@ class VibrationFollower:
         self._decide(cell, span[1])
 
     def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
-        """Root mean square of the amplitudes of every pattern below an order of the mesh.
+        """Root mean square of the amplitudes of every pattern, (channels, patterns).
 
-        Returns (2, channels, patterns): of the lines, NaN for a pattern without such lines, and
-        beside its sidebands, NaN for a pattern without such.
+        Only lines below the mesh order `highest` are used. Returns (2, channels, patterns): amplitudes
+        of the lines, and beside the sidebands; NaN for a pattern without such lines.
         """
         middle = np.interp(time, course.time, course.speed)
         angle = np.concatenate([[0.0], np.cumsum(0.5 * (middle[1:] + middle[:-1]) * np.diff(time))])
@@ -367,7 +370,7 @@ class VibrationFollower:
         learned = np.array([one.found for one in cell.learned])
         mean, sd = learned.mean(axis=0), learned.std(axis=0, ddof=1)
         for key, (place, where) in self._known.items():
-            if where is cell:  # another baseline may have been learned with what has grown
+            if where is cell:  # another baseline may have been learned after the growth
                 self._measure(place, key, (mean, sd))
         for count in WINDOWS:
             if count > len(self._recent):
@@ -414,7 +417,7 @@ class VibrationFollower:
         self.events[place] = replace(event, size=size, evidence=evidence)
 
     def remarks(self) -> Iterator[str]:
-        """What makes it less certain, a line each."""
+        """Reasons why the results are less certain, one line each."""
         if self._cell is not None and len(self._cell.learned) < self._learning:
             yield (
                 f"vibration: {len(self._cell.learned)} of {self._learning} hunting periods of a "
@@ -446,7 +449,7 @@ def _patterns(train: FollowedTrain) -> Iterator[_Pattern]:
     """Mesh harmonics, and the sidebands of every gear."""
     meshes = range(1, HARMONICS + 1)
     for mesh in meshes:
-        causes = ("wear of all teeth", "another law of the meshes", "the path to the sensor")
+        causes = ("wear of all teeth", "a change of the meshes", "the path to the sensor")
         yield _Pattern(f"mesh harmonic {mesh}", (_Line(mesh, 0, 1),), causes)
     kinds = {name.partition("_")[0]: count for name, count in train.teeth.items()}
     for gear, count in kinds.items():

@@ -1,7 +1,7 @@
-"""Means and largest magnitudes of what axes show in a run, whatever samples of it are kept.
+"""Means and largest magnitudes of the motion of axes in a run, independent of the stored samples.
 
-Bearings have no sums in the integrator, as meshes have, so a run with moving axes is read at a rate
-that resolves its natural modes, and the samples between those that are kept are only summed up.
+The integrator sums meshes, but not bearings. So a run with moving axes is sampled at a rate that
+resolves its natural modes; samples between those that the caller keeps only enter the statistics.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ..integrators.clock import samples_until
 from ..integrators.interpolant import Samples
 from ..scene import Scene
 
-LEAST = 50_000.0  # [Hz] rate at which axes are read
+LEAST = 50_000.0  # [Hz] lowest rate at which axes are sampled
 PER_PERIOD = 16.0  # samples of the fastest mode: peaks are then accurate to 1e-3
 _MOST_AT_ONCE = 20_000  # samples in memory
 
@@ -27,30 +27,30 @@ class AxesStatistics(NamedTuple):
     displacement_mean: np.ndarray
     """Mean displacement [m], (bodies, 2)."""
     displacement_peak: np.ndarray
-    """Largest magnitude [m], (bodies,)."""
+    """Largest displacement [m], (bodies,)."""
     bearing_force_mean: np.ndarray
     """Mean force on the bearing [N], (bodies, 2)."""
     bearing_force_peak: np.ndarray
-    """Largest magnitude [N], (bodies,)."""
+    """Largest force on the bearing [N], (bodies,)."""
     tilting: TiltingStatistics | None
-    """None where axes do not tilt."""
+    """Statistics of axial motion and tilts; None where axes do not tilt."""
 
 
 class TiltingStatistics(NamedTuple):
     """Statistics of axial motion and tilts over a run."""
 
     axial_displacement_mean: np.ndarray
-    """[m], (bodies,)."""
+    """Mean axial displacement [m], (bodies,)."""
     tilt_mean: np.ndarray
-    """About two directions [rad], (bodies, 2)."""
+    """Mean tilt about two directions [rad], (bodies, 2)."""
     axial_force_mean: np.ndarray
-    """Thrust on the bearing [N], (bodies,)."""
+    """Mean thrust on the bearing [N], (bodies,)."""
     axial_force_peak: np.ndarray
-    """Largest magnitude [N], (bodies,)."""
+    """Largest thrust on the bearing [N], (bodies,)."""
     tilting_moment_mean: np.ndarray
-    """About two directions [N m], (bodies, 2)."""
+    """Mean moment on the bearing about two directions [N m], (bodies, 2)."""
     tilting_moment_peak: np.ndarray
-    """Largest magnitude [N m], (bodies,)."""
+    """Largest moment on the bearing [N m], (bodies,)."""
 
 
 class AxesSums:
@@ -106,13 +106,13 @@ def read_axes(
     """Advance a run whose axes move.
 
     Args:
-        run: the run, at the begin of `span`.
+        run: the run, which has reached the start of `span`.
         scene: its scene, whose axes move.
-        span: begin and end [s].
-        sample_rate: of the samples that are kept [Hz].
+        span: start and end [s].
+        sample_rate: sample rate of the returned samples [Hz].
 
     Returns:
-        The samples, and statistics of the time of `span`.
+        The samples, and the statistics over `span`.
     """
     begin, until = span
     needed = max(LEAST, PER_PERIOD * _fastest(scene))
@@ -122,11 +122,11 @@ def read_axes(
     sums, parts = AxesSums(), list[Samples]()
     while done < last:
         count = min(_MOST_AT_ONCE, last - done)
-        # Between two samples, where rounding decides nothing.
+        # End between two samples, so that rounding cannot add or drop one.
         time = until if done + count == last else (done + count + 0.5) / rate
         found = run.advance(time, done + 1, rate, count)
         sums.add(found)
-        first = (-done - 1) % finer  # of those that are kept
+        first = (-done - 1) % finer  # index of the first sample to keep
         parts.append(Samples(*(part[first::finer].copy() for part in found)))
         done += count
     return Samples(*map(np.concatenate, zip(*parts, strict=True))), sums.statistics()

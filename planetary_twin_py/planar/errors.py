@@ -1,7 +1,7 @@
 """Errors of a scene as displacements of toothings and pins.
 
 An eccentric toothing acts as if its gear were displaced by the same vector. Thicker teeth reduce
-the play on both sides of a mesh.
+the backlash on both sides of a mesh.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Displacements(NamedTuple):
     axis: np.ndarray
     """Displacements x, y of the bearings of sun, ring and carrier [m], (P, 3, 2)."""
     closing: np.ndarray
-    """Reduction of the play of each mesh by thicker teeth, on either side [m], (meshes,)."""
+    """Reduction of the backlash of each mesh by thicker teeth, on either side [m], (meshes,)."""
 
 
 def displacements(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> Displacements:

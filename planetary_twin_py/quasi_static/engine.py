@@ -129,7 +129,7 @@ class QuasiStaticEngine:
         """Run to `until` [ticks]; fill the waveform, and all that is known at its end.
 
         Raises:
-            RunawayError: the teeth yield more than they can, see `runaway`.
+            RunawayError: the deflection of the teeth exceeds its limit, see `runaway`.
         """
         time, rows = Fraction(until, TICKS), len(out.time)
         samples, place = self.advance(time, first, rate, rows), report.mesh[: report.meshes]
@@ -163,7 +163,7 @@ class QuasiStaticEngine:
         seconds, rest = divmod(self.reached, 1)
         end.seconds, end.time = seconds, float(rest)
         end.time_rest = float(rest - Fraction(end.time))
-        end.ledger, end.power = self.take_ledger(), self.powers
+        end.ledger, end.power = self.pop_energy_ledger(), self.powers
         end.kinetic, end.elastic = self.stored()
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
@@ -189,7 +189,7 @@ class QuasiStaticEngine:
         self._core.turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
         return state
 
-    def take_ledger(self) -> np.ndarray:
+    def pop_energy_ledger(self) -> np.ndarray:
         """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
 
         They restart at zero, so that rounding does not grow with the length of the run.

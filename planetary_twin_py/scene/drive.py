@@ -55,9 +55,9 @@ class Machine(Section):
     )
     port: Causality = Field(
         "machine",
-        description="what acts on the shaft: machine, with its controller; torque, given from "
-        "outside, from which the speed follows; motion, given from outside, from which the torque "
-        "follows (the inertia is then not part of the train)",
+        description="input at the shaft: machine, a motor or load with its controller; torque, "
+        "given from outside, the speed is a result; motion, given from outside, the torque is a "
+        "result (the inertia is then not part of the train)",
     )
 
 

@@ -42,15 +42,15 @@ class Scene(Section):
         "quasi_static_spatial", "auto",
     ] = Field(
         "torsional",
-        description="torsional: all bodies vibrate about axes that are held; planar: the axes move "
-        "in the plane, too, on the bearings of `supports`; spatial: they move along themselves and "
-        "tilt as well; quasi_static: the train turns rigidly and its loads are in static "
-        "equilibrium at every time, its axes are held; quasi_static_planar and "
-        "quasi_static_spatial: the same with axes that move; auto: the least of these, "
-        "quasi_static_spatial apart, that keeps to `dynamics_error` at the operating point",
+        description="torsional: bodies vibrate in rotation, their axes are held; planar: the axes "
+        "also move in the plane, on the bearings of `supports`; spatial: they also move axially "
+        "and tilt; quasi_static: the train turns rigidly on held axes, with loads in static "
+        "equilibrium at every instant; quasi_static_planar and quasi_static_spatial: the same "
+        "with axes that move; auto: the simplest of these, except quasi_static_spatial, whose "
+        "errors are within `dynamics_error` at the operating point",
     )  # fmt: skip
     dynamics_error: float = quantity(
-        "", "largest relative error of forces, DTE and loss that dynamics: auto may make", 0.02,
+        "", "largest relative error of forces, DTE and loss, for dynamics: auto", 0.02,
         gt=0.0, le=1.0,
     )  # fmt: skip
     gearset: Gearset = Field(description="teeth, dimensions and inertia of the gears")

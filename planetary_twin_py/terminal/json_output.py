@@ -19,7 +19,7 @@ def console_beside(target: str | None) -> Console:
     return make_console(stderr=target == "-")
 
 
-def put_figures(figures: Any, target: str | None) -> None:
+def write_json(figures: Any, target: str | None) -> None:
     """Write `figures` as JSON to the file `target`; "-" is standard output, None writes none."""
     if target is None:
         return

@@ -1,6 +1,7 @@
 """The help of every command shows units, and an example that can be typed."""
 
 import shlex
+from importlib.metadata import version
 
 import pytest
 from typer.core import TyperGroup
@@ -61,3 +62,8 @@ def test_a_run_offers_only_fields_that_it_can_set():
 def test_a_mistyped_command_is_answered_with_a_similar_one():
     done = CliRunner().invoke(APP, ["simulte"])
     assert done.exit_code == 2 and "'simulate'" in done.output
+
+
+def test_the_version_is_that_of_the_package():
+    done = CliRunner().invoke(APP, ["--version"])
+    assert done.exit_code == 0 and done.output.strip() == version("planetary_twin_py")

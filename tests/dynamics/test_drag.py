@@ -23,7 +23,7 @@ def test_balance_closes_with_bearings_and_churning_whatever_is_held(flow):
     run = pt.simulate(scene_of(flow, losses=LOSSES), 0.05, tolerance=1e-5)
     energy = run.energy
     assert energy.bearing > 0.0 and energy.churning > 0.0
-    assert abs(energy.residual) < 1e-6 * energy.put_in
+    assert abs(energy.residual) < 1e-6 * energy.driving_work
     assert run.total_power_loss.mean() == pytest.approx(energy.loss / 0.05, rel=5e-3)
     assert (run.bearing_loss >= 0.0).all() and (run.churning_loss >= 0.0).all()
 
@@ -55,7 +55,7 @@ def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
 
 def test_losses_lower_the_efficiency_by_their_share():
     bare, lossy = (pt.simulate(scene_of(FLOWS[0], **c), 0.1) for c in ({}, {"losses": LOSSES}))
-    more = (lossy.energy.bearing + lossy.energy.churning) / lossy.energy.put_in
+    more = (lossy.energy.bearing + lossy.energy.churning) / lossy.energy.driving_work
     assert bare.efficiency - lossy.efficiency == pytest.approx(more, abs=2e-5)
     assert lossy.mesh_efficiency == pytest.approx(bare.mesh_efficiency, abs=2e-5)
 
@@ -86,7 +86,7 @@ def test_drag_of_a_member_takes_coulomb_and_viscous_torque_times_its_speed(flow,
     assert run.bearing_loss == pytest.approx(expected, rel=1e-6)
     # The ledger is that of whole steps: it ends up to a step behind the last sample.
     assert run.energy.bearing == pytest.approx(0.05 * expected.mean(), rel=5e-3)
-    assert abs(run.energy.residual) < 1e-6 * run.energy.put_in
+    assert abs(run.energy.residual) < 1e-6 * run.energy.driving_work
 
 
 def test_drag_passes_through_standstill_as_bearings_do():
@@ -112,5 +112,5 @@ def test_drag_of_a_light_member_costs_steps_of_its_motion_not_of_the_nanoseconds
     coarse, fine = (pt.simulate(scene, 0.005, tolerance=t) for t in (1e-4, 1e-6))
     assert coarse.stats.steps + coarse.stats.rejected_steps < 3000
     assert coarse.energy.bearing == pytest.approx(fine.energy.bearing, rel=1e-3, abs=1e-12)
-    assert abs(coarse.energy.residual) < 1e-6 * fine.energy.put_in + 1e-15
+    assert abs(coarse.energy.residual) < 1e-6 * fine.energy.driving_work + 1e-15
     assert coarse.mesh["dte_mean"] == pytest.approx(fine.mesh["dte_mean"], rel=1e-3)

@@ -17,7 +17,7 @@ def imbalance(scene, tolerance, method="auto"):
     driven = scene.lubrication.friction_torque == "printed"  # by a sign that puts energy in
     assert energy.friction < 0.0 if driven else energy.friction > 0.0
     assert energy.damping > 0.0 or scene.dynamics == "quasi_static"
-    return abs(energy.residual) / energy.put_in
+    return abs(energy.residual) / energy.driving_work
 
 
 @SCENES

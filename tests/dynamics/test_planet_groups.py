@@ -96,7 +96,7 @@ def assert_equal_results(one, every):
         assert np.array_equal(np.isnan(mine), np.isnan(full))
     for name in ("bearing_loss", "churning_loss"):
         assert getattr(one, name) == pytest.approx(getattr(every, name), rel=TOLERANCE)
-    allowed = 2.0 * TOLERANCE * every.energy.put_in
+    allowed = 2.0 * TOLERANCE * every.energy.driving_work
     # Ledgers end with the last step, which may end a little later in one of the runs.
     longer = every.duration / one.duration
     assert longer == pytest.approx(1.0, abs=1e-3)
@@ -160,7 +160,7 @@ def test_one_planet_of_each_group_rattles_as_all_do(planets):
     assert one.stats.flank_events == every.stats.flank_events > 100
     gap = np.sqrt(np.mean((one.dte - every.dte) ** 2) / np.mean(every.dte**2))
     assert gap < 10.0 * TOLERANCE
-    assert one.energy.residual == pytest.approx(0.0, abs=1e-6 * one.energy.put_in)
+    assert one.energy.residual == pytest.approx(0.0, abs=1e-6 * one.energy.driving_work)
 
 
 def test_windows_show_every_mesh_and_body():

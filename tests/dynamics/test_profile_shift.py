@@ -68,7 +68,7 @@ def test_radii_of_curvature_end_on_the_line_of_action(scene):
 def test_forces_and_energy_of_a_dynamic_run(flow):
     scene = rig(*flow)
     run = pt.simulate(scene, 0.1, tolerance=1e-5)
-    assert abs(run.energy.residual) < 1e-6 * run.energy.put_in
+    assert abs(run.energy.residual) < 1e-6 * run.energy.driving_work
     lossless = pt.simulate(scene.replace(**{"lubrication.friction": False}), 0.1, tolerance=1e-5)
     teeth = scene.gearset.teeth
     torque = {"sun": teeth.sun, "ring": teeth.ring}[flow[1]]

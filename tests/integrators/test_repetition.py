@@ -61,7 +61,7 @@ class Settled:
         self.dte, self.force = samples.mesh[:, DTE], samples.mesh[:, MESH_FORCE]
         ratio = self.engine.train.ratio[: self.engine.train.bodies]
         self.angle = math.tau * samples.turns @ ratio.T + samples.angle
-        self.ledger = self.engine.take_ledger()
+        self.ledger = self.engine.pop_energy_ledger()
         self.gain = sum(self.engine.stored()) - stored
 
 

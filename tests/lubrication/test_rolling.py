@@ -37,7 +37,7 @@ def test_rolling_takes_power_in_both_directions_and_the_balance_closes(speed):
     # Six meshes of 1.5 pairs, some 0.4 N on both flanks at 0.46 m/s each.
     assert 6 * 1.2 * 0.3 * 0.9 * 0.05 < more < 6 * 2.0 * 0.9 * 1.0 * 0.05
     assert with_.total_power_loss.mean() == pytest.approx(with_.energy.friction / 0.05, rel=5e-3)
-    assert abs(with_.energy.residual) < 1e-6 * with_.energy.put_in
+    assert abs(with_.energy.residual) < 1e-6 * with_.energy.driving_work
 
 
 def test_resistance_vanishes_with_the_load_so_that_meeting_flanks_do_not_chatter():

@@ -96,7 +96,7 @@ def test_relief_lowers_the_dynamic_transmission_error_and_keeps_the_ledger():
     swings = []
     for scene in (paper, both):
         run = pt.simulate(scene, 0.2, tolerance=1e-5)
-        assert abs(run.energy.residual) < 1e-6 * run.energy.put_in
+        assert abs(run.energy.residual) < 1e-6 * run.energy.driving_work
         swings.append(run.dte.std(axis=0)[:3].mean())
     assert swings[1] < 0.35 * swings[0]
 

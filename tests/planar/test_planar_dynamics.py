@@ -20,7 +20,7 @@ PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
 
 def imbalance(scene, tolerance, **options):
     energy = simulate(scene, 0.03, tolerance=tolerance, **options).energy
-    return abs(energy.residual) / energy.put_in
+    return abs(energy.residual) / energy.driving_work
 
 
 @pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2], FLOWS[5]], ids=flow_name)

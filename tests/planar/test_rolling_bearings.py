@@ -134,7 +134,7 @@ def rolling(build=planar, flow=FLOWS[0], clearance=0.0, **changes):
 def test_the_energy_of_a_run_balances(build, flow, clearance):
     given = rolling(build, flow, clearance, **{"errors.pin_tangential": [-2e-5, 0.0, 0.0]})
     energy = simulate(given, 0.03, tolerance=1e-5).energy
-    assert abs(energy.residual) < 1e-6 * energy.put_in
+    assert abs(energy.residual) < 1e-6 * energy.driving_work
 
 
 @pytest.mark.parametrize("clearance", [0.0, 1e-5])

@@ -58,7 +58,7 @@ def test_energy_balances_with_weight(flow, uneven):
     angles = {"gearset.planet_angles": evenly(5)[:3]} if uneven else {}
     scene = planar(flow, {"sun": 0.0 if uneven else 1e8}, **HEAVY, **angles)
     energy = simulate(scene, 0.05, tolerance=1e-5).energy
-    assert abs(energy.residual) < 1e-6 * energy.put_in
+    assert abs(energy.residual) < 1e-6 * energy.driving_work
 
 
 def test_the_ledger_counts_the_height_of_uneven_planets():

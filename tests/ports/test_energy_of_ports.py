@@ -62,7 +62,7 @@ def test_work_at_a_port_is_the_integral_of_torque_times_speed():
     def ledger(torque):
         """What was booked until now, where a command ends the last step."""
         twin._engine.give(twin._ticks, twin._ticks, Command(output_torque=torque))
-        return twin._engine.take_ledger()[:2]
+        return twin._engine.pop_energy_ledger()[:2]
 
     def powers(shown):
         return np.array(

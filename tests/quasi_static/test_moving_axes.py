@@ -21,7 +21,7 @@ PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
 
 def imbalance(given, duration=0.02, **options):
     energy = simulate(given, duration, **options).energy
-    return abs(energy.residual) / energy.put_in
+    return abs(energy.residual) / energy.driving_work
 
 
 @ALL_FLOWS

@@ -28,7 +28,7 @@ WEAR = {"faults": [{"kind": "wear", "gear": "sun", "tooth": 7, "depth": "4 um"}]
 
 
 def closes(energy):
-    return abs(energy.residual) <= 1e-12 * energy.put_in
+    return abs(energy.residual) <= 1e-12 * energy.driving_work
 
 
 @ALL_FLOWS
@@ -138,12 +138,12 @@ def test_a_thousand_hours_change_no_sample_and_no_power(changes):
 def test_the_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
     second, hours = start(PAPER, 1e-4), start(PAPER, 1e-4)
     for engine, time in ((second, 1), (hours, 3600 * HOURS)):
-        engine.take_ledger()
+        engine.pop_energy_ledger()
         engine.advance(Fraction(time), 1, 1.0, 0)
         assert engine.reached == time
-    one, all_ = second.take_ledger(), hours.take_ledger()
+    one, all_ = second.pop_energy_ledger(), hours.pop_energy_ledger()
     assert all_ == pytest.approx(one * 3600 * HOURS, rel=1e-12)
-    assert not second.take_ledger().any() and not hours.take_ledger().any()
+    assert not second.pop_energy_ledger().any() and not hours.pop_energy_ledger().any()
 
 
 def test_speed_follows_the_slewed_set_point_and_inertia_takes_its_work():
@@ -185,7 +185,7 @@ def test_windows_change_nothing(changes):
         for n in range(windows):
             until, room = Fraction(str(window)) * (n + 1), round(window * rate)
             parts.append(engine.advance(until, n * room + 1, rate, room).mesh)
-            taken.append(engine.take_ledger())
+            taken.append(engine.pop_energy_ledger())
         ends.append((np.vstack(parts), [math.fsum(column) for column in zip(*taken, strict=True)]))
     for mesh, ledger in ends[1:]:
         assert np.array_equal(mesh, ends[0][0], equal_nan=True)

@@ -36,8 +36,8 @@ def test_samples_and_ledger_agree_or_the_coupling_is_refused_by_name(flow, stiff
         assert stiffness < 1e3
         return
     energy = run.energy
-    assert abs(energy.residual) < 1e-12 * energy.put_in
-    assert abs(run.total_power_loss.mean() * 0.05 - energy.loss) < 1e-6 * energy.put_in
+    assert abs(energy.residual) < 1e-12 * energy.driving_work
+    assert abs(run.total_power_loss.mean() * 0.05 - energy.loss) < 1e-6 * energy.driving_work
 
 
 def torques(flow, stiffness, backwards):

@@ -41,7 +41,7 @@ def test_without_damping_and_friction_no_energy_is_lost():
     assert run.energy.damping == run.energy.friction == run.energy.loss == 0.0
     swung = run.energy.kinetic + run.energy.elastic
     kept = run.energy.input - run.energy.output
-    assert kept == pytest.approx(swung, abs=1e-5 * run.energy.put_in)
+    assert kept == pytest.approx(swung, abs=1e-5 * run.energy.driving_work)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])

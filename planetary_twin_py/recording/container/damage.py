@@ -72,8 +72,9 @@ class Damages:
 
     def _line(self, gap: _Gap) -> str:
         last = gap.losses[-1]
-        if last.end == self._size and last.opcode == 0:
-            return self._truncated(gap)
+        # A recorder that is still writing has made the file longer since its size was read.
+        if last.end >= self._size and last.opcode == 0:
+            return self._truncated(gap, last.end)
         begin = gap.losses[0].place
         size = sum(lost.end - lost.place for lost in gap.losses)
         return (
@@ -81,14 +82,14 @@ class Damages:
             f"are skipped ({_contents(gap)}; {type(gap.losses[0].reason).__name__})"
         )
 
-    def _truncated(self, gap: _Gap) -> str:
+    def _truncated(self, gap: _Gap, size: int) -> str:
         begin = gap.losses[0].place
         before = "everything before is intact" if len(self._gaps) == 1 else ""
-        if begin == self._size:
-            found = "has no end record, the recorder was killed"
+        if begin == size:
+            found = "has no end record: the recorder is still writing, or was killed"
         else:
             found = (
-                f"is truncated, the last {self._size - begin} of {self._size} bytes are unreadable "
+                f"is truncated, the last {size - begin} of {size} bytes are unreadable "
                 f"({type(gap.losses[0].reason).__name__})"
             )
         return f"{self._file.name}: {'; '.join(filter(None, (found, before)))}"

@@ -1,4 +1,4 @@
-"""What is given at the ports of a twin, in messages of type JointState."""
+"""Commands at the ports of a twin as messages of type JointState."""
 
 from __future__ import annotations
 

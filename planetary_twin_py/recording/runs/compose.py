@@ -113,7 +113,7 @@ class Composer:
         self._bag.write(self._channels[topic], data, sent, sent, number)
 
     def _given(self, window: Window) -> Row:
-        """Fields of what was given in a window."""
+        """Fields of the commands at the ports in a window."""
         input_joint, output_joint = (f"{window.bodies[at]}_joint" for at in window.members[:2])
         found = fields_of(window.given, (input_joint, output_joint))
         return found | {field: np.array(found[field], dtype=float) for field in FIELDS}

@@ -56,7 +56,7 @@ class RecordedRun:
     intervals: list[Interval] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
     given: dict[int, dict[str, float]] = field(default_factory=dict)
-    """What was given at the ports in an interval, by its stamp [ns]."""
+    """Commands at the ports in an interval, by its stamp [ns]."""
 
 
 def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRun]:

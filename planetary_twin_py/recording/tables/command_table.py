@@ -1,4 +1,4 @@
-"""Reads a table of commands at the ports: a time in each row, and columns of what is given."""
+"""Reads a table of commands at the ports: a time in each row, and a column for each quantity."""
 
 from __future__ import annotations
 

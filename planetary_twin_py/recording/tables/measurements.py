@@ -16,7 +16,7 @@ from pyarrow import csv, parquet
 
 from ...printable import one_line
 from ...scene.names import did_you_mean
-from ...units import LARGEST, column_to_si
+from ...units import LARGEST, column_to_si, is_number
 from .mat_file import MatError, read_mat
 from .suffixes import SUFFIXES
 from .unpacking import check_unpacked
@@ -168,7 +168,10 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
     stream.seek(0)
     heading, body = re.split(r"[\r\n]|$", text, maxsplit=1)
     separator = max(";\t,", key=heading.count)
-    _check_columns(heading.count(separator) + 1)
+    names = heading.split(separator)
+    _check_columns(len(names))
+    if all(is_number(name) for name in names):
+        raise ValueError("row 1: must have the headings of the columns, such as time [s]")
     commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
     decimal = "," if commas else "."
     return csv.read_csv(

@@ -16,11 +16,11 @@ class Sensor(NamedTuple):
 
     name: str
     unit: str
-    """As in the heading of the column; "-" if it has none."""
+    """Unit in the heading of the column; "-" if it has none."""
     time: Array
-    """[s], (n,)."""
+    """Sample times [s], (n,)."""
     samples: Array
-    """[unit], (n,)."""
+    """Samples in `unit`, (n,)."""
     speed: Array | None
     """Measured speed of a shaft [rad/s], (n,); None without a column of it."""
 
@@ -31,9 +31,9 @@ def read_sensor(
     """Read a column of a CSV, Parquet or MAT file; headings are names, or names with units.
 
     Args:
-        path: of the file.
+        path: path of the file.
         column: name of the column; None if the table has one column besides time and speed.
-        sample_rate: [Hz], in place of a column `time`.
+        sample_rate: sample rate [Hz], in place of a column `time`.
         speed: name of the column with the measured speed of a shaft; None if there is none.
 
     Returns:
@@ -58,7 +58,10 @@ def read_sensor(
         time = found[TIME[0]].in_si(TIME[0], "s")
         begin, step = float(time[0]) if len(time) else 0.0, time_step(time)
     else:
-        raise ValueError(f"{path}: column {TIME[0]!r}: missing; add it or give --sample-rate")
+        raise ValueError(
+            f"{path}: column {TIME[0]!r}: missing; rename the column of times, or give "
+            f"--sample-rate; columns: {_listed(names)}"
+        )
     stamps = begin + step * np.arange(len(samples), dtype=float)
     measured = None
     if turning is not None:
@@ -80,8 +83,11 @@ def _chosen(path: Path, option: str, column: str | None, names: list[str]) -> st
         return own
     if column is None and len(names) == 1:
         return names[0]
-    listed = one_line(", ".join(names), 400) or "none besides the time"
     given = (
         f"choose one with {option}" if column is None else f"{option} = {column!r}: no such column"
     )
-    raise ValueError(f"{path}: {given}; columns: {listed}")
+    raise ValueError(f"{path}: {given}; columns: {_listed(names)}")
+
+
+def _listed(names: list[str]) -> str:
+    return one_line(", ".join(names), 400) or "none besides the time"

@@ -1,3 +1,3 @@
-"""File suffixes of the tables that can be read; known without the packages that read them."""
+"""File suffixes of readable tables; importing them does not import the packages for reading."""
 
 SUFFIXES = (".csv", ".parquet", ".mat")

@@ -6,12 +6,15 @@ import struct
 
 import numpy as np
 import pytest
+from mcap.exceptions import EndOfFile
 from synthetic_recording import START_NS
 from twin_recording import NAMESPACE
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.container.damage import Damages
 from planetary_twin_py.recording.container.integrity import MAGIC
 from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.container.walk import Lost
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.definitions import topics_of
 from planetary_twin_py.recording.ros2.recover import recover
@@ -154,3 +157,16 @@ def test_a_recording_that_verify_calls_identical_is_complete(sound, tmp_path):
             assert not verify(file, NAMESPACE).identical, name
         except RecordingError as refusal:
             assert "\n" not in str(refusal)
+
+
+def test_a_file_that_grows_while_it_is_read_is_still_being_written(tmp_path):
+    file = tmp_path / "growing.mcap"
+    file.write_bytes(MAGIC)
+    found = Damages(file)
+    file.write_bytes(MAGIC + bytes(10))
+    grown = file.stat().st_size
+    found.lose(Lost(grown, grown, 0, EndOfFile()))
+    assert found.remarks() == [
+        "growing.mcap: has no end record: the recorder is still writing, or was killed; "
+        "everything before is intact"
+    ]

@@ -12,7 +12,7 @@ import typer
 from planetary_twin_py.terminal.arguments import JsonOption, SceneArgument
 from planetary_twin_py.terminal.durations import SECONDS
 from planetary_twin_py.terminal.interrupts import interrupt
-from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail, need, remark
 from planetary_twin_py.terminal.settings import changed_scene, settings
 
@@ -130,7 +130,7 @@ def _run(
     console = console_beside(target)
     outcome = run_session(plan, console)
     print_outcome(console, outcome)
-    put_figures(outcome.figures(), target)
+    write_json(outcome.figures(), target)
     if losses := outcome.losses():
         counts = ", ".join(f"{count} of {topic}" for topic, count in losses.items())
         raise RuntimeError(f"{outcome.files[0].parent}: messages are lost: {counts}")
@@ -160,7 +160,7 @@ def _follow_plant(
     except RuntimeError as failure:
         fail(failure, 1)
     print_followed(console, followed)
-    put_figures(followed.figures(), target)
+    write_json(followed.figures(), target)
 
 
 def _plant_plan(

@@ -179,7 +179,7 @@ class LiveFollower:
         self._reader = MessageReader(self._options.joints, self._options.scale)
         self._portions = Portions(self._options.period)
         self._newest = -math.inf  # stamp of the newest estimate, reported or not [s]
-        self._due = -math.inf  # stamp of the next one to say [s]
+        self._due = -math.inf  # stamp of the next one to report [s]
         self._jumps = JumpWatch()
         self._refusal = ""
         self._stale = True  # there is no estimate that could become stale
@@ -248,7 +248,7 @@ class LiveFollower:
             self._audience.refused(self._refusal)
 
     def _report_what_is_new(self) -> None:
-        """Say an estimate whenever stamps have grown by the period of publishing."""
+        """Report an estimate whenever the stamps have advanced by the publishing period."""
         now = self._follower.time
         if not now > self._newest:
             return

@@ -121,7 +121,7 @@ class Intake:
         """
         Names of the topics of one sensor that have several publishers.
 
-        Messages do not tell them apart. Joints have names, and may come from several.
+        Messages do not identify their publisher. Joints have names, so several may publish them.
         """
         return [
             inlet.name

@@ -19,7 +19,7 @@ from planetary_twin_py.recording.ros2.topics import status_name
 
 COMMANDS = "simulation: commands"
 SILENCE = ("hold", "zero", "brake")
-"""What acts if no command arrives: the last one, nothing, or a brake on the input shaft."""
+"""Reaction to missing commands: hold the last one, remove it, or brake the input shaft."""
 _QUANTITIES = {"machine": (), "torque": ("torque",), "motion": ("speed", "position")}  # by port
 _TURN = 2.0 * math.pi
 _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
@@ -56,12 +56,12 @@ def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
 
 class ShaftCommands:
     """
-    Receives commands and hands the newest one of each joint to the thread of the twin.
+    Receives commands and passes the newest one of each joint to the thread of the twin.
 
-    Joints are independent of one another, so each can have a client of its own. A stamped command
-    has no effect if it is not newer than the last one of its joint, older than the timeout, or
-    more than a second ahead. One without a stamp acts in the order of arrival. `now` returns the
-    time of the stamps [ns].
+    Joints are independent of one another, so each can have its own client. A stamped command has
+    no effect if it is not newer than the last one of its joint, older than the timeout, or more
+    than a second ahead. A command without a stamp acts in the order of arrival. `now` returns the
+    ROS time of the stamps [ns].
     """
 
     def __init__(self, given: Given, now: Callable[[], int]) -> None:
@@ -139,9 +139,10 @@ class ShaftCommands:
 
     def given(self, twin: Twin, interval: float) -> dict[str, float]:
         """
-        Return what is given from the present time of `twin` on, as arguments of `Twin.advance`.
+        Return the commands from the present time of `twin` on, as arguments of `Twin.advance`.
 
-        `interval` [s] is that of a running twin; a step of a paused one, 0, has no silence.
+        `interval` [s] is that of a running twin. It is 0 for a step of a paused twin, in which
+        commands cannot be missing.
         """
         with self._lock:
             received, self._values = self._values, {}
@@ -159,7 +160,7 @@ class ShaftCommands:
         return given | _present(twin, given) if released else given
 
     def _taken(self, values: dict[str, float], twin: Twin) -> dict[str, float]:
-        """Return those `values` that the ports take; count joints of which none is taken."""
+        """Return those `values` that the ports accept; count joints without an accepted value."""
         taken = for_ports(values, twin)
         for side, joint, port in zip(SIDES, self.joints, twin.ports, strict=True):
             given, used = (any(name.startswith(side) for name in each) for each in (values, taken))
@@ -170,7 +171,7 @@ class ShaftCommands:
 
 
 def _present(twin: Twin, given: dict[str, float]) -> dict[str, float]:
-    """Return what acts at the ports for which nothing is `given`, so that it is recorded."""
+    """Return the present values at ports without a `given` value, so that they are recorded."""
     left = [side for side in SIDES if not any(name.startswith(side) for name in given)]
     shown = twin.port_states
     names = (f"{side}_{quantity}" for side in left for quantity in ("torque", "speed"))
@@ -197,7 +198,7 @@ class _Brake:
         return for_ports({"input_speed": slower, "output_torque": 0.0}, twin)
 
     def release(self, twin: Twin) -> bool:
-        """Let the ports be as they were; return whether they change."""
+        """Restore the ports from before the brake; return whether they change."""
         before, self._before = self._before, None
         if before is None or before == twin.ports:
             return False
@@ -206,5 +207,5 @@ class _Brake:
 
 
 def _braked(port: str) -> str:
-    """Return the causality of the output while the input is at rest: nothing drives it."""
+    """Return the port of the output while the input is braked: a torque, which is zero."""
     return "torque" if port == "motion" else port

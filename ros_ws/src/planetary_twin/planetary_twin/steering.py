@@ -110,7 +110,7 @@ def op(
     with _twin(namespace) as twin:
         instant = twin.operate(typed, ramp)
         _say_units(typed)
-        print(f"{', '.join(typed)} from {instant:g} s")
+        print(f"{', '.join(typed)} from {instant:g} s of simulated time on")
 
 
 def _say_units(typed: Mapping[str, str]) -> None:

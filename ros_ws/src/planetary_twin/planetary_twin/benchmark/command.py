@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
-from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail
 
 
@@ -41,6 +41,6 @@ def bench_live(
         if markdown is not None:
             command = f"planetary-twin bench-live --duration {duration:g} --memory {memory:g}"
             markdown.write_text(as_markdown(figures, command), "utf-8")
-        put_figures(as_json(figures), json_)
+        write_json(as_json(figures), json_)
     except (RuntimeError, ValueError, OSError) as reason:
         fail(reason, 1)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
-from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def bench_recorder(
         with console.status("starting") as status:
             found = measure(duration, directory, status.update)
         console.print(_table(found))
-        put_figures([_plain(row) for row in found], json_)
+        write_json([_plain(row) for row in found], json_)
     except (RuntimeError, ValueError, OSError) as reason:
         fail(reason, 1)
 
