@@ -10,9 +10,9 @@ Amplitudes are those of a Hann window over one hunting period, over the angle of
 angle is the integral of the measured speed. The gain error of the speed sensor would shift the
 lines, so the speed is scaled, by up to `STRETCH`, to the maximum of the first mesh order.
 Amplitudes grow with the torque and are divided by it. A growth is reported only beyond what the
-remaining difference of torque and speed from those of the baseline explains. Where the speed changes
-faster than it is measured, harmonics leak into their neighbourhood, so what has grown beside the
-sidebands as well is subtracted.
+remaining difference of torque and speed from those of the baseline explains. Where the speed
+changes faster than it is measured, harmonics leak into their neighbourhood, so what has grown
+beside the sidebands as well is subtracted.
 """
 
 from __future__ import annotations
@@ -320,8 +320,8 @@ class VibrationFollower:
     def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
         """Root mean square of the amplitudes of every pattern, (channels, patterns).
 
-        Only lines below the mesh order `highest` are used. Returns (2, channels, patterns): amplitudes
-        of the lines, and beside the sidebands; NaN for a pattern without such lines.
+        Only lines below the mesh order `highest` are used. Returns (2, channels, patterns):
+        amplitudes of the lines, and beside the sidebands; NaN for a pattern without such lines.
         """
         middle = np.interp(time, course.time, course.speed)
         angle = np.concatenate([[0.0], np.cumsum(0.5 * (middle[1:] + middle[:-1]) * np.diff(time))])
