@@ -11,6 +11,8 @@ import signal
 from importlib import import_module
 from types import FrameType
 
+from .blas import use_one_thread
+
 
 def simulation() -> int:
     """Run the simulation node."""
@@ -45,6 +47,7 @@ def twin() -> int:
 def _run(name: str) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _exit)  # until `run_node` installs its handlers
+    use_one_thread(os.environ)
     return int(import_module(f".{name}", __package__).main())
 
 

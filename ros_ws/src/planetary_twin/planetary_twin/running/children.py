@@ -13,6 +13,8 @@ from collections.abc import Mapping
 from types import TracebackType
 from typing import Self
 
+from ..blas import use_one_thread
+
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 _PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [s]
 
@@ -39,9 +41,12 @@ class Child:
         command += ["-r", f"__ns:={namespace}"]
         for name, value in parameters.items():
             command += ["-p", f"{name}:={value}"]
+        environment = dict(os.environ)
+        use_one_thread(environment)
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 (closed with the child)
         self._process = subprocess.Popen(
             command,
+            env=environment,
             stdin=subprocess.DEVNULL,
             stdout=self._log,
             stderr=self._log,
