@@ -263,12 +263,12 @@ class Engine:
             raise self._failure
         if self.scene.mesh.damping.follows_speed:
             self._speed_loop.check(point)
-        self._cut(time)
+        self.end_step(time)
         self.tolerance = tolerance
         self._load(point)
 
-    def _cut(self, time: float | Fraction) -> None:
-        """End the last step at `time` [s], the end of the last window."""
+    def end_step(self, time: float | Fraction) -> None:
+        """End the last step at `time` [s], the end of the last window, and the ledger with it."""
         self._core.cut(self.model, self.march, instant(time))
         clear(self.march.sums.total)
         self.march.sums.taken = self.march.control.step  # what lies before `time`

@@ -64,6 +64,9 @@ class Run(Protocol):
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Change operating point and tolerance at `time` [s], the end of the last window."""
 
+    def end_step(self, time: float | Fraction) -> None:
+        """Let the ledger end at `time` [s], the end of the last window."""
+
     def pop_energy_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since the last call."""
 

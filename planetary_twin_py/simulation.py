@@ -110,6 +110,8 @@ def simulate(
     wall = time.perf_counter() - begin
     speed = (_turned(engine, settling + duration) - before.turned) / duration
     sums = engine.take_mesh_sums(settling + duration)
+    if before.reached == 0:  # else both ends lie a part of a step late, as far as one another
+        engine.end_step(settling + duration)
     result = _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
     if result.axes is not None and axes is not None:
         result = replace(result, axes=replace(result.axes, statistics=axes))

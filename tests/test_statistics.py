@@ -145,3 +145,12 @@ def test_settling_leaves_the_start_out_and_changes_no_sample():
     for settling in (-0.1, math.inf, math.nan):
         with pytest.raises(ValueError, match=r"^settling = "):
             pt.simulate(PAPER, 0.01, settling=settling)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_the_mean_loss_of_a_short_run_covers_the_time_that_was_asked_for(tolerance):
+    """While the speed rises, the loss of a further part of a step would show."""
+    scene = pt.load_scene("run_up")
+    run, exact = (pt.simulate(scene, 0.02, tolerance=each) for each in (tolerance, 1e-7))
+    assert run.duration == 0.02
+    assert run.mean_power_loss == pytest.approx(exact.mean_power_loss, rel=1e-4)

@@ -189,6 +189,9 @@ class QuasiStaticEngine:
         self._core.turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
         return state
 
+    def end_step(self, time: float | Fraction) -> None:
+        """Do nothing: the ledger ends with the window."""
+
     def pop_energy_ledger(self) -> np.ndarray:
         """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
 
