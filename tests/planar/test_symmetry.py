@@ -66,7 +66,8 @@ def test_a_mirrored_set_shares_its_static_load_in_the_mirror(flow, weight):
 @FIRST_SET
 def test_a_mirrored_set_moves_in_the_mirror(flow, weight):
     scene = uneven(flow, weight)
-    runs = [simulate(each, 0.02, settling=SETTLED) for each in (scene, mirrored(scene))]
+    # Losses cover up to a step more or less at each end, which is little of so long a run.
+    runs = [simulate(each, 0.1, settling=SETTLED) for each in (scene, mirrored(scene))]
     one, other = (run.mesh for run in runs)
     assert other["mesh_force_mean"] == pytest.approx(-one["mesh_force_mean"], rel=1e-4)
     assert other["dte_mean"] == pytest.approx(-one["dte_mean"], rel=1e-4)
