@@ -1,5 +1,7 @@
 """Runs of less than a mesh cycle, and at another speed than asked for, are reported."""
 
+import re
+
 import pytest
 
 import planetary_twin_py as pt
@@ -12,7 +14,9 @@ PAPER = pt.load_scene("paper")  # 30 teeth of the sun, carrier held: 500 Hz at 1
 def test_less_than_a_mesh_cycle_is_reported_with_the_time_of_one(dynamics):
     scene = PAPER.replace(input_speed=pt.rpm(1000.0), dynamics=dynamics)
     (line,) = turning_warnings(scene, pt.simulate(scene, 0.001))
-    assert "covers 0.5 of a mesh cycle" in line and "takes 0.002 s" in line
+    (covered,) = re.findall(r"covers ([\d.]+) of a mesh cycle", line)
+    assert float(covered) == pytest.approx(0.5, rel=0.03)  # vibration changes the mean speed
+    assert "takes 0.002 s" in line
     assert list(turning_warnings(scene, pt.simulate(scene, 0.004))) == []
 
 
