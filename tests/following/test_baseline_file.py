@@ -139,6 +139,7 @@ def test_a_baseline_of_vibration_detects_sidebands_that_grew_before_the_start(tm
     assert vibrating(8.0, third, 0.0) == []
 
 
+@pytest.mark.exhaustive
 def test_the_command_saves_and_uses_a_baseline(tmp_path):
     (tmp_path / "hidden.yaml").write_text("sensors: {vibration: {rate: 2 kHz, noise: 0.1}}\n")
     (tmp_path / "sensors.yaml").write_text("learning: 8\n")

@@ -64,8 +64,9 @@ def errors(scene, begin, duration, tolerances):
     "flow, changes",
     [
         pytest.param(FLOWS[0], {}, marks=pytest.mark.exhaustive),
-        (FLOWS[0], {"errors.pin_tangential": [-2e-5, 0.0, 0.0], "supports.sun.bearing": 0.0,
-                    "backlash": 2e-7}),
+        pytest.param(FLOWS[0], {"errors.pin_tangential": [-2e-5, 0.0, 0.0],
+                                "supports.sun.bearing": 0.0, "backlash": 2e-7},
+                     marks=pytest.mark.exhaustive),
         (FLOWS[2], {"errors.pin_tangential": [-2e-5, 1e-5, 0.0]}),
     ],
     ids=["held carrier", "both flanks", "turning carrier"],

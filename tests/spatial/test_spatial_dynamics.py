@@ -45,6 +45,7 @@ def test_the_other_hand_mirrors_what_is_along_the_axes(held):
         assert np.abs(one).max() > 0.0
 
 
+@pytest.mark.exhaustive
 def test_stiff_bearings_give_the_torsional_transmission_error():
     stiff = {f"supports.{body}.tilting": 1e13 for body in BODIES}
     stiff |= {f"supports.{body}.axial": 1e12 for body in BODIES}
