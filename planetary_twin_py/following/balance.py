@@ -372,8 +372,8 @@ class BalanceFollower:
             )
         if self._cusum.held:
             yield (
-                f"successive innovations correlate by {self._cusum.correlation:.2f}: steps of the "
-                "loss are not reported"
+                f"successive innovations correlate by {self._cusum.correlation:.2f}: further "
+                "steps of the loss are not reported"
             )
         level = self._parameter(F)
         if level.high < 0.0:
