@@ -16,6 +16,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+from ..recording.tables.unpacking import UnpackedTooLargeError, check_unpacked
 from ..scene import Scene
 
 VERSION = 1
@@ -26,9 +27,9 @@ class TeethBaseline(NamedTuple):
     """Baselines of the teeth."""
 
     counts_per_turn: tuple[int, int]
-    """Of both encoders."""
+    """Counts per turn of the input and the output encoder."""
     period: float
-    """Of the samples [s]."""
+    """Sample period [s]."""
     cells: tuple[dict[str, NDArray[Any]], ...]
     """Fields of each learned `Baseline`."""
     blocks: NDArray[np.float64]
@@ -40,9 +41,9 @@ class VibrationBaseline(NamedTuple):
     """Baselines of the vibration."""
 
     names: tuple[str, ...]
-    """Of the channels."""
+    """Names of the channels."""
     period: float
-    """Of the samples [s]."""
+    """Sample period [s]."""
     cells: tuple[dict[str, NDArray[Any]], ...]
     """Fields of each learned baseline."""
 
@@ -103,10 +104,14 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
     """
     try:
         with np.load(path, allow_pickle=False) as archive:
+            members = archive.zip.infolist()
+            check_unpacked(path.stat().st_size, sum(member.file_size for member in members))
             found = {name: archive[name] for name in archive.files}
         about = json.loads(str(found[ABOUT]))
         version, digest = about["version"], about["scene"]
-    except (ValueError, KeyError, TypeError, EOFError, BadZipFile) as reason:
+    except UnpackedTooLargeError as reason:
+        raise ValueError(f"{path}: {reason}") from None
+    except (AttributeError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as reason:
         raise ValueError(f"{path}: is not a baseline") from reason
     if version != VERSION:
         raise ValueError(f"{path}: version = {version!r}: must be {VERSION}")
@@ -114,7 +119,7 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
         raise ValueError(f"{path}: belongs to another scene or to other values of its fields")
     try:
         return SavedBaseline(*(_part(kind, about, found) for kind in SavedBaseline._fields))
-    except (KeyError, TypeError) as reason:
+    except (KeyError, TypeError, ValueError, IndexError) as reason:
         raise ValueError(f"{path}: is incomplete") from reason
 
 
@@ -122,6 +127,8 @@ def _part(kind: str, about: dict[str, Any], found: dict[str, NDArray[Any]]) -> A
     if kind not in about:
         return None
     fields = dict(about[kind])
+    if not 0 < fields["cells"] <= len(found):
+        raise ValueError(f"cells = {fields['cells']!r}: must be at most {len(found)}")
     cells: list[dict[str, NDArray[Any]]] = [{} for _ in range(fields["cells"])]
     for name, value in found.items():
         if name.startswith(f"{kind}/") and name.count("/") == 2:
@@ -135,5 +142,5 @@ def _part(kind: str, about: dict[str, Any], found: dict[str, NDArray[Any]]) -> A
 
 
 def _digest(scene: Scene) -> str:
-    """Of the scene without its faults, which a baseline may outlive."""
+    """Digest of the scene without its faults, as a baseline stays valid when faults change."""
     return sha256(scene.replace(faults=()).model_dump_json().encode()).hexdigest()[:16]
