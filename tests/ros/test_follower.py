@@ -188,7 +188,7 @@ def test_the_recording_followed_again_gives_the_same_bits(changing: Played) -> N
     live = estimates(changing)
     names = [name for name in live[0].get_fields_and_field_types() if name.endswith("_status")]
     for name in (name.removesuffix("_status") for name in names):
-        whole = name.startswith(("compliance", "play"))  # by hunting periods, not by time
+        whole = name.startswith(("compliance", "backlash"))  # by hunting periods, not by time
         for message in live[-1:] if whole else live:
             stamp = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
             expected = repeated[stamp][name]
