@@ -54,7 +54,7 @@ class DrivenEngine(Engine):
         ticks = int(time * TICKS)
         self.give(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
         shown = self.port_states(ticks)
-        self.end_step(time)
+        self._end_step(time)
         self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
         self._given = False
         self._cycles.clear()

@@ -33,6 +33,7 @@ from .dynamics.oil import build_oil
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
 from .dynamics.start import LoadBuilder, start_state
 from .dynamics.train import build_train, held_axes
+from .energy_books import EnergyBooks
 from .integrators.clock import (
     NEVER,
     TICKS,
@@ -105,7 +106,7 @@ class Engine:
         self._core.begin_step(self.model, self.march)
         self.march.end = self.march.begin  # tooth pairs may have started to stick
         self.advance(0.0, 1, 1.0, 0)
-        self.stored()
+        self.books(0.0)
         self.take_mesh_sums(0.0)
         self._core.cut(self.model, self.march, instant(0.0))
 
@@ -263,11 +264,11 @@ class Engine:
             raise self._failure
         if self.scene.mesh.damping.follows_speed:
             self._speed_loop.check(point)
-        self.end_step(time)
+        self._end_step(time)
         self.tolerance = tolerance
         self._load(point)
 
-    def end_step(self, time: float | Fraction) -> None:
+    def _end_step(self, time: float | Fraction) -> None:
         """End the last step at `time` [s], the end of the last window, and the ledger with it."""
         self._core.cut(self.model, self.march, instant(time))
         clear(self.march.sums.total)
@@ -299,14 +300,17 @@ class Engine:
         """Time derivative of the ledger [W] at `reached`."""
         return np.array(self._last.power)
 
-    def pop_energy_ledger(self) -> np.ndarray:
-        """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
+    def books(self, time: float | Fraction) -> EnergyBooks:
+        """Energy at `time` [s], the end of the last window; the ledger is that since it was taken.
 
-        They restart at zero, so that rounding does not grow with the length of the run.
+        The last step ends after `time`: a copy of it is made again, so that it ends there. The
+        run itself goes on as if nothing had been asked.
         """
-        ledger = np.empty(LEDGER)
-        self._core.take_ledger(self.march, ledger)
-        return ledger
+        ended, ledger = self.march.copy(), np.empty(LEDGER)
+        self._core.cut(self.model, ended, instant(time))
+        kinetic, elastic = self._core.stored(self.model, ended.end, ended.scratch)
+        self._core.take_ledger(ended, ledger)
+        return EnergyBooks(ledger, float(kinetic), float(elastic))
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
         """Integrals and extremes of the meshes from the previous call to `time` [s].
@@ -316,11 +320,6 @@ class Engine:
         taken = self._core.MeshSums()
         self._core.take_mesh_sums(self.model, self.march, instant(time), taken)
         return mesh_sums(taken, int(self.train.meshes))
-
-    def stored(self) -> tuple[float, float]:
-        """Kinetic and elastic energy at `reached` [J]."""
-        moving, strained = self._core.stored(self.model, self._end, self._scratch)
-        return float(moving), float(strained)
 
 
 def _due(time: Fraction | float, rate: float, first: int) -> int:

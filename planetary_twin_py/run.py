@@ -12,6 +12,7 @@ from .driven_engine import DrivenEngine
 from .dynamics.mesh_sums import MeshSums
 from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train, held_axes
+from .energy_books import EnergyBooks
 from .integrators.interpolant import Samples, Waves
 from .quasi_static.engine import QuasiStaticEngine
 from .scene import OperatingPoint, Scene, SceneError
@@ -64,20 +65,14 @@ class Run(Protocol):
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Change operating point and tolerance at `time` [s], the end of the last window."""
 
-    def end_step(self, time: float | Fraction) -> None:
-        """Let the ledger end at `time` [s], the end of the last window."""
-
-    def pop_energy_ledger(self) -> np.ndarray:
-        """Integrals of the ledger up to `reached` since the last call."""
+    def books(self, time: float | Fraction) -> EnergyBooks:
+        """Energy at `time` [s], the end of the last window; it changes nothing."""
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
         """Integrals and extremes of the meshes since the last call.
 
         Up to `time` [s], the end of the last window.
         """
-
-    def stored(self) -> tuple[float, float]:
-        """Kinetic and elastic energy at `reached` [J]."""
 
 
 def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:

@@ -6,7 +6,6 @@ import math
 import time
 import warnings
 from dataclasses import replace
-from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +34,7 @@ from .driven import DrivenRun
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
 from .dynamics_choice import AUTO, choose_dynamics
+from .energy_books import EnergyBooks
 from .integrators.clock import samples_until
 from .integrators.interpolant import Samples
 from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
@@ -97,22 +97,27 @@ def simulate(
     engine = start(scene, tolerance, method)
     driven = DrivenRun(engine, scene, commands)
     begin = time.perf_counter()
-    passed, end = (samples_until(t, sample_rate) for t in (settling, settling + duration))
+    until = settling + duration
+    passed, end = (samples_until(t, sample_rate) for t in (settling, until))
     driven.advance(settling, passed + 1, sample_rate, 0)
-    engine.pop_energy_ledger()
     engine.take_mesh_sums(settling)
-    before = _Start(engine.reached, engine.stored(), passed, _turned(engine, settling))
+    books, turned = engine.books(settling), _turned(engine, settling)
     axes = None
     if scene.moving_axes:
-        samples, axes = read_axes(driven, scene, (settling, settling + duration), sample_rate)
+        samples, axes = read_axes(driven, scene, (settling, until), sample_rate)
     else:
-        samples = driven.advance(settling + duration, passed + 1, sample_rate, end - passed)
-    wall = time.perf_counter() - begin
-    speed = (_turned(engine, settling + duration) - before.turned) / duration
-    sums = engine.take_mesh_sums(settling + duration)
-    if before.reached == 0:  # else both ends lie a part of a step late, as far as one another
-        engine.end_step(settling + duration)
-    result = _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
+        samples = driven.advance(until, passed + 1, sample_rate, end - passed)
+    found = _Found(
+        samples=samples,
+        times=np.arange(passed + 1, end + 1) / sample_rate,
+        mean_speed=(_turned(engine, until) - turned) / duration,
+        sums=engine.take_mesh_sums(until),
+        energy=_energy(engine, books, engine.books(until)),
+        duration=duration,
+        simulated=until,
+        wall=time.perf_counter() - begin,
+    )
+    result = _result(scene, engine, found)
     if result.axes is not None and axes is not None:
         result = replace(result, axes=replace(result.axes, statistics=axes))
     result = replace(result, choice=choice)
@@ -123,13 +128,17 @@ def simulate(
     return result
 
 
-class _Start(NamedTuple):
-    """State at the start of the result."""
+class _Found(NamedTuple):
+    """What a run has found after it has settled."""
 
-    reached: Fraction  # [s]
-    stored: tuple[float, float]  # [J]
-    samples: int  # number before the result
-    turned: np.ndarray  # angles of the bodies [rad]
+    samples: Samples
+    times: np.ndarray  # of the samples [s]
+    mean_speed: np.ndarray  # of the integrated bodies [rad/s]
+    sums: MeshSums
+    energy: Energy
+    duration: float  # [s]
+    simulated: float  # [s], settling included
+    wall: float  # [s] that took
 
 
 def _turned(engine: Run, time: float) -> np.ndarray:
@@ -166,30 +175,22 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
     check_tolerance(tolerance)
 
 
-def _result(
-    scene: Scene,
-    engine: Run,
-    found: tuple[Samples, np.ndarray, MeshSums],
-    sample_rate: float,
-    before: _Start,
-    wall: float,
-) -> Result:
+def _result(scene: Scene, engine: Run, found: _Found) -> Result:
     names, meshes = body_names(scene), mesh_names(scene)
-    samples, mean_speed = found[:2]
-    sums = in_order(found[2], meshes.place)
+    samples, sums = found.samples, in_order(found.sums, meshes.place)
     joined = joined_flanks if scene.moving_axes else _of_places
     mesh, count = joined(samples.mesh, meshes.place), engine.control
     statistics = mesh_statistics(sums)
     ground = np.zeros((len(mesh), 1))
     angle = np.hstack([_angles(engine, samples), ground])[:, names.place]
     return Result(
-        duration=float(engine.reached - before.reached),
-        time=np.arange(before.samples + 1, before.samples + len(mesh) + 1) / sample_rate,
+        duration=found.duration,
+        time=found.times,
         bodies=names.names,
         meshes=meshes.names,
         angle=angle,
         speed=np.hstack([samples.speed, ground])[:, names.place],
-        mean_speed=np.append(mean_speed, 0.0)[names.place],
+        mean_speed=np.append(found.mean_speed, 0.0)[names.place],
         dte=mesh[:, DTE],
         mesh_force=mesh[:, MESH_FORCE],
         film_thickness=mesh[:, FILM],
@@ -200,7 +201,7 @@ def _result(
         mesh_power=mesh[:, MESH_POWER],
         bearing_loss=samples.drag[:, 0],
         churning_loss=samples.drag[:, 1],
-        energy=_energy(engine, before.stored),
+        energy=found.energy,
         mesh=statistics,
         mesh_efficiency=_mesh_efficiency(sums),
         axes=axes_motion(scene, samples, meshes.place, angle[:, -1], statistics["mesh_force_mean"])
@@ -216,8 +217,8 @@ def _result(
             flank_events=int(count.flank_events),
             reversals=int(count.reversals),
             both_flanks=int(count.both_flanks),
-            wall_time=wall,
-            real_time_factor=float(engine.reached) / wall,
+            wall_time=found.wall,
+            real_time_factor=found.simulated / found.wall,
         ),
         start_warning=engine.start_warning,
     )
@@ -238,17 +239,17 @@ def _mesh_efficiency(sums: MeshSums) -> tuple[float, float]:
     return float(sun), float(ring)
 
 
-def _energy(engine: Run, stored: tuple[float, float]) -> Energy:
-    ledger, now = engine.pop_energy_ledger(), engine.stored()
+def _energy(engine: Run, begin: EnergyBooks, end: EnergyBooks) -> Energy:
+    ledger, kinetic, elastic = end.since(begin)
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
-        kinetic=now[0] - stored[0],
-        elastic=now[1] - stored[1],
+        kinetic=kinetic,
+        elastic=elastic,
         friction=float(ledger[FRICTION]),
         damping=float(ledger[DAMPING]),
         bearing=float(ledger[BEARING]),
         churning=float(ledger[CHURNING]),
         stiffness_work=float(ledger[STIFFNESS_WORK]),
         weight=float(ledger[WEIGHT]),
-        stored=sum(now),
+        stored=end.kinetic + end.elastic,
     )

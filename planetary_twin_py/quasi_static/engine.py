@@ -30,6 +30,7 @@ from ..dynamics.oil import build_oil
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
+from ..energy_books import EnergyBooks
 from ..integrators.clock import TICKS, delay, instant, sampling
 from ..integrators.interpolant import Samples, Waves, new_samples
 from ..planar.motion import axes_motion, joined_flanks
@@ -164,7 +165,7 @@ class QuasiStaticEngine:
         end.seconds, end.time = seconds, float(rest)
         end.time_rest = float(rest - Fraction(end.time))
         end.ledger, end.power = self.pop_energy_ledger(), self.powers
-        end.kinetic, end.elastic = self.stored()
+        end.kinetic, end.elastic = self._stored(self.reached)
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
@@ -189,8 +190,14 @@ class QuasiStaticEngine:
         self._core.turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
         return state
 
-    def end_step(self, time: float | Fraction) -> None:
-        """Do nothing: the ledger ends with the window."""
+    def books(self, time: float | Fraction) -> EnergyBooks:
+        """Energy at `time` [s], the end of the last window; the ledger is that since it was taken.
+
+        The elastic energy is not modelled.
+        """
+        energy = self._ledger.at(instant(time))[0][ENERGY].copy()
+        self._count()
+        return EnergyBooks(energy, *self._stored(time))
 
     def pop_energy_ledger(self) -> np.ndarray:
         """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
@@ -224,11 +231,8 @@ class QuasiStaticEngine:
         """Time derivative of the ledger [W] at `reached`."""
         return self._ledger.power(instant(self.reached))
 
-    def stored(self) -> tuple[float, float]:
-        """Kinetic energy at `reached` [J], and potential energy of the weight of the planets.
-
-        The elastic energy is not modelled.
-        """
-        standing = self._standing(self.reached)
+    def _stored(self, time: float | Fraction) -> tuple[float, float]:
+        """Kinetic energy at `time` [J], and potential energy of the weight of the planets."""
+        standing = self._standing(time)
         lifted = self._core.weight_energy(self.train, standing)
         return self._core.kinetic(self.model, standing), lifted

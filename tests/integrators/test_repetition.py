@@ -56,13 +56,13 @@ class Settled:
         end = PERIODS / bandwidth(scene)
         first = math.floor(end * 20_000) - 19
         self.engine = Engine(scene, TOLERANCE, method)
-        stored = sum(self.engine.stored())
+        begin = self.engine.books(0.0)
         samples = self.engine.advance((first + 19) / 20_000, first, 20_000.0, 20)
         self.dte, self.force = samples.mesh[:, DTE], samples.mesh[:, MESH_FORCE]
         ratio = self.engine.train.ratio[: self.engine.train.bodies]
         self.angle = math.tau * samples.turns @ ratio.T + samples.angle
-        self.ledger = self.engine.pop_energy_ledger()
-        self.gain = sum(self.engine.stored()) - stored
+        self.ledger, *gains = self.engine.books((first + 19) / 20_000).since(begin)
+        self.gain = sum(gains)
 
 
 @pytest.mark.slow
