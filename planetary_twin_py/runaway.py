@@ -51,6 +51,11 @@ class Limit(NamedTuple):
             return
         peak = np.abs(values).max(axis=0)
         k = int(np.flatnonzero(~(peak <= self.largest))[0])
+        if np.isnan(peak[k]):
+            raise ArithmeticError(
+                f"{self.quantity} of {self.names[k]} = nan {self.unit}: must be a number: the "
+                "motion grows without bound; reduce the torques, or increase stiffness and damping"
+            )
         raise ArithmeticError(
             f"{self.quantity} of {self.names[k]} = {peak[k]:.4g} {self.unit}: must be at most "
             f"{self.largest[k]:.4g} {self.unit}, {self.reason}"
