@@ -30,6 +30,7 @@ from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.library import library, record_in
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
+from .dynamics.planet_bearings import check_planet_bearings
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
 from .dynamics.start import LoadBuilder, start_state
 from .dynamics.train import build_train, held_axes
@@ -257,11 +258,13 @@ class Engine:
         """Continue with this point and tolerance from `time` [s], the end of the last window.
 
         Raises:
-            ValueError: the speed loop would not be stable; nothing has changed.
+            ValueError: the speed loop would not be stable, or bearings of planets are too soft;
+                nothing has changed.
             RunawayError: the run has been stopped.
         """
         if self._failure is not None:
             raise self._failure
+        check_planet_bearings(self.scene, point)
         if self.scene.mesh.damping.follows_speed:
             self._speed_loop.check(point)
         self._end_step(time)

@@ -10,6 +10,7 @@ import numpy as np
 from ._core import Control, Report, Train, WindowEnd
 from .driven_engine import DrivenEngine
 from .dynamics.mesh_sums import MeshSums
+from .dynamics.planet_bearings import check_planet_bearings
 from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train, held_axes
 from .energy_books import EnergyBooks
@@ -95,6 +96,7 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
             f"give torsional, planar or quasi_static; `planetary-twin explain {scene.name}` "
             "compares them"
         )
+    check_planet_bearings(scene, scene.operating_point)
     if not scene.quasi_static:
         return DrivenEngine(scene, tolerance, method)
     if method not in ("auto", "march"):
@@ -112,7 +114,8 @@ def check_point(scene: Scene, point: OperatingPoint) -> None:
         point: the operating point.
 
     Raises:
-        ValueError: the speed loop of the drive is not stable.
+        ValueError: the speed loop of the drive is not stable, or bearings of planets are too soft.
     """
+    check_planet_bearings(scene, point)
     if not scene.quasi_static:
         check_speed_loop(scene, build_train(held_axes(scene)), point)

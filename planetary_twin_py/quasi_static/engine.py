@@ -27,6 +27,7 @@ from ..dynamics.bodies import MOTOR
 from ..dynamics.library import library, record_in
 from ..dynamics.mesh_sums import MeshSums, mesh_sums, record_of
 from ..dynamics.oil import build_oil
+from ..dynamics.planet_bearings import check_planet_bearings
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
@@ -182,6 +183,7 @@ class QuasiStaticEngine:
         Raises:
             ValueError: there is no equilibrium; nothing has changed.
         """
+        check_planet_bearings(self.scene, point)
         energy = self._ledger.at(instant(time))[0][ENERGY]
         self._load(point, tolerance, self._standing(time), energy)
 

@@ -1,0 +1,37 @@
+"""Whether the bearings of the planets hold them on a turning carrier."""
+
+from __future__ import annotations
+
+from ..scene import OperatingPoint, Scene, SceneError
+from .bodies import rigid_ratios
+
+
+def check_planet_bearings(scene: Scene, point: OperatingPoint) -> None:
+    """Check that the bearings of the planets are stiffer than the centrifugal force softens them.
+
+    On a carrier that turns at Omega, a planet of mass m that is displaced outwards is pulled on by
+    m Omega^2 times its displacement. A linear bearing that is no stiffer than that has no
+    equilibrium. Rolling bearings stiffen as they are loaded.
+
+    Args:
+        scene: the scene; only with axes that move, and planets on linear bearings.
+        point: operating point, of which the speeds count.
+
+    Raises:
+        SceneError: a bearing is too soft.
+    """
+    if not scene.moving_axes or scene.supports is None or scene.supports.planet.bearing is None:
+        return
+    planet, stiffness = scene.supports.planet, scene.supports.planet.bearing
+    factors = [scene.errors.of_planet(i).pin_stiffness for i in range(scene.gearset.planets)]
+    speeds = (point.input_speed, point.second_input_speed)
+    ratios = rigid_ratios(scene)["carrier"]
+    carrier = sum(float(ratio) * speed for ratio, speed in zip(ratios, speeds, strict=False))
+    softening = planet.mass * carrier**2
+    if stiffness == 0.0 or min(factors) * stiffness > softening:
+        return
+    raise SceneError(
+        f"supports.planet.bearing = {stiffness:g} N/m: must be above "
+        f"{softening / min(factors):.4g} N/m where planets of {planet.mass:g} kg turn with the "
+        f"carrier at {abs(carrier):.4g} rad/s, or they are thrown off"
+    )
