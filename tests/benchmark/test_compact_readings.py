@@ -15,6 +15,7 @@ def rig(monkeypatch):
     return importlib.import_module("measured.compact_readings")
 
 
+@pytest.mark.exhaustive
 def test_the_mesh_line_is_the_highest_and_at_the_number_of_ring_teeth(rig):
     line = rig.measured_line(155.0)
     assert line.order == pytest.approx(155.0, abs=0.1)

@@ -86,7 +86,10 @@ def test_a_tooth_of_a_planet_meets_sun_and_ring_half_a_turn_apart(planet):
     assert np.abs(np.abs(sun[1] - ring).min() - turn / 2) < 1 / MESH_FREQUENCY
 
 
-@pytest.mark.parametrize("method, trace", [("rosenbrock", 1e-14), ("auto", 1e-9)])
+@pytest.mark.parametrize(
+    "method, trace",
+    [pytest.param("rosenbrock", 1e-14, marks=pytest.mark.exhaustive), ("auto", 1e-9)],
+)
 def test_a_worn_flank_shows_on_its_own_side_only(method, trace):
     """Rosenbrock's method takes the same steps with and without the fault; collocation does not."""
     wear = {"kind": "wear", "gear": "sun", "depth": "1 um"}

@@ -63,6 +63,7 @@ def file(played, tmp_path_factory):
     return path
 
 
+@pytest.mark.exhaustive
 def test_a_loaded_baseline_finds_a_tooth_that_cracked_before_the_start(played, file):
     follower = Follower(SCENE, SENSORS)
     follower.load_baseline(file)

@@ -80,7 +80,8 @@ def test_steady_running_converges_to_the_reference(flow, changes):
 ROLLING = {"rollers": 14, "length": 0.012}
 
 
-@pytest.mark.parametrize("clearance", [0.0, pytest.param(5e-6, marks=pytest.mark.exhaustive)])
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("clearance", [0.0, 5e-6])
 def test_rolling_bearings_converge_to_the_reference(clearance):
     pins = {"errors.pin_tangential": [-2e-5, 1e-5, 0.0]}
     scene = planar(FLOWS[2], **pins)

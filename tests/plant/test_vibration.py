@@ -71,6 +71,7 @@ def test_lost_packets_leave_whole_packets():
     assert set(counts) == {100} and 0.7 < len(numbers) / 1000 < 0.9
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_a_crack_of_five_percent_is_detected_as_sidebands_of_its_gear_alone():
     (event,) = events(plant(45.0, {"torque_wander": 0.02}, crack(0.05), seed=2))

@@ -56,6 +56,7 @@ def run(domain: int, tmp_path: Path) -> Run:
     return start
 
 
+@pytest.mark.exhaustive
 def test_a_hidden_change_is_found_shown_and_recorded(run: Run, tmp_path: Path) -> None:
     process = run("--hidden", "hidden.yaml", "--duration", "10", "--record", "rig",
                   "--json", "out.json")  # fmt: skip

@@ -68,6 +68,7 @@ def rattle():
     return Rattle()
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
     assert rattle.flank_events >= 5

@@ -58,6 +58,7 @@ def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
     assert list(course_remarks(found)) == []
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_a_run_up_determines_friction_and_drag(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "run-up")
