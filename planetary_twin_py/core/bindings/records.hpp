@@ -345,15 +345,12 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ContactState, key)
         .FIELD(ContactState, follower)
         .FIELD(ContactState, step)
-        .FIELD(ContactState, past_step)
         .FIELD(ContactState, pull)
         .FIELD(ContactState, varies)
         .FIELD(ContactState, stiffness)
         .FIELD(ContactState, square)
         .FIELD(ContactState, shaft_damping)
         .FIELD(ContactState, mesh_damping)
-        .FIELD(ContactState, past_rest)
-        .FIELD(ContactState, past_rubbing)
         .def_prop_ro(
             "form",
             [](nb::handle_t<ContactState> self) {

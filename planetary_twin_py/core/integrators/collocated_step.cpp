@@ -184,10 +184,8 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     const bool helical = has_contact_lines(model.train);
     const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
-    if (fresh) {
-        contacts_of(run).step = control.next_step;
-        remember<L>(model, march);
-    }
+    if (fresh) contacts_of(run).step = control.next_step;
+    remember<L>(model, march);
     // There a step that may grow was short by its trial, after one between close edges, not by its
     // error.
     const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);

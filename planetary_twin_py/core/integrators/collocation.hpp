@@ -186,7 +186,8 @@ Outcome settle_friction(const Model& model, March& march, double& known_pull) {
             if (!MOVING || round == 1)
                 known_pull = (MOVING ? std::max(pull, mixing.pull()) : pull) / run.motion.step;
         }
-        contacts_of(run).predictable = round == 0 && change * pull <= CLOSE * LEFT_OVER;
+        if (KeptGrowth* kept = growth_here(run))
+            kept->predictable = round == 0 && change * pull <= CLOSE * LEFT_OVER;
         if (!(tail <= 1.0) || change * pull <= LEFT_OVER)
             return {std::isfinite(tail + change) ? tail : ASTRAY, true};
         if (round > 0 && !(pull <= (MOVING ? WEAKEST_MIXED_PULL : WEAKEST_PULL))) break;
@@ -200,8 +201,8 @@ template <int L>
 Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
     set_step<L>(run, h);
-    const bool recalled = fresh && recall<L>(march);
-    if (!fresh && continues(march))
+    const bool recalled = recall<L>(march);
+    if (!recalled && !fresh && continues(march))
         extrapolate<L>(run);
     else
         add_given<L>(model, march, 1.0, run.rest);
@@ -209,7 +210,8 @@ Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     ContactState& contacts = contacts_of(run);
     if (!contacts.varies) return settle_friction<L>(model, march, contacts.pull[1]);
     // What was foreseen needs no sweep of the meshes alone; the others have them along.
-    if (recalled && contacts.predictable) return settle_friction<L>(model, march, contacts.pull[0]);
+    if (recalled && growth_here(run)->predictable)
+        return settle_friction<L>(model, march, contacts.pull[0]);
     settle_meshes<L>(model, march);
     double tail = tail_error<L>(march);
     if (!(tail <= 1.0)) return {std::isfinite(tail) ? tail : ASTRAY, true};

@@ -12,7 +12,7 @@
 namespace gearbox {
 
 inline constexpr int MOST_NODES = 5;  // points of collocation in a step
-inline constexpr int KEPT_STEPS = 3;  // in a contact state, whose free waves are kept
+inline constexpr int KEPT_STEPS = 3;  // in a contact state, of which is kept what returns
 
 // Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open. That
 // of the sun begins with the shafts whose motion is given. Where each flank has an entry, those of
@@ -48,6 +48,14 @@ struct alignas(64) KeptWaves {
     std::int64_t nodes;  // and their number
     alignas(64) double cosine[MOST_NODES][BODIES];
     alignas(64) double sine[MOST_NODES][BODIES];
+};
+
+// How rest and friction grew over a step: at its nodes, and in the last row at its start.
+struct alignas(64) KeptGrowth {
+    double step = 0.0;  // its length, 0: none yet [s]
+    bool predictable;   // whether friction came to rest in one sweep
+    alignas(64) double rest[MOST_NODES + 1][BODIES];
+    alignas(64) double rubbing[MOST_NODES + 1][BODIES];  // [N]
 };
 
 // Bounds on a free wave and tau times its rate, together, per motion and per rate at its start.
@@ -115,9 +123,7 @@ struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t follower;  // the state that came next last time
     double step;            // that did last time such a state began, 0: none yet [s]
-    double past_step;       // see the predictor, 0: none yet [s]
     double pull[2];         // by which a sweep brings the next closer, per step length [1/s]
-    bool predictable;       // whether friction came to rest in one sweep last time
     bool varies;            // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     ModeMatrices matrices;
@@ -129,10 +135,9 @@ struct alignas(64) ContactState {
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];
     alignas(64) double fast[BODIES];
-    WaveBounds bounds;            // with the damping time of either kind of mesh
-    KeptWaves waves[KEPT_STEPS];  // of the first steps in such a state
-    alignas(64) double past_rest[MOST_NODES + 1][BODIES];
-    alignas(64) double past_rubbing[MOST_NODES + 1][BODIES];  // [N]
+    WaveBounds bounds;              // with the damping time of either kind of mesh
+    KeptWaves waves[KEPT_STEPS];    // of the first steps in such a state
+    KeptGrowth growth[KEPT_STEPS];  // likewise, see the predictor
 };
 
 // Modes of the contact states met so far. They never move while they are kept.

@@ -58,19 +58,25 @@ void add_given(const Model& model, const March& march, double times, double (*re
     }
 }
 
+// What is kept of the step at this place since the contacts changed; null: nothing ever is.
+inline KeptGrowth* growth_here(Propagation& run) {
+    return run.place < KEPT_STEPS ? &contacts_of(run).growth[run.place] : nullptr;
+}
+
 // Let rest and friction grow over the step as they did when it was last made; whether that is
 // known.
 template <int L>
 bool recall(March& march) {
     Propagation& run = march.run;
-    const ContactState& past = contacts_of(run);
-    if (!(std::fabs(past.past_step - run.motion.step) < SIMILAR * run.motion.step)) return false;
+    const KeptGrowth* past = growth_here(run);
+    const double step = run.motion.step;
+    if (past == nullptr || !(std::fabs(past->step - step) < SIMILAR * step)) return false;
     using V = Row<L>;
-    V rest(past.past_rest[START]), rubbing(past.past_rubbing[START]);
+    V rest(past->rest[START]), rubbing(past->rubbing[START]);
     for (int n = 0; n < run.nodes.count; ++n) {
-        (V(run.rest[n]) + (V(past.past_rest[n]) - rest)).store(run.rest[n]);
+        (V(run.rest[n]) + (V(past->rest[n]) - rest)).store(run.rest[n]);
         double* friction = run.node[n].rubbing;
-        (V(friction) + (V(past.past_rubbing[n]) - rubbing)).store(friction);
+        (V(friction) + (V(past->rubbing[n]) - rubbing)).store(friction);
     }
     return true;
 }
@@ -116,21 +122,23 @@ void extrapolate(Propagation& run) {
     }
 }
 
-// Keep how rest and friction grew over the first step in a contact state, but for what was given.
+// Keep how rest and friction grew over the step, but for what was given.
 template <int L>
 void remember(const Model& model, March& march) {
     Propagation& run = march.run;
-    ContactState& past = contacts_of(run);
-    past.past_step = run.motion.step;
+    KeptGrowth* const kept = growth_here(run);
+    if (kept == nullptr) return;
+    KeptGrowth& past = *kept;
+    past.step = run.motion.step;
     using V = Row<L>;
     V rest = V(run.force) + V(run.damper) * V(run.start.p) + V(run.spring) * V(run.start.q);
-    rest.store(past.past_rest[START]);
-    copy<L>(run.start.rubbing, past.past_rubbing[START]);
+    rest.store(past.rest[START]);
+    copy<L>(run.start.rubbing, past.rubbing[START]);
     for (int n = 0; n < run.nodes.count; ++n) {
-        copy<L>(run.rest[n], past.past_rest[n]);
-        copy<L>(run.node[n].rubbing, past.past_rubbing[n]);
+        copy<L>(run.rest[n], past.rest[n]);
+        copy<L>(run.node[n].rubbing, past.rubbing[n]);
     }
-    add_given<L>(model, march, -1.0, past.past_rest);
+    add_given<L>(model, march, -1.0, past.rest);
 }
 
 }  // namespace gearbox
