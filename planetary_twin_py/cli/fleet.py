@@ -120,6 +120,13 @@ def _show(console: Console, found: Sequence[GearboxResult]) -> None:
         highlight=False,
     )
     for one in changed[:SHOWN]:
+        if not one.fits:
+            console.print(
+                f"{one.gearbox}: readings do not fit the scene: {len(one.events)} steps in close "
+                "succession; check units, signs and gains of its sensors",
+                highlight=False, markup=False,
+            )  # fmt: skip
+            continue
         for event in one.events:
             console.print(
                 f"{one.gearbox}: loss torque changed by {100.0 * event.share:+.3g} % of the "
@@ -133,6 +140,7 @@ def _show(console: Console, found: Sequence[GearboxResult]) -> None:
 def _figures(one: GearboxResult) -> dict[str, object]:
     return {
         "readings": one.readings,
+        "fits": one.fits,
         "estimates": {
             name: [value if math.isfinite(value) else None for value in values]
             for name, values in one.estimates.items()

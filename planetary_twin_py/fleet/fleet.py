@@ -17,13 +17,15 @@ from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..scene import Scene
 from .balances import PARAMETERS, Balances, F, Row
-from .cusums import Cusums, Steps, limit
+from .cusums import TERM, Cusums, Steps, limit
 from .loss_table import loss_table
 
 Array = NDArray[np.float64]
 
 CHANNELS = ("input_torque", "output_torque", "input_speed", "oil_temperature")
 SLOWEST, FASTEST = 60.0, 0.1  # [s] limits of the time between two readings
+MOST_STEPS = 3  # in close succession, after which the readings of a gearbox do not fit the scene
+CLOSE = 3.0 * TERM  # [s] between two steps in close succession
 
 
 class FleetEstimate(NamedTuple):
@@ -97,6 +99,12 @@ class Fleet:
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
         """Number of balances that were used, (n,)."""
+        self.misfits = np.zeros(self.count, dtype=bool)
+        """Whether the readings do not fit the scene, (n,): the loss has stepped three times in
+        close succession, because units, signs or gains are wrong, or the scene is another one.
+        Such a gearbox has no estimates, and no further events."""
+        self._stepped = np.full(self.count, -math.inf)  # time of the last step [s]
+        self._successive = np.zeros(self.count, dtype=np.int64)  # steps in close succession
 
     def add(self, time: float, readings: Mapping[str, Array]) -> None:
         """Add one reading of every gearbox.
@@ -132,7 +140,9 @@ class Fleet:
         self._alarm(time, taken, self._cusums.add(time, found.value, found.sd, self.period))
 
     def _alarm(self, time: float, row: Row, steps: Steps) -> None:
-        gearbox, since, size = steps
+        fits = ~self.misfits[steps.gearbox]
+        self._note_misfits(time, steps.gearbox)
+        gearbox, since, size = (values[fits] for values in steps)
         if not len(gearbox):
             return
         oil = row.oil_temperature[gearbox]
@@ -147,6 +157,13 @@ class Fleet:
         self._slow.restart(which)
         self._wide.reopen(which)
 
+    def _note_misfits(self, time: float, gearbox: NDArray[np.int64]) -> None:
+        """Count the steps of each gearbox in close succession."""
+        close = time - self._stepped[gearbox] <= max(CLOSE, 3.0 * self.period)
+        self._successive[gearbox] = np.where(close, self._successive[gearbox] + 1, 1)
+        self._stepped[gearbox] = time
+        self.misfits |= self._successive >= MOST_STEPS
+
     def estimate(self, name: str) -> FleetEstimate:
         """Estimate of one parameter for all gearboxes.
 
@@ -155,7 +172,8 @@ class Fleet:
 
         Returns:
             Values and 95 % intervals; NaN where the standard deviation is above half of the prior
-            one. The interval of the friction level includes the error of the table.
+            one, and where the readings do not fit the scene. The interval of the friction level
+            includes the error of the table.
 
         Raises:
             ValueError: there is no such parameter.
@@ -164,7 +182,7 @@ class Fleet:
             raise ValueError(f"{name!r}: must be one of {', '.join(PARAMETERS[:4])}")
         state, wide = PARAMETERS.index(name), self._wide
         sd = np.sqrt(np.maximum(wide.p[:, state, state], 0.0))
-        known = sd < IDENTIFIABLE * wide.sd[state]
+        known = (sd < IDENTIFIABLE * wide.sd[state]) & ~self.misfits
         if state == F:
             sd = np.hypot(sd, self.table.error * wide.x[:, F] / CONFIDENT)
         value = np.where(known, wide.x[:, state], math.nan)

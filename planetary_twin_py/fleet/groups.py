@@ -33,6 +33,8 @@ class GearboxResult:
     """Value and 95 % interval in SI by parameter; NaN where the readings do not determine it."""
     events: tuple[FleetEvent, ...]
     """Steps of its loss; `FleetEvent.gearbox` is its index in the group."""
+    fits: bool
+    """Whether its readings fit the scene, see `Fleet.misfits`."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,7 @@ class FollowGroup:
                     for key, one in estimates.items()
                 },
                 tuple(event for event in fleet.events if event.gearbox == n),
+                not fleet.misfits[n],
             )
             for n, name in enumerate(group)
         )

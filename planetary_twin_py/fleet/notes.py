@@ -31,11 +31,19 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
         "gearbox": np.array([one.gearbox for one in found]),
         "readings": np.array([one.readings for one in found]),
     }
-    units = {"gearbox": "", "readings": "", "events": "", "last_event": "s", "last_size": "N m"}
+    units = {
+        "gearbox": "",
+        "readings": "",
+        "fits": "",
+        "events": "",
+        "last_event": "s",
+        "last_size": "N m",
+    }
     for name in found[0].estimates:
         for part, heading in enumerate((name, f"{name}_low", f"{name}_high")):
             batch[heading] = np.array([one.estimates[name][part] for one in found])
             units[heading] = UNITS[name]
+    batch["fits"] = np.array([int(one.fits) for one in found])
     batch["events"] = np.array([len(one.events) for one in found])
     last = [one.events[-1] if one.events else None for one in found]
     batch["last_event"] = np.array([np.nan if one is None else one.found for one in last])

@@ -5,7 +5,7 @@ import pytest
 from fleet.fleets import Played, paper
 
 from planetary_twin_py.fleet.cusums import Cusums, limit
-from planetary_twin_py.fleet.fleet import Fleet
+from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
 
 OTHER = {"losses.planet_bearing": {"mean_diameter": 0.012}}
 
@@ -37,6 +37,17 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
     for event in fleet.events:
         assert 1200.0 < event.found < 1900.0 and event.size > 0.0
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
+
+
+@pytest.mark.parametrize("gain", [-0.1, 0.1])
+def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(gain):
+    played = Played(20, 1)
+    played.gain[1][:5] += gain
+    fleet = followed(played, 1800)
+    assert list(np.flatnonzero(fleet.misfits)) == list(range(5))
+    assert [event.gearbox for event in fleet.events] == MOST_STEPS * list(range(5))
+    level = fleet.estimate("friction_level")
+    assert np.isnan(level.value[:5]).all() and np.isfinite(level.value[5:]).all()
 
 
 def test_slow_readings_show_a_step_too():
