@@ -33,6 +33,7 @@ from .bins import Bin, Counters
 from .checks import Checks
 from .cusum import Cusum, Step
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
+from .history import History
 from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
 from .merging import Merge
@@ -144,8 +145,8 @@ class BalanceFollower:
         self._oil = self.train.oil_temperature
         self.operating = (math.nan, self.train.oil_temperature)
         """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
-        self._torques: deque[tuple[float, float]] = deque(maxlen=KEPT)  # end of bin, torque
-        self._turning: deque[tuple[float, float, float]] = deque(maxlen=TURNING)
+        self._torques = History(KEPT, 2)  # end of bin, torque
+        self._turning = History(TURNING, 3)  # middle of bin, speed, torque
 
     @property
     def counters(self) -> Counters:
@@ -183,9 +184,9 @@ class BalanceFollower:
         self.time = (found.number + 1) * self.period
         read = self._measured(found)
         if math.isfinite(read.input_torque):
-            self._torques.append((self.time, read.input_torque))
+            self._torques.add(self.time, read.input_torque)
         if math.isfinite(read.speed):
-            self._turning.append((read.time, read.speed, read.input_torque))
+            self._turning.add(read.time, read.speed, read.input_torque)
             self.operating = read.speed, read.oil_temperature
         before = self._wide.kept()
         innovation = self._wide.update(read)
@@ -321,8 +322,8 @@ class BalanceFollower:
         Returns:
             The mean [N m]; NaN if no bin ends in the interval.
         """
-        inside = [torque for time, torque in self._torques if begin < time <= end]
-        return float(np.mean(inside)) if inside else math.nan
+        inside = self._torques.between(begin, end)[:, 1]
+        return float(np.mean(inside)) if len(inside) else math.nan
 
     def turning_between(self, begin: float, end: float) -> Turning:
         """Speed and torque of the bins whose middles are within an interval, and one beside it.
@@ -332,8 +333,7 @@ class BalanceFollower:
             end: of the interval [s].
         """
         reach = 1.5 * self.period
-        inside = [one for one in self._turning if begin - reach < one[0] < end + reach]
-        return Turning(*np.array(inside).reshape(-1, 3).T)
+        return Turning(*self._turning.between(begin - reach, end + reach).T)
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Torque, loss and parameters, with intervals or with the readings that are missing."""

@@ -6,6 +6,8 @@
 3. A running mean over 7 mesh cycles is subtracted: slow changes of the load, and encoder errors
    that are long compared with a tooth.
 4. The mean over all cycles is subtracted.
+
+Of a train that turns slowly, every bin has many samples: 8 to 16 are kept.
 """
 
 from __future__ import annotations
@@ -33,6 +35,7 @@ CHANGED = 0.1  # relative change of that waveform above which it is learned agai
 SLIP = 0.5  # tooth pitches by which the error may jump across a gap
 DELAY = 0.2  # [s] by which packets may be out of order
 BATCH = 0.05  # [s] of samples that are processed at once; affects the cost only
+MOST = 16  # samples in a bin, on average, above which a block is thinned
 
 
 class HuntingBlock(NamedTuple):
@@ -68,7 +71,8 @@ class EncoderCounters:
         self.lost = 0
         """Sample numbers that never arrived."""
         self.dropped_blocks = 0
-        """Hunting periods with too many gaps, or in which the train reversed."""
+        """Hunting periods with too many gaps, in which the train reversed, or too long before the
+        readings of the torque."""
         self.segments = 1
         """Number of times that the count of turns restarted."""
 
@@ -94,6 +98,8 @@ class HuntingBlocks:
         self._released = 0  # number of the first sample that may still come
         self._zero: tuple[int, int] | None = None
         self._samples: list[tuple[Counts, ErrorSamples]] = []
+        self._most = MOST * BINS * (self._cycles + 2 * MARGIN)
+        self._stride = 1  # of the numbers of the samples that a block keeps
         self._range: tuple[int, int] | None = None  # of the cycles of the block and its margins
         self._last_error = np.nan
         self._waveform: Array | None = None
@@ -177,19 +183,25 @@ class HuntingBlocks:
             if not last and self._range is not None:
                 newest = self._samples[-1][1].cycle
                 if newest.min() >= self._range[0] and newest.max() < self._range[1]:
+                    self._thin()
                     return
             self._join()
             sample, found = self._samples[0]
             number = _number(found.cycle, self._cycles)
             if number is None:
+                self._thin()
                 break
             low = number * self._cycles - MARGIN
             high = low + self._cycles + 2 * MARGIN
             self._range = low, high
             outside = (found.cycle < low) | (found.cycle >= high)
             if not outside.any() and not last:
+                self._thin()
                 return
             end = int(np.argmax(outside)) if outside.any() else len(sample)
+            chosen = np.append(self._chosen(sample[:end]), np.ones(len(sample) - end, dtype=bool))
+            sample, found, outside = sample[chosen], _rows(found, chosen), outside[chosen]
+            end = int(chosen[:end].sum())
             block = self._block(number, sample[:end], _rows(found, slice(0, end)))
             if block is not None:
                 yield block
@@ -200,10 +212,24 @@ class HuntingBlocks:
             kept[: end // 2] = False
             kept[end:] = True
             self._samples = [(sample[kept], _rows(found, kept))]
-            self._range = None
+            self._range, self._stride = None, 1
         if last:
             self._samples.clear()
-            self._range = None
+            self._range, self._stride = None, 1
+
+    def _thin(self) -> None:
+        """Hold fewer samples of a slow block: a train at rest must not fill the memory."""
+        if sum(len(numbers) for numbers, _ in self._samples) > 2 * self._most:
+            self._join()
+            sample, found = self._samples[0]
+            rows = self._chosen(sample)
+            self._samples = [(sample[rows], _rows(found, rows))]
+
+    def _chosen(self, sample: Counts) -> NDArray[np.bool_]:
+        """Which samples a block keeps: with equal steps, and at most `MOST` in a bin on average."""
+        while np.sum(rows := sample % self._stride == 0) > self._most:
+            self._stride *= 2
+        return rows
 
     def _join(self) -> None:
         """Concatenate the samples."""

@@ -36,6 +36,7 @@ MISPLACED = (
 WINDOWS = 1, 4, 16, 64  # numbers of blocks that are judged together
 UNCERTAIN = 0.15  # relative standard deviation of a size: runout shifts load between teeth
 UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a changed tooth
+WAITING = 64  # hunting periods that wait for readings of the torque at most
 SPEED_STEP = 0.3  # relative difference of the speeds for which signatures are computed
 
 
@@ -177,6 +178,9 @@ class TeethFollower:
             InputError: the encoders do not turn in the ratio of the teeth.
         """
         self._check.add(counts)
+        while len(self._pending) > WAITING:  # readings have ended
+            self._pending.popleft()
+            self.counters.dropped_blocks += 1
         self._pending.extend(self._hunting.add(sample, counts))
 
     def finish(self) -> None:
@@ -196,6 +200,8 @@ class TeethFollower:
             self._judge(block, torque(block.begin, block.end))
 
     def _judge(self, block: HuntingBlock, torque: float) -> None:
+        if self._cells and block.segment != self._cells[-1].segment:
+            self.learn()  # teeth are numbered from the new start
         self.blocks += 1
         speed = 2.0 * math.pi * block.rate / abs(float(self.train.cycles))
         self._estimates = None
@@ -446,7 +452,10 @@ class TeethFollower:
             yield f"teeth: {most} of {self.learning} hunting periods of a baseline are learned"
         if self.counters.dropped_blocks:
             dropped = self.counters.dropped_blocks
-            yield f"encoders: {dropped} hunting periods with gaps or reversals are not used"
+            yield (
+                f"encoders: {dropped} hunting periods with gaps, reversals or without readings are "
+                "not used"
+            )
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and backlash since the baseline."""

@@ -16,6 +16,16 @@ CRACK, WEAR = "crack", "wear"
 
 
 @dataclass
+class _Sums:
+    """Sums over the blocks of one cell."""
+
+    blocks: int = 0
+    torque: float = 0.0  # [N m]
+    amount: float = 0.0
+    variance: float = 0.0
+
+
+@dataclass
 class ToothKind:
     """Amounts of the signature of one tooth at several loads.
 
@@ -24,7 +34,7 @@ class ToothKind:
     """
 
     learning: int
-    _amounts: dict[int, list[tuple[float, float, float]]] = field(default_factory=dict)
+    _cells: dict[int, _Sums] = field(default_factory=dict)
 
     def add(self, cell: int, torque: float, amount: float, sd: float) -> None:
         """Add the amount in one block.
@@ -35,7 +45,11 @@ class ToothKind:
             amount: amount of the signature.
             sd: standard deviation of the amount.
         """
-        self._amounts.setdefault(cell, []).append((torque, amount, sd))
+        sums = self._cells.setdefault(cell, _Sums())
+        sums.blocks += 1
+        sums.torque += torque
+        sums.amount += amount
+        sums.variance += sd**2
 
     def amount(self, cell: int) -> float:
         """Mean amount in a cell.
@@ -46,8 +60,8 @@ class ToothKind:
         Returns:
             The mean; 0 without any block.
         """
-        found = self._amounts.get(cell)
-        return float(np.mean([amount for _, amount, _ in found])) if found else 0.0
+        sums = self._cells.get(cell)
+        return sums.amount / sums.blocks if sums else 0.0
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -60,10 +74,10 @@ class ToothKind:
     def _misfits(self) -> Mapping[str, float]:
         """Sums of squares of the residuals of both laws, by kind."""
         rows = []
-        for found in self._amounts.values():
-            torque, amount, sd = np.array(found).T
-            variance = float(np.mean(sd**2)) * (1.0 / len(found) + 1.0 / self.learning)
-            rows.append((abs(float(torque.mean())), float(amount.mean()), variance))
+        for sums in self._cells.values():
+            many = sums.blocks
+            variance = sums.variance / many * (1.0 / many + 1.0 / self.learning)
+            rows.append((abs(sums.torque / many), sums.amount / many, variance))
         if len(rows) < 2:
             return {CRACK: 0.0, WEAR: 0.0}
         torque, amount, variance = np.array(rows).T

@@ -107,7 +107,8 @@ class VibrationCounters:
     used: int = 0
     """Samples that are used."""
     late: int = 0
-    """Samples that arrived after their hunting period, occur twice, or are not finite."""
+    """Samples that arrived after their hunting period or too long before the readings of the speed,
+    occur twice, or are not finite."""
     periods: int = 0
     """Hunting periods that were judged or learned."""
     dropped_periods: int = 0
@@ -183,9 +184,11 @@ class VibrationFollower:
         """Patterns that have grown."""
         self._train, self._learning = train, learning
         self._turn = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
+        self._longest = self._turn / (SLOWEST * train.speed)  # of a hunting period [s]
         self._patterns = tuple(_patterns(train))
         self._beside = 0.5 / max(train.teeth.values())  # of an order: between two sidebands
         self._waiting: list[tuple[Array, Array]] = []
+        self._most = round(2.0 * self._longest / period)
         self._begin = math.nan  # start of the present hunting period [s]
         self._until = math.nan  # time of the last call of `judge` [s]
         self.learn()
@@ -234,6 +237,8 @@ class VibrationFollower:
             time: stamps [s], (n,).
             values: samples in the units of the channels, (n, channels).
         """
+        while sum(len(part) for part, _ in self._waiting) > self._most:  # readings have ended
+            self.counters.late += len(self._waiting.pop(0)[0])
         there = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
         self.counters.late += int(np.sum(~there))
         self._waiting.append((time[there], values[there]))
@@ -251,11 +256,10 @@ class VibrationFollower:
         while self._waiting:
             if math.isnan(self._begin) and not self._start(turning(-math.inf, until)):
                 return
-            longest = self._turn / (SLOWEST * self._train.speed)
-            course = turning(self._begin, min(until, self._begin + longest))
+            course = turning(self._begin, min(until, self._begin + self._longest))
             end = _end_of(course, self._turn, self._begin)
             if end is None:
-                if until > self._begin + longest:  # the train is at rest
+                if until > self._begin + self._longest:  # the train is at rest
                     self._take(until)
                     self._begin = until
                 return
