@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from mcap.reader import make_reader
-from mcap.records import Message
+from mcap.records import Chunk, Message
+from mcap.stream_reader import StreamReader, breakup_chunk
 from planetary_twin.recording_report import RECORDING
 from planetary_twin_msgs.msg import RecorderStatus
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -101,6 +102,8 @@ class Ticker:
 
     def __init__(self, peer: Peer) -> None:
         self.sent = 0
+        self.times: list[float] = []
+        """When each number was sent, by the clock of the stamps [s]."""
         self._publisher = peer.node.create_publisher(String, TOPIC, QoSProfile(depth=1000))
         described = peer.node.create_publisher(String, DESCRIPTION, LATCHED)
         described.publish(String(data=URDF))
@@ -109,6 +112,7 @@ class Ticker:
     def _send(self) -> None:
         if self._publisher.get_subscription_count():
             self.sent += 1
+            self.times.append(time.time())
             self._publisher.publish(String(data=f"{self.sent} "))
 
 
@@ -142,6 +146,52 @@ def test_messages_before_the_start_of_a_recording_are_no_loss_to_warn_of(
     seen = len(logger.reports)
     peer.until(lambda: len(logger.reports) > seen + 1)
     assert all(report.level == DiagnosticStatus.OK for report in logger.reports)
+
+
+def test_a_kill_loses_of_the_received_messages_those_of_one_flush_period_at_most(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    """By stamps, however late the timers of the logger are."""
+    period = 0.5
+    logger = Logger(peer, start, "name:=bag", f"flush_period:={period}")
+    ticker = Ticker(peer)
+    peer.until(lambda: logger.recorded() > 20)
+    safe, stamp = logger.recorded(), logger.status[-1].header.stamp
+    late = stamp.sec + 1e-9 * stamp.nanosec + period
+    # Sent later than the first ones were received by more than the period, and received.
+    peer.until(lambda: ticker.times[logger.recorded() - 1] > late)
+    logger.process.kill()
+    logger.process.wait(LONG)
+    assert logger.lost() == 0
+    numbers = numbers_in(tmp_path / "recordings/bag")
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert safe <= len(numbers) <= ticker.sent
+
+
+def test_a_logger_that_was_stopped_writes_what_waited_in_parts_of_a_flush_period(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    period = 0.05
+    setting = f"flush_period:={period}"
+    logger = Logger(peer, start, "name:=bag", setting, f"topics:=['{TOPIC}']")
+    ticker = Ticker(peer)
+    peer.until(lambda: logger.recorded() > 20)
+    logger.process.send_signal(signal.SIGSTOP)
+    before = ticker.sent
+    peer.until(lambda: ticker.sent > before + 200)  # a second
+    logger.process.send_signal(signal.SIGCONT)
+    peer.until(lambda: logger.recorded() > before + 200)
+    logger.process.terminate()
+    assert logger.process.wait(LONG) == 0
+    (file,) = files_of(tmp_path / "recordings/bag")
+    chunks = 0
+    with file.open("rb") as stream:
+        for record in StreamReader(stream, emit_chunks=True).records:
+            if isinstance(record, Chunk):
+                chunks += 1
+                *times, _ = [m.log_time for m in breakup_chunk(record) if isinstance(m, Message)]
+                assert not times or max(times) - min(times) < period * 1e9
+    assert chunks > 20
 
 
 def test_recordings_start_split_and_end_on_request(

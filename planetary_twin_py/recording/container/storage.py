@@ -17,7 +17,7 @@ _MEGABYTE = 1_000_000
 
 @dataclass(frozen=True)
 class Storage:
-    """Compression and size of chunks, and limits at which a bag is split.
+    """Compression and size of chunks, limits at which a bag is split, and time between flushes.
 
     Raises:
         ValueError: a value is out of range; the message names the field.
@@ -30,6 +30,8 @@ class Storage:
     """Log time per file [s]; 0: no limit."""
     split_size: float = 0.0
     """Size of a file [MB], which the last chunk may exceed; 0: no limit."""
+    flush_period: float = 0.0
+    """Log time [s] that messages on their way to the disk cover at most; 0: no limit."""
 
     def __post_init__(self) -> None:
         if self.compression not in COMPRESSIONS:
@@ -38,7 +40,7 @@ class Storage:
         least, most = CHUNK_SIZES
         if not least <= self.chunk_size <= most:
             raise ValueError(f"chunk_size = {self.chunk_size}: must be {least:g} to {most:g} MB")
-        for name in ("split_duration", "split_size"):
+        for name in ("split_duration", "split_size", "flush_period"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} = {getattr(self, name)}: must not be negative")
 
@@ -51,6 +53,11 @@ class Storage:
     def longest(self) -> float:
         """Largest log time of a file [ns]."""
         return self.split_duration * 1e9 or float("inf")
+
+    @property
+    def unflushed(self) -> float:
+        """Log time of messages after which they are flushed [ns]."""
+        return self.flush_period * 1e9 or float("inf")
 
     @property
     def largest(self) -> float:

@@ -30,6 +30,7 @@ class McapFile:
     def __init__(self, path: Path, storage: Storage) -> None:
         self.path = path
         self.extent = Extent()
+        self._unflushed = Extent()
         self.counts: Counter[int] = Counter()
         """Messages by channel."""
         self._storage = storage
@@ -82,14 +83,21 @@ class McapFile:
     def write(
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
     ) -> None:
-        """Append a message."""
+        """Append a message, and flush if those since the last flush cover the flush period.
+
+        So the loss of a kill has a limit in time by the stamps, however late a timer is.
+        """
         # MCAP stores 32 bits of the sequence number.
         self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
         self.counts[channel] += 1
         self.extent.include(log_time)
+        self._unflushed.include(log_time)
+        if self._unflushed.end - self._unflushed.start >= self._storage.unflushed:
+            self.flush()
 
     def flush(self) -> None:
         """Write all buffered data to the disk (fsync)."""
+        self._unflushed = Extent()
         self._writer.flush()  # type: ignore[no-untyped-call]
         self._check_place()
         os.fsync(self._stream.fileno())

@@ -43,7 +43,11 @@ def declare_options(node: ParameterNode) -> None:
         node, "scene", "", "scene to store in the recording, from which viewers draw the gears"
     )
     declare_bounded(
-        node, "flush_period", 0.5, (0.01, 60.0), "time between writes; a kill loses no more [s]"
+        node,
+        "flush_period",
+        0.5,
+        (0.01, 60.0),
+        "time between writes; of the messages received, a kill loses those of this time at most [s]",
     )
     declare_bounded(
         node,
@@ -83,5 +87,6 @@ def options_of(node: Node) -> LoggerOptions:
             value["chunk_size"],
             value["split_duration"],
             value["split_size"],
+            value["flush_period"],
         ),
     )
