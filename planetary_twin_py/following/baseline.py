@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .baseline_fields import FIELDS
 from .hunting_blocks import HuntingBlock, without_common
 from .tooth_scores import Bank
 
@@ -18,8 +19,6 @@ Array = NDArray[np.float64]
 
 SEEN = 1.5  # power of a change with the torque over that of noise, above which it is learned
 MOVED = 6.5  # standard deviations by which another position must explain a block better
-SAVED = ("torque", "speed", "needed", "mean", "sd", "known", "taken_off", "digest", "_centre",
-         "_spread")  # fmt: skip
 CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
 
 
@@ -76,8 +75,8 @@ class Baseline:
     def fields(self) -> dict[str, NDArray[Any]]:
         """Values of a learned baseline, from which `of_fields` makes it again."""
         assert self.mean is not None  # called for learned baselines only
-        found = {name: np.array(getattr(self, name)) for name in SAVED}
-        return found | ({} if self.slope is None else {"slope": self.slope})
+        values = {name: getattr(self, name) for name in FIELDS["teeth"]}
+        return {name: np.array(one) for name, one in values.items() if one is not None}
 
     @classmethod
     def of_fields(cls, fields: Mapping[str, NDArray[Any]], segment: int) -> Baseline:
@@ -86,15 +85,11 @@ class Baseline:
         Args:
             fields: see `fields`.
             segment: number of times that the encoders have lost the count of turns.
-
-        Raises:
-            KeyError: a value is missing.
         """
-        values = {name: fields[name] for name in SAVED}
-        plain: dict[str, Any] = {
-            name: one.item() if one.ndim == 0 else one for name, one in values.items()
+        values: dict[str, Any] = {
+            name: one.item() if one.ndim == 0 else one for name, one in fields.items()
         }
-        return cls(**plain, segment=segment, slope=fields.get("slope"))
+        return cls(**values, segment=segment)
 
     def moved(self, block: HuntingBlock) -> bool:
         """Whether a block shows the deviation of the baseline at another position of the gears.

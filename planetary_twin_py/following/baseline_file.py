@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from ..recording.tables.unpacking import UnpackedTooLargeError, check_unpacked
 from ..scene import Scene
+from .baseline_fields import BLOCKS, check_cell, check_field
+from .train import followed_train
 
 VERSION = 1
 ABOUT = "about"
@@ -99,7 +101,8 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
         The baselines.
 
     Raises:
-        ValueError: the file is not such a file, or belongs to another scene.
+        ValueError: the file is not such a file, lacks a field or has another one in its place, or
+            belongs to another scene.
         OSError: the file cannot be read.
     """
     try:
@@ -118,9 +121,14 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
     if digest != _digest(scene):
         raise ValueError(f"{path}: belongs to another scene or to other values of its fields")
     try:
-        return SavedBaseline(*(_part(kind, about, found) for kind in SavedBaseline._fields))
+        saved = SavedBaseline(*(_part(kind, about, found) for kind in SavedBaseline._fields))
     except (KeyError, TypeError, ValueError, IndexError) as reason:
         raise ValueError(f"{path}: is incomplete") from reason
+    try:
+        _check(saved, scene)
+    except ValueError as reason:
+        raise ValueError(f"{path}: {reason}") from None
+    return saved
 
 
 def _part(kind: str, about: dict[str, Any], found: dict[str, NDArray[Any]]) -> Any:
@@ -138,7 +146,22 @@ def _part(kind: str, about: dict[str, Any], found: dict[str, NDArray[Any]]) -> A
     if kind == "vibration":
         return VibrationBaseline(**fields | {"names": tuple(fields["names"])})
     counts = tuple(fields["counts_per_turn"])
-    return TeethBaseline(**fields | {"counts_per_turn": counts, "blocks": found["teeth/blocks"]})
+    return TeethBaseline(
+        **fields | {"counts_per_turn": counts, "blocks": found.get("teeth/blocks")}
+    )
+
+
+def _check(saved: SavedBaseline, scene: Scene) -> None:
+    """Raise `ValueError` for a field that is missing or has another type or shape."""
+    train = followed_train(scene)
+    sizes = {"cycles": train.hunting_cycles, "gears": len(train.teeth)}
+    if saved.teeth is not None:
+        check_field("teeth/blocks", BLOCKS, saved.teeth.blocks, {})
+    if saved.vibration is not None:
+        sizes["channels"] = len(saved.vibration.names)
+    for kind, part in saved._asdict().items():
+        for place, cell in enumerate(() if part is None else part.cells):
+            check_cell(f"{kind}/{place}", kind, cell, sizes)
 
 
 def _digest(scene: Scene) -> str:

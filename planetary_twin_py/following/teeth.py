@@ -200,7 +200,7 @@ class TeethFollower:
             self._judge(block, torque(block.begin, block.end))
 
     def _judge(self, block: HuntingBlock, torque: float) -> None:
-        if self._cells and block.segment != self._cells[-1].segment:
+        if self._cells and block.segment > self._cells[-1].segment:
             self.learn()  # teeth are numbered from the new start
         self.blocks += 1
         speed = 2.0 * math.pi * block.rate / abs(float(self.train.cycles))

@@ -154,7 +154,7 @@ class _Baseline:
 
     @classmethod
     def of_fields(cls, fields: Mapping[str, NDArray[Any]]) -> _Baseline:
-        """A baseline; raises KeyError if a value is missing."""
+        """A baseline of the values of `fields`."""
         columns = [fields[name] for name in ("begin", "found", "floor", "each_torque",
                                              "each_speed")]  # fmt: skip
         learned = [_Judged(*row) for row in zip(*columns, strict=True)]

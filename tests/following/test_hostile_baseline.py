@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py.following.baseline import Baseline
+from planetary_twin_py.following.baseline_fields import FIELDS
 from planetary_twin_py.following.baseline_file import VERSION, _digest, read_baseline
+from planetary_twin_py.following.hunting_blocks import BINS
+from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.following.vibration import _Baseline
 
 SCENE = pt.load_scene("paper")
 
@@ -23,6 +28,69 @@ def test_a_number_of_cells_that_the_file_does_not_have_is_refused(tmp_path, cell
     path = written(tmp_path / "b.npz", cells=cells, counts_per_turn=[1, 1], period=1e-4)
     with pytest.raises(ValueError, match="is incomplete"):
         read_baseline(path, SCENE)
+
+
+@pytest.fixture(scope="module")
+def sound():
+    """Arrays of a file with a baseline of the teeth and one of the vibration, by name."""
+    train, many, patterns = followed_train(SCENE), 8, 6
+    cell = Baseline(63.0, 104.0, 1, many)
+    cell.mean = np.zeros((train.hunting_cycles, BINS))
+    cell.known = np.ones(cell.mean.shape, dtype=bool)
+    cell.sd, cell.slope = np.ones(len(train.teeth)), cell.mean
+    teeth = {f"teeth/0/{name}": value for name, value in cell.fields().items()}
+    amplitudes, each = np.full((many, 1, patterns), np.nan), np.ones(many)
+    vibration = {
+        "torque": np.array(63.0), "speed": np.array(104.0), "highest": np.array(4.0), "begin": each,
+        "found": amplitudes, "floor": amplitudes, "each_torque": each, "each_speed": each,
+    }  # fmt: skip
+    about = {
+        "version": VERSION, "scene": _digest(SCENE),
+        "teeth": {"cells": 1, "counts_per_turn": [9, 9], "period": 1e-4},
+        "vibration": {"cells": 1, "names": ["x"], "period": 1e-4},
+    }  # fmt: skip
+    return (
+        {"about": np.array(json.dumps(about)), "teeth/blocks": np.zeros((many, 3))}
+        | teeth
+        | {f"vibration/0/{name}": value for name, value in vibration.items()}
+    )
+
+
+def loaded(path, arrays):
+    np.savez(path, **arrays)
+    saved = read_baseline(path, SCENE)
+    Baseline.of_fields(saved.teeth.cells[0], 1)
+    _Baseline.of_fields(saved.vibration.cells[0])
+
+
+NAMES = [f"{kind}/0/{name}" for kind, fields in FIELDS.items() for name in fields]
+
+
+@pytest.mark.parametrize("name", ["teeth/blocks", *NAMES])
+def test_a_field_that_is_missing_is_named(tmp_path, sound, name):
+    loaded(tmp_path / "sound.npz", sound)
+    arrays = {key: value for key, value in sound.items() if key != name}
+    if name == "teeth/0/slope":
+        return loaded(tmp_path / "b.npz", arrays)  # it is there only if it is significant
+    with pytest.raises(ValueError, match=rf"b.npz: {name}: missing$"):
+        loaded(tmp_path / "b.npz", arrays)
+
+
+@pytest.mark.parametrize("name", ["teeth/blocks", *NAMES])
+@pytest.mark.parametrize("change", ["type", "shape", "axes", "nan"])
+def test_a_field_of_another_type_or_shape_is_named(tmp_path, sound, name, change):
+    value = sound[name]
+    changed = {
+        "type": lambda: np.zeros(value.shape, "f8" if value.dtype.kind == "U" else "U1"),
+        "shape": lambda: np.repeat(value, 2, axis=-1) if value.ndim else np.repeat(value, 2),
+        "axes": lambda: value[None],
+        "nan": lambda: np.full(value.shape, np.nan),
+    }[change]()
+    if change == "nan" and name.rpartition("/")[2] in ("found", "floor"):
+        return loaded(tmp_path / "b.npz", sound | {name: changed})  # a pattern without lines
+    with pytest.raises(ValueError, match=rf"b.npz: {name.partition('/')[0]}/") as refusal:
+        loaded(tmp_path / "b.npz", sound | {name: changed})
+    assert "\n" not in str(refusal.value)
 
 
 def test_members_that_unpack_to_gigabytes_are_refused(tmp_path):

@@ -47,7 +47,7 @@ def declare_options(node: ParameterNode) -> None:
         "flush_period",
         0.5,
         (0.01, 60.0),
-        "time between writes; of the messages received, a kill loses those of this time at most [s]",
+        "time between writes; of the messages received, a kill loses no more [s]",
     )
     declare_bounded(
         node,
