@@ -66,7 +66,7 @@ def resimulate(
         changes = settings(set_ or [])
         course = None if commands is None else read_commands(commands)
         branch = Branch(changes, from_, duration, run, course)
-        chosen = choose_namespace(Tape(file).topics, namespace, file)
+        chosen = choose_namespace(Tape(file).counts, namespace, file)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
             task = progress.add_task("simulating", total=None)
             made = simulate_again(

@@ -38,7 +38,7 @@ def verify(
     console = console_beside(json_)
     try:
         tape = Tape(file)
-        chosen = choose_namespace(tape.topics, namespace, file)
+        chosen = choose_namespace(tape.counts, namespace, file)
         with console.status("simulating again") as status:
             result = compare(
                 file, chosen, lambda time: status.update(f"simulating again: {time:.1f} s")

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 
 from ..container.records import RecordingError
+from .no_run import no_run_yet
 from .topics import STATE
 
 
-def choose_namespace(topics: Iterable[str], wanted: str | None, path: str | Path) -> str:
+def choose_namespace(counts: Mapping[str, int], wanted: str | None, path: str | Path) -> str:
     """Select the namespace of a gearbox.
 
     Args:
-        topics: names of all topics.
+        counts: numbers of messages by topic.
         wanted: namespace; None selects the only one.
         path: of the recording, for error messages.
 
@@ -23,9 +24,13 @@ def choose_namespace(topics: Iterable[str], wanted: str | None, path: str | Path
     Raises:
         RecordingError: there is no gearbox, not the wanted one, or more than one.
     """
-    found = sorted(topic[: -len(STATE) - 1] for topic in topics if topic.endswith("/" + STATE))
+    states = [name for name, count in counts.items() if count and name.endswith("/" + STATE)]
+    found = sorted(name[: -len(STATE) - 1] for name in states)
     if not found:
-        raise RecordingError(f"{path}: has no {STATE} messages, so it is not of a gearbox")
+        no_run = no_run_yet(Path(path), counts)
+        raise RecordingError(
+            no_run or f"{path}: has no {STATE} messages, so it is not of a gearbox"
+        )
     if wanted is None:
         if len(found) > 1:
             raise RecordingError(

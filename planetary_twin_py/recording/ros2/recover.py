@@ -9,6 +9,7 @@ from mcap.records import Attachment, Channel, Message, Metadata
 
 from ..container.records import files_of
 from .bag import BagWriter
+from .no_run import no_run_yet
 from .repeats import Repeats, unrepeated
 from .tape import Tape
 
@@ -42,7 +43,8 @@ def recover(path: Path, folder: Path) -> Recovered:
     bag = BagWriter(folder)
     channels = {name: bag.add_topic(topic) for name, topic in tape.topics.items()}
     messages = dict.fromkeys(channels, 0)
-    remarks: list[str] = []
+    no_run = no_run_yet(path, tape.counts)
+    remarks = [no_run] if no_run else []
     repeats = Repeats()
     for file in files_of(path):
         names: dict[int, str] = {}

@@ -14,6 +14,7 @@ from ..container.extent import Extent
 from ..container.records import RecordingError, files_of
 from ..container.segment import DISORDER, open_segment
 from .metadata import Topic, read_offered_qos
+from .no_run import no_run_yet
 from .repeats import Repeats
 
 
@@ -33,7 +34,8 @@ class Tape:
         counts: number of messages by topic.
         start: log time of the first message of any topic [ns].
         length: time from the first to the last message [ns].
-        remarks: warnings about unreadable parts; it grows while a damaged file is read.
+        remarks: warnings about a missing run and unreadable parts; it grows while a damaged file is
+            read.
 
     Args:
         path: of an .mcap file, or a folder of them.
@@ -61,8 +63,12 @@ class Tape:
             if segment.contents.extent.start:
                 extent.include(segment.contents.extent.start)
                 extent.include(segment.contents.extent.end)
+        self.counts.update(dict.fromkeys(held, 0))
+        no_run = no_run_yet(path, self.counts)
         if not extent.start:
-            raise RecordingError(f"{path}: has no messages")
+            raise RecordingError(no_run or f"{path}: has no messages")
+        if no_run:
+            self._add_remark(no_run)
         self.start = extent.start
         self.length = extent.end - extent.start
 

@@ -19,6 +19,7 @@ from ..container.message_index import UNSOUND, Index
 from ..container.records import files_of
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
+from ..ros2.no_run import no_run_yet
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import POINT, REAL_TIME, STATE, is_status
 from ..ros2.typestore import is_recorded
@@ -127,7 +128,10 @@ def read_info(*paths: Path) -> Info:
         else:
             collected = more
     collected.warn_of_missing()
-    return collected.info
+    info = collected.info
+    counts = {name: topic.recorded for name, topic in info.topics.items()}
+    info.remarks += filter(None, (no_run_yet(path, counts) for path in paths[:1]))
+    return info
 
 
 class _Collector:

@@ -19,6 +19,7 @@ from ..ros2.decode import Topics
 from ..ros2.definitions import KINDS
 from ..ros2.layout import Layouts
 from ..ros2.namespaces import choose_namespace
+from ..ros2.no_run import no_run_yet
 from ..ros2.repeats import Repeats
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..ros2.typestore import absent
@@ -145,7 +146,9 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     found = _Found()
     for file in files_of(Path(path)):
         found.read(file)
-    namespace = choose_namespace(found.rows, namespace, path)
+    counts = found.counts()
+    namespace = choose_namespace(counts, namespace, path)
+    found.remarks += filter(None, [no_run_yet(Path(path), counts)])
     rows = {name: found.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT, AXES_STATE)}
     blocks = found.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
     axes_blocks = found.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
@@ -211,6 +214,10 @@ def axes_of(rows: list[NDArray[Any]]) -> Series:
     return _series(rows, KINDS[AXES_STATE])
 
 
+def _is_read(topic: str) -> bool:
+    return topic.rpartition("/")[2] in (*TOPICS, ORIGIN)
+
+
 class _Found:
     """Collects structured arrays and waveform blocks of files, by topic."""
 
@@ -225,7 +232,7 @@ class _Found:
 
     def read(self, file: Path) -> None:
         """Read a file."""
-        topics = Topics(file, lambda topic: topic.rpartition("/")[2] in (*TOPICS, ORIGIN))
+        topics = Topics(file, _is_read)
         sources: dict[int, Source] = {}
         self._repeats.next_file()
         for section in sections_of(file, self.remarks):
@@ -249,6 +256,13 @@ class _Found:
                     messages.setdefault(channel, []).append(record.data)
             for channel, data in messages.items():
                 self._add(sources[channel], section.place, data)
+
+    def counts(self) -> dict[str, int]:
+        """Rows by topic; 1 for topics that are not read."""
+        return {
+            topic: sum(map(len, self.rows.get(topic, []))) if _is_read(topic) else 1
+            for topic in self.topics
+        }
 
     def _remark_absent(self, topic: str, fields: Collection[str]) -> None:
         remark = f"{topic}: recorded by another version, without {', '.join(fields)}"

@@ -16,6 +16,7 @@ from ...scene import TUNABLES
 from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
 from ..ros2.given import joint_names, values_of
+from ..ros2.no_run import no_run_yet
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
@@ -194,8 +195,10 @@ class _Collector:
         self._share_commands(runs)
         runs = [run for run in runs if run.intervals]
         if not runs:
+            found = {ORIGIN: len(self._origins), STATE: len(self._intervals)}
             raise RecordingError(
-                f"{path}: has no run with its start, its origin ({ORIGIN}) and its changes, so "
+                no_run_yet(path, found)
+                or f"{path}: has no run with its start, its origin ({ORIGIN}) and its changes, so "
                 "nothing can be simulated again; recordings started later by ~/start or ~/snapshot "
                 "have no start of a run"
             )

@@ -24,7 +24,7 @@ def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float]
         namespace: of the gearbox; None if there is only one.
     """
     try:
-        runs = read_runs(path, choose_namespace(Tape(path).topics, namespace, path), [])
+        runs = read_runs(path, choose_namespace(Tape(path).counts, namespace, path), [])
     except RecordingError:  # the times of its operating points are unknown
         return None
     _, part = longest_steady_part(runs)

@@ -56,7 +56,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     """
     kind, single = _format(chosen)
     tape = Tape(path)
-    namespace = choose_namespace(tape.topics, chosen.namespace, path)
+    namespace = choose_namespace(tape.counts, chosen.namespace, path)
     names = _topics(tape, namespace, chosen.topics)
     if single and len(names) > 1:
         raise ValueError(

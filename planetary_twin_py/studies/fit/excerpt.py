@@ -108,7 +108,7 @@ def read_excerpt(
         RecordingError: no run has a scene, or there are too few intervals.
     """
     remarks: list[str] = []
-    chosen = choose_namespace(Tape(path).topics, namespace, path)
+    chosen = choose_namespace(Tape(path).counts, namespace, path)
     runs = read_runs(path, chosen, remarks)
     if begin is None and end is None:
         run, intervals = longest_steady_part(runs)

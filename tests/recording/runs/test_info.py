@@ -116,7 +116,7 @@ def test_a_file_without_a_valid_index_or_with_a_damaged_chunk_is_read_completely
     flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, with the operating point
     for name, data, remarks in (
         ("truncated", whole[: len(whole) // 2], 1),
-        ("cut", whole[:20], 1),
+        ("cut", whole[:20], 2),  # it holds no run yet, too
         ("damaged", bytes(flipped), 1),
         ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 1),
     ):

@@ -1,0 +1,134 @@
+"""A recording that was cut off before its run began says so, and what to do, in every command."""
+
+import random
+import struct
+from pathlib import Path
+
+import pytest
+from mcap.exceptions import McapError
+from mcap.records import Channel, Message
+from mcap.stream_reader import StreamReader
+from numbered import NUMBERS, payload
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.no_run import no_run_yet
+from planetary_twin_py.recording.ros2.tape import Tape
+
+SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
+CHUNK = 6  # opcode
+NO_RUN = "holds no run yet: it ends before the first"
+ADVICE = "if it is still being written, try again later; if its recorder was killed, record again"
+REFUSING = {
+    "verify": [],
+    "view": ["--save", "view.rrd"],
+    "export": ["--out", "tables", "--format", "csv"],
+    "resimulate": ["--out", "again"],
+}
+
+
+def cuts(data, count):
+    """Places within and at the ends of records, up to the end of the fourth chunk."""
+    chance, found, place, chunks = random.Random(17), {0, 4, 8}, 8, 0
+    while chunks < 4:
+        opcode, length = struct.unpack_from("<BQ", data, place)
+        end = place + 9 + length
+        found |= {place + 1, place + 9, (place + end) // 2, end - 1, end}
+        chunks += opcode == CHUNK
+        place = end
+    found |= {chance.randrange(place) for _ in range(count)}
+    return sorted(found)
+
+
+def topics_in(file):
+    """Last parts of the topics with messages, by a reader that knows nothing of damage."""
+    names, there = {}, set()
+    with file.open("rb") as stream:
+        try:
+            for record in StreamReader(stream).records:
+                if isinstance(record, Channel):
+                    names[record.id] = record.topic
+                elif isinstance(record, Message):
+                    there.add(names[record.channel_id].rpartition("/")[2])
+        except (McapError, struct.error, EOFError):
+            pass
+    return there
+
+
+def says(command, file, *options):
+    """Exit code, and the lines about the run."""
+    answer = CliRunner().invoke(build_app(), [command, str(file), *options])
+    assert not answer.exception or isinstance(answer.exception, SystemExit), answer.exception
+    lines = [line for line in answer.output.splitlines() if NO_RUN in line]
+    assert all(line.endswith(ADVICE) for line in lines)
+    return answer.exit_code, lines, answer.output
+
+
+@pytest.fixture(scope="module")
+def unbegun():
+    """Places at which the sample is cut before its run, and the first place after."""
+    data = SAMPLE.read_bytes()
+    return data, cuts(data, 20)
+
+
+@pytest.mark.slow
+def test_every_command_says_that_there_is_no_run_and_what_to_do(unbegun, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    data, places = unbegun
+    file, tried = tmp_path / "cut.mcap", 0
+    for place in places:
+        file.write_bytes(data[:place])
+        if {"run_origin", "gearbox_state"} <= topics_in(file):
+            break
+        tried += 1
+        for command, options in REFUSING.items():
+            code, lines, output = says(command, file, *options)
+            assert code == 2 and len(lines) == 1, (place, output)
+            assert output.strip() == lines[0]
+        assert not [one for one in tmp_path.iterdir() if one != file]
+        code, lines, output = says("info", file)
+        assert code == 0 and len(lines) == 1, (place, output)
+        try:
+            remarks = Tape(file).remarks  # of which replay prints every line
+        except RecordingError as reason:
+            remarks = [str(reason)]
+        assert len([line for line in remarks if NO_RUN in line and line.endswith(ADVICE)]) == 1
+        code, lines, output = says("recover", file, "--out", f"saved_{place}")
+        assert len(lines) == 1, (place, output)
+        assert (code == 0) == bool(topics_in(file))
+        for saved in tmp_path.glob(f"saved_{place}/*"):
+            saved.unlink()
+        for folder in tmp_path.glob(f"saved_{place}"):
+            folder.rmdir()
+    assert tried > 20
+
+
+def test_a_recording_that_has_begun_says_nothing_of_it(unbegun, tmp_path):
+    data, places = unbegun
+    file, tried = tmp_path / "cut.mcap", 0
+    for place in places:
+        file.write_bytes(data[:place])
+        if {"run_origin", "gearbox_state"} <= topics_in(file):
+            tried += 1
+            _, lines, _ = says("info", file)
+            assert lines == []
+    assert tried
+    assert says("info", SAMPLE)[1] == says("verify", SAMPLE)[1] == []
+
+
+def test_a_recording_of_something_else_is_not_blamed(tmp_path):
+    bag = BagWriter(tmp_path / "bag")
+    channel = bag.add_topic(NUMBERS)
+    bag.write(channel, payload(1), 1, 1, 1)
+    bag.flush()
+    assert not any(NO_RUN in line for line in Tape(bag.file).remarks)
+    code, lines, output = says("view", bag.file, "--save", str(tmp_path / "view.rrd"))
+    assert code == 2 and not lines and "has no gearbox_state messages" in output
+
+
+def test_a_finished_recording_without_a_run_is_not_unfinished(tmp_path):
+    bag = BagWriter(tmp_path / "bag")
+    bag.close()
+    assert no_run_yet(bag.file, {}) is None
