@@ -18,6 +18,7 @@ from ...printable import one_line
 from ...scene.names import did_you_mean
 from ...units import LARGEST, column_to_si, is_number
 from .mat_file import MatError, read_mat
+from .parquet_pages import unpacked_size
 from .suffixes import SUFFIXES
 from .unpacking import check_unpacked
 
@@ -31,6 +32,10 @@ _LONGEST_REASON = 200  # characters
 _LONGEST_VALUE = 60  # characters
 _MOST_COLUMNS = 2000
 _NUMBER = 8  # bytes in memory
+_TEXTS = (
+    pa.types.is_string, pa.types.is_large_string, pa.types.is_string_view, pa.types.is_binary,
+    pa.types.is_large_binary, pa.types.is_binary_view,
+)  # fmt: skip
 UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
@@ -185,15 +190,19 @@ def _read_parquet(stream: BinaryIO) -> pa.Table:
     file = parquet.ParquetFile(stream)
     stated, packed = file.metadata, stream.seek(0, os.SEEK_END)
     _check_columns(stated.num_columns)
-    groups = range(stated.num_row_groups)
-    check_unpacked(packed, sum(stated.row_group(k).total_byte_size for k in groups))
-    # Runs of one value take no room in a file.
-    check_unpacked(packed, _NUMBER * stated.num_rows * stated.num_columns)
+    # Each page states its size again, and each column its number of values: Arrow believes them.
+    check_unpacked(packed, unpacked_size(stream, stated))
+    groups = [stated.row_group(k) for k in range(stated.num_row_groups)]
+    values = sum(g.column(k).num_values for g in groups for k in range(g.num_columns))
+    check_unpacked(packed, _NUMBER * max(values, stated.num_rows * stated.num_columns))
     for k in range(stated.num_columns):
         if file.schema.column(k).max_repetition_level > 0:
             raise ValueError(f"column {file.schema.column(k).path!r}: must be numbers, not lists")
-    # Texts stay as they are stored, once each.
-    texts = [f.name for f in file.schema_arrow if pa.types.is_string(f.type)]
+    # Texts stay as they are stored, once each; bytes of a fixed size would be copied for each row.
+    for field in file.schema_arrow:
+        if pa.types.is_fixed_size_binary(field.type):
+            raise ValueError(f"column {field.name!r}: must be numbers, not {field.type}")
+    texts = [f.name for f in file.schema_arrow if any(kind(f.type) for kind in _TEXTS)]
     return parquet.ParquetFile(stream, read_dictionary=texts).read()
 
 

@@ -145,6 +145,27 @@ def test_long_texts_that_repeat_take_memory_once_and_are_shown_short(tmp_path):
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss < 2e6  # kB; the texts have 10 GB
 
 
+@pytest.mark.parametrize(
+    "kind", [pa.string(), pa.large_string(), pa.string_view(), pa.binary(), pa.large_binary()]
+)
+def test_texts_of_every_type_take_memory_once(tmp_path, kind):
+    path, rows = tmp_path / "texts.parquet", 20_000
+    text = "x" * 5000 if "string" in str(kind) else b"x" * 5000
+    table = pa.table({"time": np.arange(rows, dtype=float), "label": pa.array([text] * rows, kind)})
+    parquet.write_table(table, path)
+    values = read_columns(path)["label"].values
+    assert values[rows - 1].as_py() == text
+    assert values.nbytes < 1e6
+
+
+def test_columns_of_bytes_of_a_fixed_size_are_refused(tmp_path):
+    path = tmp_path / "bytes.parquet"
+    bytes_ = pa.array([b"x" * 5000] * 2, pa.binary(5000))
+    parquet.write_table(pa.table({"time": [0.0, 1.0], "speed": bytes_}), path)
+    with pytest.raises(ValueError, match=r"column 'speed': must be numbers, not fixed_size_binary"):
+        read_columns(path)
+
+
 def test_columns_of_lists_are_refused(tmp_path):
     path = tmp_path / "lists.parquet"
     parquet.write_table(pa.table({"time": [0.0, 1.0], "speed": [[1.0], [2.0, 3.0]]}), path)
