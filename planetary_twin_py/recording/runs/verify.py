@@ -21,9 +21,11 @@ from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, JOINTS, STATE, WAVEFORM
 from ..ros2.typestore import is_recorded
 from .origin import Measured, makers_here
 from .resimulation import Resimulation
-from .schedule import Interval, RecordedRun, messages_of, read_runs
+from .schedule import Interval, RecordedRun, messages_of, read_runs, stamp_of
 
 _COMPARED = (STATE, WAVEFORM, JOINTS, *OF_AXES)
+ROUNDING = 1000  # [ns] of the stamp of the first sample of an interval
+STOPPED = 5_000_000_000  # [ns] by which topics may end apart if a recorder is stopped
 BOUND = 10.0  # allowed difference between machines in tolerances; each has errors of up to 3
 
 
@@ -95,9 +97,11 @@ def verify(
     result.same_makers = all(run.origin.makers == here for run in runs)
     result.not_recorded = sum(_missing(run) for run in runs)
     again = Resimulation(runs, result.remarks)
-    strays, balance, loosest = Counter[str](), Balance(), 0.0
+    strays, balance, loosest = list[tuple[str, int]](), Balance(), 0.0
+    newest = 0  # stamp of a state [ns]
     course = Course()
     for topic, message in messages_of(path, namespace, _COMPARED, []):
+        newest = max(newest, stamp_of(message)) if topic == STATE else newest
         if found := again.interval_of(topic, message):
             _compare(result, topic, message, *found)
             if topic == STATE:
@@ -106,15 +110,23 @@ def verify(
                 loosest = max(loosest, found[0].tolerance)
             progress(found[1].end)
         else:
-            strays[topic] += 1
+            strays.append((topic, stamp_of(message)))
     result.ledger = ledger_warning(balance, loosest)
     result.accuracy = list(course_warnings(course))
-    result.left_out = strays.total()
+    # A recorder may have been stopped between the messages of an interval.
+    left_out = Counter(topic for topic, stamp in strays if not _is_later(topic, stamp, newest))
+    result.left_out = left_out.total()
     result.remarks += [
         f"{count} messages of {topic} belong to no interval that is simulated again"
-        for topic, count in strays.items()
+        for topic, count in left_out.items()
     ]
     return result
+
+
+def _is_later(topic: str, stamp: int, newest: int) -> bool:
+    """Whether a message belongs to an interval soon after that of the newest state, by stamps."""
+    begin = newest - ROUNDING if topic in (WAVEFORM, AXES_WAVEFORM) else newest
+    return begin < stamp < newest + STOPPED
 
 
 def _missing(run: RecordedRun) -> int:

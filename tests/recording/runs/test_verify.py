@@ -223,3 +223,20 @@ def test_the_command_refuses_recordings_it_cannot_compare_in_one_line(tmp_path):
     assert code == 2
     assert len(output.strip().splitlines()) == 1
     assert "has no run with its start" in output
+
+
+@pytest.mark.parametrize("last", [40, 39])
+def test_a_recorder_stopped_between_the_messages_of_an_interval_made_no_error(tmp_path, last):
+    """States end one or two intervals before the other topics."""
+    states = range(last, 42)
+    verdict = verify(record(tmp_path / "bag", without("gearbox_state", states)), NAMESPACE)
+    assert verdict.identical and verdict.left_out == 0
+    assert verdict.messages["gearbox_state"] == 41 - len(states)
+    assert verdict.messages["joint_states"] == verdict.messages["gearbox_state"]
+
+
+def test_messages_long_after_the_last_state_are_reported(tmp_path, monkeypatch):
+    monkeypatch.setattr("planetary_twin_py.recording.runs.verify.STOPPED", 15_000_000)  # 1.5 states
+    verdict = verify(record(tmp_path / "bag", without("gearbox_state", range(36, 42))), NAMESPACE)
+    assert not verdict.identical
+    assert any("belong to no interval that is simulated again" in one for one in verdict.remarks)

@@ -142,6 +142,11 @@ class Recorder:
     def pause(self) -> None:
         """Unsubscribe; the file stays open, and what it contains is readable."""
         if self._taps is not None:
+            try:
+                self._taps.drain()
+            except OSError as reason:
+                self._fail(reason)
+                return
             self._taps.close()
         self.flush()
 
@@ -158,12 +163,15 @@ class Recorder:
         sink, taps, self._sink, self._taps = self._sink, self._taps, None, None
         if taps is None:
             return
-        taps.close()
         if not isinstance(sink, BagWriter):
+            taps.close()
             return
         try:
+            taps.drain()
+            taps.close()
             sink.close()
         except OSError as reason:
+            taps.close()
             sink.abandon()
             raise RecorderError(_failure(sink.file, reason)) from None
         text = f"{sink.file}: {_summary(taps.accounts)}"

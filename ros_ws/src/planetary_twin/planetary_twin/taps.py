@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, Protocol
 
 from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
@@ -23,6 +23,7 @@ _NOTHING: tuple[bytes, ...] = ()
 _REPORTED = 400  # messages between two calls of `progressed`
 _UNMATCHED = 3.0  # [s] after which a subscription without a publisher is created again
 _BATCH = 200  # messages of one topic before other topics have their turn
+_QUEUE = 5000  # messages of one topic that wait at most
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
 
@@ -92,16 +93,33 @@ class Tap:
 
         The executor would deliver them one by one, at ten times the cost of writing one.
         """
-        subscription = self.subscription
-        if subscription is None:  # a message in transit when the tap was closed
+        if self.subscription is None:  # a message in transit when the tap was closed
             return
-        self._write(raw, info)
+        try:
+            self._write(raw, info)
+            self._accounted()
+            for waiting in self._waiting(_BATCH):
+                self._write(*waiting)
+                self._accounted()
+        except OSError as reason:
+            self._failed(reason)
+
+    def drain(self) -> None:
+        """Write the messages that wait; raises `OSError` if the sink cannot write."""
+        for waiting in self._waiting(_QUEUE):
+            self._write(*waiting)
+
+    def _waiting(self, most: int) -> Iterator[tuple[bytes, dict[str, Any]]]:
+        """Take at most `most` messages that wait."""
+        subscription = self.subscription
+        if subscription is None:
+            return
         with subscription.handle:
-            for _ in range(_BATCH):
+            for _ in range(most):
                 waiting = subscription.handle.take_message(subscription.msg_type, True)
                 if waiting is None or self.subscription is None:
                     return
-                self._write(*waiting)
+                yield waiting
 
     def _write(self, raw: bytes, info: dict[str, Any]) -> None:
         if raw in self._own:
@@ -109,15 +127,10 @@ class Tap:
         number = info["publication_sequence_number"]
         received = info["received_timestamp"] or time.time_ns()
         sent = info["source_timestamp"] or received
-        try:
-            self._sink.write(self._channel, raw, received, sent, number)
-            if self._describes:
-                self._sink.attach(URDF_ATTACHMENT, raw[_CDR_HEADER:].rstrip(b"\0"), "text/xml")
-        except OSError as reason:
-            self._failed(reason)
-            return
+        self._sink.write(self._channel, raw, received, sent, number)
+        if self._describes:
+            self._sink.attach(URDF_ATTACHMENT, raw[_CDR_HEADER:].rstrip(b"\0"), "text/xml")
         self.account.receive(number, self.publishers)
-        self._accounted()
 
     def on_message_lost(self, event: QoSMessageLostInfo) -> None:
         """Count messages that the middleware could not deliver."""
@@ -171,6 +184,16 @@ class Taps:
         """Subscribe to new topics."""
         for name in wanted_topics(self._node, self._chosen):
             self._subscribe(name)
+
+    def drain(self) -> None:
+        """
+        Write what waits, at the end of a recording; raises `OSError` if the sink cannot write.
+
+        A twin publishes each interval in the order of the topics' names: first its commands, then
+        its state. In the reverse order, no state is written without its commands.
+        """
+        for name in sorted(self._taps, reverse=True):
+            self._taps[name].drain()
 
     def close(self) -> None:
         """Destroy the subscriptions; `discover` subscribes again."""
