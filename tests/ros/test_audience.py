@@ -57,18 +57,35 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
 
 
 def waited(
-    monkeypatch: pytest.MonkeyPatch, listener: str, namespace: str = TWIN, name: str = "logger"
+    monkeypatch: pytest.MonkeyPatch,
+    listener: str,
+    namespace: str = TWIN,
+    name: str = "logger",
+    delays: dict[str, float] | None = None,
 ) -> float:
-    """Time [s] that a twin waits for `name` if the node `listener` has subscribed."""
+    """
+    Time [s] that a twin waits for `name` if the node `listener` has subscribed.
+
+    `delays` are the times [s] after which it subscribes, by topic.
+    """
+    delays = {STATES: 0.0} if delays is None else delays
     info = SimpleNamespace(node_name=listener, node_namespace=namespace)
-    publisher = SimpleNamespace(topic_name=STATES, get_subscription_count=lambda: 1)
+    clock = SimpleNamespace(now=100.0)
+
+    def subscribers(topic: str) -> list[SimpleNamespace]:
+        return [info] if clock.now >= 100.0 + delays[topic] else []
+
     node = SimpleNamespace(
-        publishers=[publisher],
+        publishers=[
+            SimpleNamespace(
+                topic_name=topic, get_subscription_count=lambda topic=topic: len(subscribers(topic))
+            )
+            for topic in delays
+        ],
         get_namespace=lambda: TWIN,
-        get_subscriptions_info_by_topic=lambda topic: [info],
+        get_subscriptions_info_by_topic=subscribers,
         get_logger=lambda: SimpleNamespace(info=print, warning=print),
     )
-    clock = SimpleNamespace(now=100.0)
     monkeypatch.setattr(audience, "time", SimpleNamespace(monotonic=lambda: clock.now))
     waiting = Audience(node, name)
     waiting.begin()
@@ -83,6 +100,18 @@ def test_a_subscription_of_an_unknown_node_ends_the_wait_without_a_warning(
     assert waited(monkeypatch, "logger") < 1.0
     assert 3.0 < waited(monkeypatch, UNKNOWN_NODE) < 4.0
     assert "has not subscribed" not in capsys.readouterr().out
+
+
+def test_a_busy_logger_that_subscribes_topic_by_topic_is_waited_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """And one that has subscribed to all is waited for no longer."""
+    delays = {STATES: 0.0, "/tf": 0.9, "/diagnostics": 1.8, f"{TWIN}/joint_states": 4.0}
+    assert 4.0 <= waited(monkeypatch, "logger", delays=delays) < 4.2
+    of_ros = {"/parameter_events": 99.0, f"{TWIN}/simulation/transition_event": 99.0}
+    assert waited(monkeypatch, "logger", delays={STATES: 0.0} | of_ros) == 0.0
+    few = {STATES: 1.0, "/tf": 99.0}
+    assert 4.0 <= waited(monkeypatch, "logger", delays=few) < 4.3
 
 
 def test_a_subscription_of_another_node_does_not_end_the_wait(

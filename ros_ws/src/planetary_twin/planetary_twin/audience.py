@@ -5,12 +5,12 @@ from __future__ import annotations
 import time
 
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 
-from .topics import UNKNOWN_NODE
+from .topics import UNKNOWN_NODE, is_of_twin
 
 PATIENCE = 10.0  # [s]
-_SETTLED = 0.5  # [s] without a new subscription, after which no more are expected
-_UNNAMED = 3.0  # [s] the same if the nodes of the subscriptions are unknown
+_SETTLED = 3.0  # [s] without a new subscription, after which no more are expected
 _POLL = 0.05  # [s]
 
 
@@ -20,10 +20,12 @@ class Audience:
 
     A name that does not start with a slash is relative to the namespace of `node`.
 
-    Nodes that start together discover each other after some tenths of a second, or after three
-    seconds if a discovery message of the middleware is lost. The name of a subscription's node
-    arrives in a separate message, which may be lost for good: after three seconds, a subscription
-    of an unknown node counts as one of `name`. If `name` is empty, there is nothing to wait for.
+    A node that has subscribed to every topic of the twin is present at once. One that subscribes
+    to some of them is present after three seconds without a further subscription: nodes that start
+    together discover each other after some tenths of a second, or after three seconds if a
+    discovery message of the middleware is lost. The name of a subscription's node arrives in a
+    separate message, which may be lost for good: after that time, a subscription of an unknown
+    node counts as one of `name`. If `name` is empty, there is nothing to wait for.
     """
 
     def __init__(self, node: Node, name: str) -> None:
@@ -53,8 +55,8 @@ class Audience:
         if self._subscribed != before:
             self._changed = now
         named, unnamed = self._subscribed
-        settled = now - self._changed
-        self._present = (named > 0 and settled > _SETTLED) or (unnamed > 0 and settled > _UNNAMED)
+        settled = now - self._changed > _SETTLED
+        self._present = named >= len(self._published()) or (named + unnamed > 0 and settled)
         if not self._present and now > self._since + PATIENCE:
             self._present = True
             self._node.get_logger().warning(
@@ -63,11 +65,16 @@ class Audience:
             )
         return self._present
 
+    def _published(self) -> list[Publisher]:
+        """Return the publishers of the twin's own topics."""
+        namespace = self._node.get_namespace()
+        return [one for one in self._node.publishers if is_of_twin(one.topic_name, namespace)]
+
     def _subscriptions(self) -> tuple[int, int]:
         """Count the matched topics of `node` to which `name`, or an unknown node, subscribes."""
         wanted = full_name(self._node.get_namespace(), self._name)
         named = unnamed = 0
-        for publisher in self._node.publishers:
+        for publisher in self._published():
             if not publisher.get_subscription_count():
                 continue
             subscribers = self._node.get_subscriptions_info_by_topic(publisher.topic_name)

@@ -31,14 +31,16 @@ def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
     names = {name for name, _ in node.get_topic_names_and_types()}
     if chosen:
         return sorted(names & {node.resolve_topic_name(name) for name in chosen})
-    namespace = node.get_namespace().rstrip("/") + "/"
-    places = {namespace, *(f"{namespace}{below}/" for below in _BELOW)}
-    here = {
-        name
-        for name in names - set(_OF_ROS)
-        if name.rpartition("/")[0] + "/" in places and not name.endswith("/transition_event")
-    }
-    return sorted((here | set(_EVERYWHERE)) & names)
+    return sorted(name for name in names if is_of_twin(name, node.get_namespace()))
+
+
+def is_of_twin(name: str, namespace: str) -> bool:
+    """Return whether a logger in `namespace` records the topic `name` by default."""
+    if name in _OF_ROS or name.endswith("/transition_event"):
+        return False
+    own = namespace.rstrip("/")
+    places = {own, *(f"{own}/{below}" for below in _BELOW)}
+    return name in _EVERYWHERE or name.rpartition("/")[0] in places
 
 
 def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
