@@ -11,8 +11,8 @@ import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
 from planetary_twin_py.terminal.json_output import console_beside, write_json
-from planetary_twin_py.terminal.messages import fail, need
-from planetary_twin_py.terminal.output_files import output_file
+from planetary_twin_py.terminal.messages import need
+from planetary_twin_py.terminal.output_files import output_file, writing
 
 
 def bench(
@@ -76,10 +76,8 @@ def bench(
 
         from .work_precision import work_precision
 
-        try:
+        with writing("--plot", plot):
             save(work_precision(rows), str(plot))
-        except (OSError, ValueError) as error:
-            fail(f"--plot = {str(plot)!r}: {error}")
     if markdown is not None:
         picture = os.path.relpath(plot, markdown.parent) if plot is not None else None
         runs = markdown.with_stem(f"{markdown.stem}-runs")

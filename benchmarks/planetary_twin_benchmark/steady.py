@@ -168,8 +168,8 @@ are repeated instead of computed (`core/integrators/periodic.hpp`).
   brackets the slowest and the fastest round.
 - Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at
   tolerance {EXACT:g}.
-- *late by*: delay in mesh cycles. The speed loop compensates an error of the friction by an angle; its
-  bandwidth of 3 Hz is so low that a loss error of 1e-6 gives a delay of 3e-6 of a cycle.
+- *late by*: delay in mesh cycles. The speed loop compensates an error of the friction by an angle;
+  its bandwidth of 3 Hz is so low that a loss error of 1e-6 gives a delay of 3e-6 of a cycle.
 - *DTE error*: without this delay, as far as samples at {SAMPLE_RATE / 1e3:g} kHz resolve it: at
   17 000 rpm there are six in a cycle.
 
