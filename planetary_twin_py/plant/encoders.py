@@ -26,7 +26,7 @@ class EncoderCounts(NamedTuple):
     """Counts of input and output since time 0, (n, 2)."""
 
 
-def play_encoders(plant: Plant) -> Iterator[EncoderCounts]:
+def simulate_encoders(plant: Plant) -> Iterator[EncoderCounts]:
     """Simulate the encoders of a plant, in packets of which some are lost.
 
     Args:

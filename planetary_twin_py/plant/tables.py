@@ -13,9 +13,9 @@ from ..following.bins import CHANNELS
 from ..following.measured_tables import COUNTS, SAMPLE
 from ..recording.tables.message_tables import Column
 from ..recording.tables.table_files import FORMATS
-from .encoders import play_encoders
-from .readings import Plant, play_readings
-from .vibration import NAME, play_vibration
+from .encoders import simulate_encoders
+from .readings import Plant, simulate_readings
+from .vibration import NAME, simulate_vibration
 
 
 class PlantTable(NamedTuple):
@@ -32,7 +32,7 @@ def readings_table(plant: Plant) -> PlantTable:
     Args:
         plant: the plant.
     """
-    time, found = play_readings(plant)
+    time, found = simulate_readings(plant)
     batch = {"time": time, **found}
     units = {"time": "s", **CHANNELS}
     columns = [Column(name, units[name], np.dtype(float)) for name in batch]
@@ -47,7 +47,8 @@ def encoders_table(plant: Plant) -> PlantTable:
     """
     names = SAMPLE, *COUNTS
     batches = (
-        dict(zip(names, (one.sample, *one.counts.T), strict=True)) for one in play_encoders(plant)
+        dict(zip(names, (sample, *counts.T), strict=True))
+        for sample, counts in simulate_encoders(plant)
     )
     return PlantTable([Column(name, "", np.dtype(np.int64)) for name in names], batches)
 
@@ -59,7 +60,7 @@ def vibration_table(plant: Plant) -> PlantTable:
         plant: the plant; it has an accelerometer.
     """
     rate, units = plant.hidden.sensors.vibration.rate, {"time": "s", NAME: "m/s^2"}
-    batches = ({"time": one.sample / rate, NAME: one.values} for one in play_vibration(plant))
+    batches = ({"time": one.sample / rate, NAME: one.values} for one in simulate_vibration(plant))
     columns = [Column(name, unit, np.dtype(float)) for name, unit in units.items()]
     return PlantTable(columns, batches)
 

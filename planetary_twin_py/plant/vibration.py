@@ -34,7 +34,7 @@ class Acceleration(NamedTuple):
     """Accelerations [m/s^2], (n,)."""
 
 
-def play_vibration(plant: Plant) -> Iterator[Acceleration]:
+def simulate_vibration(plant: Plant) -> Iterator[Acceleration]:
     """Simulate the accelerometer of a plant, in packets of which some are lost.
 
     Args:

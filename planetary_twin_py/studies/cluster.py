@@ -44,7 +44,7 @@ class Cluster:
                     "install the same version"
                 )
 
-    def do(
+    def run(
         self, work: Callable[[Task], Answer], points: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer | Failure]]:
         """Yield every point with its result, in order of completion."""

@@ -28,7 +28,7 @@ class Threads:
         if self.count < 1:
             raise ValueError(f"workers = {count!r}: must be at least 1")
 
-    def do(
+    def run(
         self, work: Callable[[Task], Answer], points: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer]]:
         """Yield every point with its result, in order of completion."""

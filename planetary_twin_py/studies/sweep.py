@@ -49,7 +49,7 @@ def sweep(
     report(len(found), None)
     left = (point for point in study.points if point.place not in found)
     try:
-        for point, result in executor.do(Evaluation(study.scene, study.settings), left):
+        for point, result in executor.run(Evaluation(study.scene, study.settings), left):
             found[point.place] = result
             if book:
                 book.add(keys[point.place], result)

@@ -43,7 +43,7 @@ class Simulations:
         """The output at each point (p,)."""
         keys = [tuple(point.tolist()) for point in points]
         new = [key for key in dict.fromkeys(keys) if key not in self._known]
-        for key, output in self.threads.do(lambda key: self._model(np.array(key)), new):
+        for key, output in self.threads.run(lambda key: self._model(np.array(key)), new):
             self._known[key] = output
             self._report(self.count)
         return [self._known[key] for key in keys]
