@@ -78,7 +78,7 @@ def fit(  # noqa: PLR0913 - an argument for each option
     """Estimate scene parameters from FILE with confidence intervals, if they are identifiable.
 
     FILE is a recording, or a measured manoeuvre: a .csv, .parquet or .mat file with time,
-    input_torque, output_torque and input_speed.
+    input_torque, output_torque and input_speed or output_speed.
 
     Of a recording, without --from and --to, up to one second with a constant operating point is
     used. Parameters that the readings do not determine are reported in a warning; the exit code is

@@ -4,8 +4,8 @@ The normal of a pair of flanks is n = cos(beta_b) n_t + hand sin(beta_b) e_z, wi
 transverse plane, e_z along the axes and the base helix angle beta_b (Kahraman 1994, J. Sound Vib.
 173, 125). Forces, deflections and stiffnesses of the model are those of the transverse plane, so
 the row is r = n/cos(beta_b) = n_t + hand tan(beta_b) e_z: a mesh force F along n_t has the axial
-part F tan(beta_b). It acts at the pitch point in the middle of the face, at R e_r from the axis of a
-gear, and turns that by R e_r x r: tilts it by -hand tan(beta_b) R about e_t.
+part F tan(beta_b). It acts at the pitch point in the middle of the face, at R e_r from the axis of
+a gear, and turns that by R e_r x r: tilts it by -hand tan(beta_b) R about e_t.
 
 Coast flanks have the hand of the drive flanks, but the opposite normal in the plane. As their row
 counts the approach negatively, axial displacements have the same factors. Tilts change the

@@ -63,12 +63,12 @@ class Study:
     points: tuple[Point, ...]
     settings: Settings = Settings()
 
-    def key(self, point: Point, makers: str) -> str:
+    def key(self, point: Point, versions: str) -> str:
         """Digest of everything that determines the results of a point.
 
         Args:
             point: of this study.
-            makers: identifies the core and the measures.
+            versions: digest of the core and names of the measures.
 
         Returns:
             32 hexadecimal digits.
@@ -77,7 +77,7 @@ class Study:
             "scene": self.scene.model_dump(mode="json", exclude={"name", "description"}),
             "changes": dict(point.changes),
             "settings": asdict(self.settings),
-            "makers": makers,
+            "makers": versions,
         }
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
 
