@@ -12,8 +12,8 @@ from .row import Row
 
 HEAD = """# Measured and published figures
 
-`make measured` writes this page. Each table compares measured or published figures with those of the
-twin.
+`make measured` writes this page. Each table compares measured or published figures with those of
+the twin.
 
 - **agrees**: within the stated bound, or the trend has the same sign.
 - **misses**: outside the bound, or not modelled. The reason is below the table.
