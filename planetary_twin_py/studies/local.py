@@ -31,7 +31,12 @@ class Threads:
     def run(
         self, work: Callable[[Task], Answer], points: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer]]:
-        """Yield every point with its result, in order of completion."""
+        """Yield every point with its result, in order of completion.
+
+        Args:
+            work: function to evaluate at each point.
+            points: of the study.
+        """
         waiting = iter(points)
         pool = ThreadPoolExecutor(self.count, "point")
         under_way: dict[Future[Answer], Task] = {}

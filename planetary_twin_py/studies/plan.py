@@ -165,7 +165,11 @@ def _study(scene: Scene, axes: Sequence[Axis | Span], rows: Any, settings: Setti
 
 
 def describe(changes: Mapping[str, Any]) -> str:
-    """Changes as text: "backlash = 1e-07, mesh.ramp = 0"."""
+    """Changes as text: "backlash = 1e-07, mesh.ramp = 0".
+
+    Args:
+        changes: values in SI by field.
+    """
     return ", ".join(
         f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
         for name, value in changes.items()
