@@ -201,7 +201,7 @@ template <int L>
 Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
     set_step<L>(run, h);
-    const bool recalled = extrapolate_growth<L>(march);
+    const bool recalled = repeat_growth<L>(march);
     if (!recalled && !fresh && continues(march))
         extrapolate<L>(run);
     else

@@ -66,7 +66,7 @@ inline KeptGrowth* growth_here(Propagation& run) {
 // Let rest and friction grow over the step as they did when it was last made; whether that is
 // known.
 template <int L>
-bool extrapolate_growth(March& march) {
+bool repeat_growth(March& march) {
     Propagation& run = march.run;
     const KeptGrowth* past = growth_here(run);
     const double step = run.motion.step;
