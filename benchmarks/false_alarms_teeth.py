@@ -33,7 +33,7 @@ from planetary_twin_py.following.teeth import WINDOWS, TeethFollower
 from planetary_twin_py.following.tooth_scores import Bank
 from planetary_twin_py.following.tooth_search import ALARM
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.plant.encoders import play_encoders
+from planetary_twin_py.plant.encoders import simulate_encoders
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant
 
@@ -69,7 +69,7 @@ def follow(laws: dict[str, object], seconds: float, seed: int) -> Quiet:
         return float(true) + 0.011 * noise.standard_normal()
 
     found, largest = [], -np.inf
-    for packets in play_encoders(plant):
+    for packets in simulate_encoders(plant):
         before = follower.blocks
         follower.add(packets.sample, packets.counts)
         follower.judge(np.inf, torque)

@@ -62,10 +62,10 @@ class DrivenRun:
             due = min(max(math.floor(time * Fraction(sample_rate)) + 1 - first_sample, done), room)
             parts.append(self._run.advance(time, first_sample + done, sample_rate, due - done))
             done = due
-            self._give(action)
+            self._apply(action)
         parts.append(self._run.advance(until, first_sample + done, sample_rate, room - done))
         return Samples(*map(np.concatenate, zip(*parts, strict=True)))
 
-    def _give(self, action: Action) -> None:
+    def _apply(self, action: Action) -> None:
         assert isinstance(self._run, DrivenEngine)
-        self._run.give(action.begin, action.end, action.command)
+        self._run.apply_command(action.begin, action.end, action.command)

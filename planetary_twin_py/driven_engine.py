@@ -52,7 +52,7 @@ class DrivenEngine(Engine):
         loads = LoadBuilder(scene, self.train)
         speed_loop.check(point)
         ticks = int(time * TICKS)
-        self.give(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
+        self.apply_command(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
         shown = self.port_states(ticks)
         self._end_step(time)
         self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
@@ -77,7 +77,7 @@ class DrivenEngine(Engine):
         self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
         return shown
 
-    def give(self, begin: int, end: int, command: Command) -> None:
+    def apply_command(self, begin: int, end: int, command: Command) -> None:
         """Apply a command from the end of the last window on.
 
         Args:
@@ -93,7 +93,7 @@ class DrivenEngine(Engine):
         if self._failure is not None:
             raise self._failure
         try:
-            accepted = self._core.give(
+            accepted = self._core.apply_command(
                 self.model, self.march, begin, end, *command, self._linear, self.port_ranges
             )
         except ArithmeticError as reason:

@@ -163,11 +163,11 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
     begin = time.perf_counter()
     run = start(scene, TOLERANCE)
     run.advance(duration, 1, 1.0, 0)
-    run.take_mesh_sums(duration)
+    run.pop_mesh_sums(duration)
     before = run.books(duration)
     run.advance(2.0 * duration, 1, 1.0, 0)
     ledger = run.books(2.0 * duration).since(before).ledger
-    sums = run.take_mesh_sums(2.0 * duration)
+    sums = run.pop_mesh_sums(2.0 * duration)
     spent = time.perf_counter() - begin
     found = mesh_statistics(in_order(sums, mesh_names(scene).place))
     lost = sum(ledger[item] for item in (FRICTION, BEARING, CHURNING))

@@ -108,7 +108,7 @@ class Engine:
         self.march.end = self.march.begin  # tooth pairs may have started to stick
         self.advance(0.0, 1, 1.0, 0)
         self.books(0.0)
-        self.take_mesh_sums(0.0)
+        self.pop_mesh_sums(0.0)
         self._core.cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
@@ -214,9 +214,9 @@ class Engine:
         self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
         raise self._failure from None
 
-    def stand(self, time: int, end: WindowEnd) -> None:
+    def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
-        self._core.take_books(self.model, self.march, end)
+        self._core.begin_window(self.model, self.march, end)
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
@@ -242,7 +242,7 @@ class Engine:
     def _check(self, samples: Samples) -> None:
         """Raise an `ArithmeticError` if the train exceeds a limit."""
         limits = self._limits
-        limits.check_squeeze(samples, self.model.load)
+        limits.check_deflection(samples, self.model.load)
         limits.speed.check(samples.speed)
         limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
 
@@ -312,16 +312,16 @@ class Engine:
         ended, ledger = self.march.copy(), np.empty(LEDGER)
         self._core.cut(self.model, ended, instant(time))
         kinetic, elastic = self._core.stored(self.model, ended.end, ended.scratch)
-        self._core.take_ledger(ended, ledger)
+        self._core.pop_energy_ledger(ended, ledger)
         return EnergyBooks(ledger, float(kinetic), float(elastic))
 
-    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+    def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:
         """Integrals and extremes of the meshes from the previous call to `time` [s].
 
         `time` is the end of the last window.
         """
         taken = self._core.MeshSums()
-        self._core.take_mesh_sums(self.model, self.march, instant(time), taken)
+        self._core.pop_mesh_sums(self.model, self.march, instant(time), taken)
         return mesh_sums(taken, int(self.train.meshes))
 
 

@@ -120,7 +120,7 @@ class QualityControl:
         load = (work if cost <= self._period else cost) / self._period
         if repeated != self._repeated:
             self._repeated = repeated
-            self._forget()
+            self._restart_average()
         late, self._last = min(load, self._last), load
         self._loads.append(load)
         if late > 1.0:
@@ -148,9 +148,9 @@ class QualityControl:
         goal, most = self._rung, mean
         while goal < top and (most := most * self._steepest(goal + 1)) <= self._limit(goal + 1):
             goal += 1
-        return self._rung + 1 if goal == self._rung < top and self._may_climb(mean) else goal
+        return self._rung + 1 if goal == self._rung < top and self._may_improve(mean) else goal
 
-    def _may_climb(self, mean: float) -> bool:
+    def _may_improve(self, mean: float) -> bool:
         """Whether the next better setting may be tried."""
         above = self._rung + 1
         if above <= self._full:
@@ -184,9 +184,9 @@ class QualityControl:
     def _move(self, rung: int) -> None:
         self._rung = rung
         self._climbed_at = math.nan
-        self._forget()
+        self._restart_average()
 
-    def _forget(self) -> None:
+    def _restart_average(self) -> None:
         """Start a new average."""
         self._last = self._calm = 0.0
         self._loads.clear()

@@ -57,7 +57,7 @@ class Run(Protocol):
         of `end` are those since the last window. The work is done as the jobs are.
         """
 
-    def stand(self, time: int, end: WindowEnd) -> None:
+    def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks of the clock], the end of the last one."""
 
     def sample(self, time: float | Fraction) -> Samples:
@@ -69,7 +69,7 @@ class Run(Protocol):
     def books(self, time: float | Fraction) -> EnergyBooks:
         """Energy at `time` [s], the end of the last window; it changes nothing."""
 
-    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+    def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:
         """Integrals and extremes of the meshes since the last call.
 
         Up to `time` [s], the end of the last window.

@@ -74,15 +74,15 @@ class Limits:
         drive, meshes = scene.drive, mesh_names(scene)
         size = np.hypot(train.line_tangential, train.line_radial)
         self._errors = size.sum(axis=1)[: train.meshes]
-        self.squeeze = Limit(
-            "squeeze",
+        self.deflection = Limit(
+            "deflection",
             "m",
             _mesh_names(meshes, int(train.meshes)),
             np.full(train.meshes, train.base_pitch),
             "a base pitch, at which teeth break or jump; reduce the torques or increase the "
             "stiffness",
         )
-        """Of the mesh deflection, see `check_squeeze`."""
+        """Of the mesh deflection, see `check_deflection`."""
         ratios = np.abs(train.ratio[: train.bodies]).sum(axis=1)
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
         self.speed = Limit(
@@ -104,14 +104,14 @@ class Limits:
         )
         """Of the torques of the machines."""
         self.record: _core.Limits = library(scene).Limits(
-            squeeze=self.squeeze.largest,
+            deflection=self.deflection.largest,
             error=self._errors,
             speed=self.speed.largest,
             torque=self.torque.largest,
         )
         """All of them for the core, which finds whether a window exceeds one."""
 
-    def check_squeeze(self, samples: Samples, load: Load) -> None:
+    def check_deflection(self, samples: Samples, load: Load) -> None:
         """Check the mesh deflection along the line of action.
 
         Its lower bound is |DTE| minus half the backlash and the largest form errors.
@@ -142,7 +142,7 @@ class Limits:
 
     def _check_dte(self, largest: np.ndarray, load: Load) -> None:
         """Check deflections by the largest |DTE|, (meshes,); NaN if there is one."""
-        self.squeeze.check(np.maximum(largest - load.half_backlash - self._errors, 0.0)[None])
+        self.deflection.check(np.maximum(largest - load.half_backlash - self._errors, 0.0)[None])
 
 
 def _inertia(train: Train) -> float:

@@ -100,7 +100,7 @@ def simulate(
     until = settling + duration
     passed, end = (samples_until(t, sample_rate) for t in (settling, until))
     driven.advance(settling, passed + 1, sample_rate, 0)
-    engine.take_mesh_sums(settling)
+    engine.pop_mesh_sums(settling)
     books, turned = engine.books(settling), _turned(engine, settling)
     axes = None
     if scene.moving_axes:
@@ -111,7 +111,7 @@ def simulate(
         samples=samples,
         times=np.arange(passed + 1, end + 1) / sample_rate,
         mean_speed=(_turned(engine, until) - turned) / duration,
-        sums=engine.take_mesh_sums(until),
+        sums=engine.pop_mesh_sums(until),
         energy=_energy(engine, books, engine.books(until)),
         duration=duration,
         simulated=until,

@@ -77,7 +77,7 @@ class Twin:
             self._core.WindowEnd(),
             self._core.WindowEnd(),
         )  # of the last window, and of the next one
-        self._stand()
+        self._begin_window()
         self._forgetting, self._settled = Settling(scene), 0.0
         self._settling = self._forgetting.rate(scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
@@ -218,7 +218,7 @@ class Twin:
         self._end_steps()
         self._driven().set_ports(scene, self.operating_point, Fraction(self._ticks, TICKS))
         self.scene, self._given = scene, ports.given
-        self._stand()
+        self._begin_window()
         self.log.append(self.log[-1]._replace(time=self.time, ports=ports))
         return self.time
 
@@ -288,8 +288,8 @@ class Twin:
     def _end_steps(self) -> None:
         """Begin a window after steps, which have no sums of the meshes."""
         if self._stepped:
-            self._engine.take_mesh_sums(Fraction(self._ticks, TICKS))
-            self._stand()
+            self._engine.pop_mesh_sums(Fraction(self._ticks, TICKS))
+            self._begin_window()
             self._stepped = False
 
     def advance(
@@ -337,11 +337,11 @@ class Twin:
         """Apply a command in a window that begins now."""
         self._end_steps()
         if self._given or command != NOTHING:
-            self._give(command, plan.end)
+            self._apply_command(command, plan.end)
 
-    def _give(self, command: Command, end: int) -> None:
+    def _apply_command(self, command: Command, end: int) -> None:
         """Apply a command from the present time to `end` [ticks]."""
-        self._driven().give(self._ticks, end, command)
+        self._driven().apply_command(self._ticks, end, command)
         if self._kept is not None:
             self._kept.keep(self._ticks, end, command)
 
@@ -356,14 +356,14 @@ class Twin:
         if change[1:] != self.log[-1][1:]:
             self._end_steps()
             self._engine.change(point, tolerance, Fraction(self._ticks, TICKS))
-            self._stand()  # a change of backlash is not work of this window
+            self._begin_window()  # a change of backlash is not work of this window
             self._settling = self._forgetting.rate(point)
             self.log.append(change)
         return self.time
 
-    def _stand(self) -> None:
+    def _begin_window(self) -> None:
         """Begin a window at the present time."""
-        self._engine.stand(self._ticks, self._ends[0])
+        self._engine.begin_window(self._ticks, self._ends[0])
 
     def _plan(self, duration: float) -> Plan:
         """Plan a window of `duration` seconds from the present time on."""

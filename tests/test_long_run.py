@@ -61,7 +61,7 @@ def aged(scene, hours=HOURS, sample_rate=50_000.0):
         state.seconds += 3600 * hours
         state.turns[: len(turns)] += turns
     twin._ticks += 3600 * hours * TICKS
-    twin._stand()
+    twin._begin_window()
     return twin, turns
 
 

@@ -25,7 +25,7 @@ def test_teeth_that_yield_by_a_base_pitch_stop_the_run(dynamics):
     scene = scene.replace(**{"lubrication.friction": False}) if dynamics == "torsional" else scene
     torque = breaking_torque(scene)
     assert np.abs(pt.simulate(scene.replace(input_torque=0.95 * torque), 0.01).dte).max() < PITCH
-    with pytest.raises(pt.RunawayError, match=r"squeeze of .* base pitch"):
+    with pytest.raises(pt.RunawayError, match=r"deflection of .* base pitch"):
         pt.simulate(scene.replace(input_torque=1.05 * torque), 0.01)
 
 
@@ -60,12 +60,12 @@ def test_a_twin_stays_where_it_was_when_its_train_breaks():
 
 @pytest.mark.parametrize(
     ("limit", "value"),
-    [("speed", 10.1 * 1100.0), ("torque", 10.1 * (1000.0 + 500.0 * 0.02)), ("squeeze", 2.4e-3)],
+    [("speed", 10.1 * 1100.0), ("torque", 10.1 * (1000.0 + 500.0 * 0.02)), ("deflection", 2.4e-3)],
 )
 def test_each_limit_is_the_documented_one(limit, value):
     """10 times drive.speed_limit; 10 times drive.torque_limit and J slew_rate; a base pitch."""
     checked = getattr(Engine(PAPER, 1e-2)._limits, limit)
-    sun = {"speed": "sun", "torque": "motor", "squeeze": "sun_planet_1"}[limit]
+    sun = {"speed": "sun", "torque": "motor", "deflection": "sun_planet_1"}[limit]
     place = list(checked.names).index(sun)
     values = np.zeros((2, len(checked.names)))
     values[1, place] = 0.95 * value

@@ -62,9 +62,9 @@ def integrated_and_sampled(scene):
     """Statistics of the same 0.1 s by the integrator, and its samples each microsecond."""
     engine, other = start(scene, 1e-4), start(scene, 1e-4)
     engine.advance(0.02, 1, 1.0, 0)
-    engine.take_mesh_sums(0.02)
+    engine.pop_mesh_sums(0.02)
     engine.advance(0.12, 1, 1.0, 0)
-    sums = engine.take_mesh_sums(0.12)
+    sums = engine.pop_mesh_sums(0.12)
     assert sums.time == pytest.approx(0.1, rel=1e-12)
     return mesh_statistics(sums), other.advance(0.12, 20_000, 1e6, 100_001).mesh
 
@@ -105,7 +105,7 @@ def test_losses_of_the_meshes_add_up_to_the_energy_ledger(changes):
         engine.advance(time, 1, 1.0, 0)
         engine.advance(engine.reached, 1, 1.0, 0)
         friction = engine.books(engine.reached).since(begin).ledger[FRICTION]
-        lost = engine.take_mesh_sums(engine.reached).integral[POWER_LOSS]
+        lost = engine.pop_mesh_sums(engine.reached).integral[POWER_LOSS]
     copies = engine.train.copies[: len(lost)]
     assert (lost * copies).sum() == pytest.approx(friction, rel=1e-4, abs=1e-12)
 

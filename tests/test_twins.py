@@ -58,7 +58,7 @@ def test_a_copy_that_fails_is_named_and_left_out_and_stops_no_other():
         assert failed is None
         assert_same(first, expected)
         assert_same(last, expected)
-    assert list(twins.failures) == [1] and "squeeze of" in str(twins.failures[1])
+    assert list(twins.failures) == [1] and "deflection of" in str(twins.failures[1])
     assert [twin.time for twin in twins] == [0.03, 0.01, 0.03]
 
 

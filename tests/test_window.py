@@ -52,11 +52,15 @@ def test_a_window_keeps_its_figures_when_the_next_one_is_computed():
 @pytest.mark.parametrize("row", [0, -1])
 def test_a_window_is_checked_against_its_limits_in_the_core(row):
     """Speeds and deflections that no gearbox shows, one after the other: limits are lowered."""
-    for name, quantity in (("speed", "speed of "), ("squeeze", "squeeze of "), ("torque", "torq")):
+    for name, quantity in (
+        ("speed", "speed of "),
+        ("deflection", "deflection of "),
+        ("torque", "torq"),
+    ):
         twin = pt.Twin(PAPER)
         limits = twin._engine._limits
         limit = getattr(limits, name)
-        limit.largest[row] = 1e-9 if name != "squeeze" else -1.0
+        limit.largest[row] = 1e-9 if name != "deflection" else -1.0
         getattr(limits.record, name)[: len(limit.largest)] = limit.largest
         with pytest.raises(pt.RunawayError, match=quantity):
             twin.advance(0.01)

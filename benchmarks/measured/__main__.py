@@ -10,10 +10,10 @@ from .compact_losses import rig_estimates, rig_losses, rig_predictions
 from .published import helicopter, others, trends, two_actuators
 from .row import Row
 
-HEAD = """# Measured against the world
+HEAD = """# Measured and published figures
 
-`make measured` makes this page. Each table compares measured or published figures with those of the
-twin.
+`make measured` writes this page. Each table compares measured or published figures with those of
+the twin.
 
 - **agrees**: within the stated bound, or the trend has the same sign.
 - **misses**: outside the bound, or not modelled. The reason is below the table.

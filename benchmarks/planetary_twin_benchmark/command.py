@@ -11,15 +11,19 @@ import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
 from planetary_twin_py.terminal.json_output import console_beside, write_json
-from planetary_twin_py.terminal.messages import fail, need
-from planetary_twin_py.terminal.output_files import output_file
+from planetary_twin_py.terminal.messages import need
+from planetary_twin_py.terminal.output_files import output_file, writing
 
 
 def bench(
     json_: JsonOption = None,
     markdown: Annotated[
         Path | None,
-        typer.Option(help="Write the table as a page of the documentation.", callback=output_file),
+        typer.Option(
+            metavar="NAME.md",
+            help="Write a page of the documentation, and all runs as NAME-runs.md.",
+            callback=output_file,
+        ),
     ] = None,
     plot: Annotated[
         Path | None,
@@ -51,7 +55,7 @@ def bench(
     from .equal_error import equal_error_markdown
     from .peers.problem import Problem
     from .peers.work_precision import peer_rows
-    from .report import as_markdown, as_table
+    from .report import as_markdown, as_table, runs_markdown
     from .steady import measure_steady, steady_markdown, steady_table
     from .table import measure, nothing
 
@@ -72,15 +76,15 @@ def bench(
 
         from .work_precision import work_precision
 
-        try:
+        with writing("--plot", plot):
             save(work_precision(rows), str(plot))
-        except (OSError, ValueError) as error:
-            fail(f"--plot = {str(plot)!r}: {error}")
     if markdown is not None:
         picture = os.path.relpath(plot, markdown.parent) if plot is not None else None
-        page = as_markdown(rows, picture, equal_error_markdown(rows, steady))
+        runs = markdown.with_stem(f"{markdown.stem}-runs")
+        page = as_markdown(rows, runs.name, picture, equal_error_markdown(rows, steady))
         page += steady_markdown(steady) + batch_markdown(batches)
         markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
+        runs.write_text(runs_markdown(rows, markdown.name), "utf-8")
     if json_ is not None:
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]
         figures = [row.figures() for row in rows] + [row.figures() for row in minutes]

@@ -144,14 +144,14 @@ class Reference:
         return [_ending(lambda t, y, i=i: self._to_edge(i, t, y)) for i in closed]
 
     def _departure(self, i: int, t: float, y: np.ndarray) -> float:
-        advance, pace = self._stand(t, y)
+        advance, pace = self._mesh_cycles(t, y)
         march = self._march
         stand = (advance, pace, 0.0)
         return float(
             departure(self._model, march.begin, march.constants, i, self._x, self._v, stand)
         )
 
-    def _stand(self, t: float, y: np.ndarray) -> tuple[float, float]:
+    def _mesh_cycles(self, t: float, y: np.ndarray) -> tuple[float, float]:
         """Mesh cycles since the start of the interval, and their rate [1/s]."""
         self._unpack(y)
         train, rate = self._engine.train, float(self._march.constants.cycle_rate)
@@ -162,7 +162,7 @@ class Reference:
         """Mesh cycles to the next edge."""
         train, begin, moment = self._engine.train, self._march.begin, self._march.constants
         side, segment, kind = int(begin.side[i]), begin.segment[i], train.kind[i]
-        cycle = moment.start[i] + side * self._stand(t, y)[0]
+        cycle = moment.start[i] + side * self._mesh_cycles(t, y)[0]
         if side * moment.cycle_rate >= 0.0:
             return float(train.edge[kind, segment + 1] - cycle)
         return float(cycle - train.edge[kind, segment])

@@ -1,4 +1,4 @@
-"""The table of the benchmark, for a terminal and for the documentation."""
+"""The figures of the benchmark, for a terminal and as two pages of the documentation."""
 
 from __future__ import annotations
 
@@ -23,13 +23,10 @@ _TITLES = (
 
 _PAGE = Template("""# Speed against error
 
-Made by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
-Scene, arrays and start take $setup ms more.
+Written by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
+[All runs]($runs) has the figures of every case and method.
 
-- *speed*: simulated time over processor time without samples, median of $rounds rounds; in
-  brackets the slowest and the fastest round.
-- *sampled*: speed with samples of all meshes at $rate kHz.
-- *end to end*: speed of `simulate` over $whole s by wall time, with set-up and samples.
+- *speed*: simulated time over processor time.
 - *DTE error*: rms error of the dynamic transmission error over its rms, for the worst mesh.
 - *loss error*: relative error of the mean power loss.
 - Reference: SciPy's DOP853 from event to event, relative tolerance $relative. It shares the
@@ -41,10 +38,17 @@ from event to event. Near standstill ROS34PW2, a linearly implicit Runge-Kutta m
 takes over (`core/integrators/`). `tolerance` bounds the local error of a step relative to the
 static deflection of the meshes; in these cases the DTE error is $least to $most times the
 tolerance. The default method, `auto`, does the same until steady running is periodic, see below.
-$picture$summary
-## All runs
+$picture$summary""")
 
-All cases are scene `paper` with some fields changed. Values are in SI.
+_RUNS = Template("""# All runs of the benchmark
+
+These are the figures behind [speed against error]($summary). All cases are scene `paper` with some
+fields changed. Values are in SI.
+
+- *speed*: simulated time over processor time without samples, median of $rounds rounds; in
+  brackets the slowest and the fastest round. Scene, arrays and start take $setup ms more.
+- *sampled*: speed with samples of all meshes at $rate kHz.
+- *end to end*: speed of `simulate` over $whole s by wall time, with set-up and samples.
 
 $cases
 """)
@@ -105,21 +109,42 @@ def as_table(rows: Sequence[Row]) -> Table:
     return table
 
 
-def as_markdown(rows: Sequence[Row], picture: str | None = None, summary: str = "") -> str:
-    """The page `docs/speed-and-accuracy.md`; `picture` and `summary` are of the same rows."""
-    own = [row for row in rows if row.method == METHOD]
-    ratios = [row.error_ratio for row in own]
+def as_markdown(
+    rows: Sequence[Row], runs: str, picture: str | None = None, summary: str = ""
+) -> str:
+    """The page `docs/speed-and-accuracy.md`.
+
+    Args:
+        rows: the runs.
+        runs: link to the page of all runs.
+        picture: link to a picture of the same rows.
+        summary: section about the same rows.
+    """
+    ratios = [row.error_ratio for row in rows if row.method == METHOD]
     return _PAGE.substitute(
+        runs=runs,
         least=f"{min(ratios):.1f}",
         most=f"{max(ratios):.1f}",
-        setup=f"{median(row.setup_s for row in own) * 1e3:.0f}",
-        rate=f"{SAMPLE_RATE / 1e3:g}",
-        rounds=ROUNDS,
         relative=f"{RELATIVE:g}",
-        whole=f"{WHOLE:g}",
         peers=_PEERS if any(row.method not in METHODS for row in rows) else "",
         summary=summary,
         picture="" if picture is None else f"\n![Error against time]({picture})\n",
+    )
+
+
+def runs_markdown(rows: Sequence[Row], summary: str) -> str:
+    """The page `docs/speed-and-accuracy-runs.md`.
+
+    Args:
+        rows: the runs.
+        summary: link to the page of `as_markdown`.
+    """
+    return _RUNS.substitute(
+        summary=summary,
+        setup=f"{median(row.setup_s for row in rows if row.method == METHOD) * 1e3:.0f}",
+        rate=f"{SAMPLE_RATE / 1e3:g}",
+        rounds=ROUNDS,
+        whole=f"{WHOLE:g}",
         cases="\n\n".join(_section(case, rows) for case in dict.fromkeys(row.case for row in rows)),
     )
 
@@ -128,7 +153,7 @@ def _section(name: str, rows: Sequence[Row]) -> str:
     """The runs of one case under its name and its changes to the scene."""
     described = "".join(f"{_described(case)}\n\n" for case in CASES if case.name == name)
     lines = [_page_cells(row) for row in rows if row.case == name]
-    return f"### {name}\n\n{described}{markdown_table(_PAGE_TITLES, lines)}"
+    return f"## {name}\n\n{described}{markdown_table(_PAGE_TITLES, lines)}"
 
 
 def _described(case: Case) -> str:

@@ -135,18 +135,14 @@ def _cells(row: Steady) -> tuple[str, ...]:
     )
 
 
-_PAGE_TITLES = ("tolerance", "repeats from", "late by", "DTE error", "loss error", "a minute")
+_PAGE_TITLES = (
+    "case", "tolerance", "repeats from", "late by", "DTE error", "loss error", "a minute",
+)  # fmt: skip
 
 
 def _page_cells(row: Steady) -> tuple[str, ...]:
-    tolerance, begin, late, dte, _, loss, *_ = _cells(row)[1:]
-    return tolerance, begin, late, dte, loss, speed_cell(row.speed)
-
-
-def _section(case: str, rows: Sequence[Steady]) -> str:
-    """One case at all tolerances."""
-    lines = [_page_cells(row) for row in rows if row.case == case]
-    return f"### {case}, 60 s\n\n{markdown_table(_PAGE_TITLES, lines)}"
+    case, tolerance, begin, late, dte, _, loss, *_ = _cells(row)
+    return case, tolerance, begin, late, dte, loss, speed_cell(row.speed)
 
 
 def steady_table(rows: Sequence[Steady]) -> Table:
@@ -161,21 +157,21 @@ def steady_table(rows: Sequence[Steady]) -> Table:
 
 def steady_markdown(rows: Sequence[Steady]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`."""
-    body = "\n\n".join(_section(case, rows) for case in dict.fromkeys(row.case for row in rows))
     return f"""
 ## Steady running
 
 The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they
-are not computed again (`core/integrators/periodic.hpp`).
+are repeated instead of computed (`core/integrators/periodic.hpp`).
 
+- *repeats from*: simulated time from which cycles are repeated.
 - *a minute*: simulated time over processor time from the start, without samples, with settling; in
   brackets the slowest and the fastest round.
 - Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at
   tolerance {EXACT:g}.
-- *late by*: delay in mesh cycles. The speed loop compensates an error of friction by an angle; with
-  3 Hz it is so soft that a loss error of 1e-6 gives 3e-6 of a cycle.
+- *late by*: delay in mesh cycles. The speed loop compensates an error of the friction by an angle;
+  its bandwidth of 3 Hz is so low that a loss error of 1e-6 gives a delay of 3e-6 of a cycle.
 - *DTE error*: without this delay, as far as samples at {SAMPLE_RATE / 1e3:g} kHz resolve it: at
   17 000 rpm there are six in a cycle.
 
-{body}
+{markdown_table(_PAGE_TITLES, [_page_cells(row) for row in rows])}
 """

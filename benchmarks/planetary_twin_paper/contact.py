@@ -160,8 +160,8 @@ def _recovered(scene: Scene, mesh: Spring) -> tuple[float, float]:
     result = simulate(scene, RUN, SAMPLE_RATE)
     late = result.time > SETTLING * RUN
     dte, force = result.dte[:, 0], result.mesh_force[:, 0]
-    squeeze = dte - mesh.offset + mesh.damping_time * np.gradient(dte, 1.0 / SAMPLE_RATE)
-    low, high = np.percentile(force[late] / squeeze[late], (10.0, 90.0))
+    deflection = dte - mesh.offset + mesh.damping_time * np.gradient(dte, 1.0 / SAMPLE_RATE)
+    low, high = np.percentile(force[late] / deflection[late], (10.0, 90.0))
     return float(low), float(high)
 
 

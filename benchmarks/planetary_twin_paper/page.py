@@ -24,7 +24,7 @@ gearbox with local nonlinearities*, Proc. IMechE Part K 231 (2017) 504-518.
 
 - **Default** is the scene `paper`: the data of the paper, with an established form wherever a
   printed form has a wrong sign or dimension. **As printed** is the scene `paper_printed`, with
-  every printed form that can be evaluated. [The model](model.md) explains the differences.
+  every printed form that can be evaluated. [Equations](#equations) lists the differences.
 - The text of the paper was available, but not its figures. Captions and prose are compared; no
   value is read from a curve.
 - A statement is a number, a fact or a trend. A trend must be valid at every step, with a total

@@ -65,8 +65,8 @@ def stribeck_curve(evidence: Evidence) -> Entry:
                 says="beyond the minimum it increases with eta V/W",
                 ours=_ascent(ours),
                 printed=_ascent(printed),
-                holds=_rises_at_last(ours),
-                printed_holds=_rises_at_last(printed),
+                holds=_rises_at_the_end(ours),
+                printed_holds=_rises_at_the_end(printed),
                 why="the plateau of Evans and Johnson decreases steadily with film thickness"
                 + other.format("an increase requires the rolling resistance of the film"),
             ),
@@ -111,16 +111,16 @@ def _has_boundary_regime(curve: Curve) -> bool:
     return bool(descent[0] > BOUNDARY_REGIME) and falls(descent)
 
 
-def _rises_at_last(curve: Curve) -> bool:
+def _rises_at_the_end(curve: Curve) -> bool:
     return curve.lowest < len(SPEEDS) - 1 and rises(curve.friction[curve.lowest :])
 
 
 def _is_stribeck(curve: Curve) -> bool:
-    return _has_boundary_regime(curve) and _rises_at_last(curve)
+    return _has_boundary_regime(curve) and _rises_at_the_end(curve)
 
 
 def _ascent(curve: Curve) -> str:
-    if not _rises_at_last(curve):
+    if not _rises_at_the_end(curve):
         return "decreases to the end"
     return f"increases to {curve.friction[-1]:.3f} at {curve.lambda_ratio[-1]:.2g}"
 

@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..terminal.messages import remark
+from ._fitted import Fitted, Part
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ..studies.fit.fit_course import FittedCourse
+    from ..studies.fit.report import Report
 
 
 def fit_manoeuvre(
     console: Console,
     file: Path,
     scene: str | None,
-    free: dict[str, str],
-    span: tuple[float | None, float | None],
-    hold_out: tuple[float, float] | None,
-) -> tuple[FittedCourse, list[str]]:
+    free: Mapping[str, str],
+    part: Part,
+) -> Fitted:
     """Fit a scene to a manoeuvre, and print the estimates.
 
     Args:
@@ -29,11 +31,10 @@ def fit_manoeuvre(
         file: path of the file, see `read_course`.
         scene: name or file of the scene.
         free: initial values by name of the free fields; empty: the value in the scene.
-        span: start and end of the part that is fitted [s].
-        hold_out: start and end of another part, which is predicted [s].
+        part: of the manoeuvre.
 
     Returns:
-        The estimates, and the warnings.
+        The results.
 
     Raises:
         ValueError: a name, a value or the file is invalid.
@@ -45,19 +46,27 @@ def fit_manoeuvre(
 
     if scene is None:
         raise ValueError(f"--scene: required for the manoeuvre {file}")
-    begin, end = span
-    limits = (-math.inf if begin is None else begin, math.inf if end is None else end)
+    limits = (
+        -math.inf if part.begin is None else part.begin,
+        math.inf if part.end is None else part.end,
+    )
     start = {name: value for name, value in free.items() if value}
     with console.status("simulating") as status:
         found = fit_course(
-            file, changed_scene(scene, {}), tuple(free), start, limits, hold_out,
+            file, changed_scene(scene, {}), tuple(free), start, limits, part.hold_out,
             lambda count: status.update(f"{count} simulated points"),
         )  # fmt: skip
     _print(console, found)
     warnings = list(course_remarks(found))
     for line in warnings:
         remark(f"warning: {line}")
-    return found, warnings
+
+    def report() -> Report:
+        from ..studies.fit.report import report_of_course
+
+        return report_of_course(found)
+
+    return Fitted(_figures(found, warnings), report)
 
 
 def _print(console: Console, found: FittedCourse) -> None:
@@ -86,13 +95,8 @@ def _print(console: Console, found: FittedCourse) -> None:
     )
 
 
-def course_figures(found: FittedCourse, warnings: list[str]) -> dict[str, Any]:
-    """Results for `--json`.
-
-    Args:
-        found: the estimates.
-        warnings: about them.
-    """
+def _figures(found: FittedCourse, warnings: list[str]) -> dict[str, Any]:
+    """Results for `--json`."""
     estimate = found.estimate
 
     def finite(value: float) -> float | None:

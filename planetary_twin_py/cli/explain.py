@@ -156,7 +156,7 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
         caption=f"Within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}, because "
         f"{found.reason}.\nRun time is computing time per simulated second. Bearing forces and "
-        "orbits need axes that move: planar, spatial, quasi_static_planar.",
+        "orbits need axes that move: planar, spatial, quasi_static_planar, quasi_static_spatial.",
     )
     table.add_column("dynamics")
     for name in (*FIGURES, "run time \\[s]"):

@@ -13,7 +13,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
-from ..terminal.output_files import TABLES, file_ending_in
+from ..terminal.output_files import TABLES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
 
@@ -86,10 +86,8 @@ def fleet(
     if out is not None:
         from ..fleet.notes import write_state
 
-        try:
+        with writing("--out", out):
             write_state(out, found)
-        except (ValueError, OSError) as error:
-            fail(f"--out = {str(out)!r}: {error}")
     if json_ is not None:
         write_json({one.gearbox: _figures(one) for one in found}, json_)
 

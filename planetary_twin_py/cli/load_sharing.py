@@ -11,7 +11,7 @@ from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import PICTURES, file_ending_in
+from ..terminal.output_files import PICTURES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
@@ -60,10 +60,8 @@ def load_sharing(
         from ..plots.load_sharing import load_sharing_diagram
         from ..plots.style import save
 
-        try:
+        with writing("--picture", picture):
             save(load_sharing_diagram(loaded, found), str(picture))
-        except (OSError, ValueError) as error:
-            fail(f"--picture = {str(picture)!r}: {error}")
     if json_ is not None:
         write_json(_figures(loaded, found), json_)
 

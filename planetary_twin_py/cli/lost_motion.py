@@ -11,7 +11,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import PICTURES, file_ending_in
+from ..terminal.output_files import PICTURES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
 
@@ -74,10 +74,8 @@ def lost_motion(
         from ..plots.lost_motion import lost_motion_diagram
         from ..plots.style import save
 
-        try:
+        with writing("--picture", picture):
             save(lost_motion_diagram(loaded, found), str(picture))
-        except (OSError, ValueError) as error:
-            fail(f"--picture = {str(picture)!r}: {error}")
     if json_ is not None:
         write_json(_figures(found), json_)
 

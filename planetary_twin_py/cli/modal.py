@@ -12,7 +12,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
-from ..terminal.output_files import output_file
+from ..terminal.output_files import output_file, writing
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
@@ -75,10 +75,8 @@ def modal(
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
 
-        try:
+        with writing("--campbell", campbell):
             save(campbell_diagram(loaded, mean, found, limit), str(campbell))
-        except (OSError, ValueError) as error:
-            fail(f"--campbell = {str(campbell)!r}: {error}")
     if json_ is not None:
         speeds = {"input_speed": speed, "speed_limit": limit}
         resonant = {"resonances": [resonance._asdict() for resonance in found]}

@@ -85,12 +85,11 @@ def _write(
     scene: Scene, truth: Hidden, duration: float, files: tuple[Path, Path | None, Path | None]
 ) -> list[str]:
     from ..plant.readings import Plant
-    from ..plant.tables import write_encoders, write_readings, write_vibration
+    from ..plant.tables import encoders_table, readings_table, vibration_table, write_table
 
-    played = Plant(scene, truth, duration)
-    lines = [f"{files[0]}: {write_readings(played, files[0])} readings"]
-    if files[1] is not None:
-        lines.append(f"{files[1]}: {write_encoders(played, files[1])} samples")
-    if files[2] is not None:
-        lines.append(f"{files[2]}: {write_vibration(played, files[2])} samples")
+    plant = Plant(scene, truth, duration)
+    lines = [f"{files[0]}: {write_table(readings_table(plant), files[0])} readings"]
+    for path, table in zip(files[1:], (encoders_table, vibration_table), strict=True):
+        if path is not None:
+            lines.append(f"{path}: {write_table(table(plant), path)} samples")
     return lines

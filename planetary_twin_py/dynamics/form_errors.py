@@ -1,6 +1,6 @@
 """Errors of form and position: the static transmission error e of the teeth of a mesh.
 
-The squeeze of a mesh on one side (side = +1 or -1) is side (d - e) - b, where b is half the
+The deflection of a mesh on one side (side = +1 or -1) is side (d - e) - b, where b is half the
 backlash. e = e_T + side e_R: the tangential part e_T shifts both flanks of a tooth in the same
 direction; the radial part e_R moves both flanks away from the other gear and increases the
 backlash. Harmonics of the meshing frequency have e_T only. Runout repeats with each turn of a gear

@@ -190,7 +190,7 @@ def _beyond_plane(
 
 
 def _slopes(scene: Scene, bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
-    """Tilts of both gears of each entry, and the slope of its squeeze per tilt, (entries, 4)."""
+    """Tilts of both gears of each entry, and the slope of its deflection per tilt, (entries, 4)."""
     radii, places, slopes = tilting_radii(scene), [], []
     for side, name, number in _meshes(scene):
         row, planet = row_of_scene(scene, side, name, number), f"planet_{number + 1}"

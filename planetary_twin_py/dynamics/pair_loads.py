@@ -1,7 +1,7 @@
 """Loads of the tooth pairs of a mesh under a given, for example recorded, force.
 
 The pairs have stiffnesses k and gaps g (missing material) as in a mesh with faults. They carry
-the force F at the squeeze q: F = sum of k (q - g) over the pairs with q > g. Damping acts on all
+the force F at the deflection q: F = sum of k (q - g) over the pairs with q > g. Damping acts on all
 pairs in proportion to k, so it does not change the shares, except for a worn pair that barely
 touches.
 """

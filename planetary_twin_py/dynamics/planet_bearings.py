@@ -1,4 +1,4 @@
-"""Whether the bearings of the planets hold them on a turning carrier."""
+"""Check of planet bearings against the centrifugal force on a turning carrier."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from .bodies import rigid_ratios
 
 
 def check_planet_bearings(scene: Scene, point: OperatingPoint) -> None:
-    """Check that the bearings of the planets are stiffer than the centrifugal force softens them.
+    """Check that the bearings of the planets are stiffer than the centrifugal softening.
 
-    On a carrier that turns at Omega, a planet of mass m that is displaced outwards is pulled on by
-    m Omega^2 times its displacement. A linear bearing that is no stiffer than that has no
-    equilibrium. Rolling bearings stiffen as they are loaded.
+    On a carrier that turns at Omega, the centrifugal force on a planet of mass m grows by m Omega^2
+    times its outward displacement. A linear bearing with less stiffness has no equilibrium. The
+    stiffness of rolling bearings increases with their load.
 
     Args:
         scene: the scene; only with axes that move, and planets on linear bearings.
-        point: operating point, of which the speeds count.
+        point: operating point, whose speeds are used.
 
     Raises:
         SceneError: a bearing is too soft.
@@ -33,5 +33,5 @@ def check_planet_bearings(scene: Scene, point: OperatingPoint) -> None:
     raise SceneError(
         f"supports.planet.bearing = {stiffness:g} N/m: must be above "
         f"{softening / min(factors):.4g} N/m where planets of {planet.mass:g} kg turn with the "
-        f"carrier at {abs(carrier):.4g} rad/s, or they are thrown off"
+        f"carrier at {abs(carrier):.4g} rad/s, or they have no equilibrium"
     )

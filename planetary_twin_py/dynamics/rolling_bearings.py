@@ -13,7 +13,7 @@ from functools import cache
 
 import numpy as np
 
-from .._core.axes import RollingBearing, press_rolling
+from .._core.axes import RollingBearing, rolling_bearing_law
 from ..scene.supports import Rolling
 
 MILLIMETRE = 1e-3  # [m]
@@ -90,7 +90,7 @@ def press(bearing: RollingBearing, clearance: float, size: np.ndarray) -> np.nda
     Returns:
         Energy [J], force [N] and stiffness along the load [N/m], (3, n).
     """
-    return np.asarray(press_rolling(bearing, clearance, np.ascontiguousarray(size)))
+    return np.asarray(rolling_bearing_law(bearing, clearance, np.ascontiguousarray(size)))
 
 
 def eccentricity(bearing: RollingBearing, clearance: float, load: float) -> float:

@@ -156,7 +156,7 @@ class Balances:
         expected = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * torque
         noise = self.excess * sum(self._noise)
         noise += (INERTIA * self._inertia * np.where(good, row.acceleration, 0.0)) ** 2
-        return self._take(np.where(good, driving + driven - expected, np.nan), slope, noise, step)
+        return self._update(np.where(good, driving + driven - expected, np.nan), slope, noise, step)
 
     def _friction(self, torque: Array, speed: Array) -> tuple[Array, tuple[Array, Array]]:
         """Friction level at operating points, and the logarithms of torque and speed, (n,) each."""
@@ -172,7 +172,7 @@ class Balances:
         fresh = (1.0 - keep**2) * self.sd**2 + self._walk**2 * step
         self.p[:, range(len(keep)), range(len(keep))] += fresh
 
-    def _take(self, innovation: Array, slope: Array, noise: Array, step: float) -> Innovations:
+    def _update(self, innovation: Array, slope: Array, noise: Array, step: float) -> Innovations:
         """Scalar updates in Joseph's form, of the gearboxes whose reading passes the gate.
 
         (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h. Sums

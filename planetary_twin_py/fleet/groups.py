@@ -87,7 +87,7 @@ class FollowGroup:
 class Executor(Protocol):
     """Runs groups: `studies.local.Threads` or `studies.cluster.Cluster`."""
 
-    def do(
+    def run(
         self,
         work: Callable[[Group], tuple[GearboxResult, ...] | Failure],
         points: Iterable[Group],
@@ -119,7 +119,7 @@ def follow_groups(
     """
     groups = [tuple(gearboxes[n : n + size]) for n in range(0, len(gearboxes), size)]
     found: dict[Group, tuple[GearboxResult, ...]] = {}
-    for group, result in executor.do(work, groups):
+    for group, result in executor.run(work, groups):
         if isinstance(result, Failure):
             raise ValueError(result.reason)
         found[group] = result

@@ -167,7 +167,7 @@ class BalanceFollower:
             InputError: a channel has another unit, sign or shaft, see `checks`.
         """
         for found in self._bins.add(time, columns, sender):
-            self._take(found)
+            self._process(found)
 
     def finish(self) -> None:
         """Process the bins that are still open, at the end of a recording.
@@ -176,10 +176,10 @@ class BalanceFollower:
             InputError: see `add`.
         """
         for found in self._bins.finish():
-            self._take(found)
+            self._process(found)
         self._checks.check()
 
-    def _take(self, found: Bin) -> None:
+    def _process(self, found: Bin) -> None:
         self._checks.add(found)
         self.time = (found.number + 1) * self.period
         read = self._measured(found)

@@ -175,7 +175,7 @@ class BalanceFilter:
         mean, sd = self.prior
         self.x = np.concatenate([[0.0, 0.0], mean])
         self.p = np.diag(np.concatenate([[1.0, 1.0], sd]) ** 2)
-        self._lose_torque()
+        self._reset_torque()
         self._time: float | None = None
         self.excess = 1.0
         """Variance of the innovations over that of the sensors' noise, at least 1."""
@@ -217,7 +217,7 @@ class BalanceFilter:
                 slope[J] = read.acceleration  # a regressor whose noise would bias J otherwise
             expected = float(self.x[T] + self.x[J] * read.acceleration)
             noise += (float(self.x[J]) * read.acceleration_noise) ** 2
-            self._take(slope, read.input_torque - expected, noise)
+            self._update(slope, read.input_torque - expected, noise)
         if not (math.isfinite(read.input_torque) and math.isfinite(read.output_torque) and turning):
             return None
         return self._balance(read, step)
@@ -274,7 +274,7 @@ class BalanceFilter:
             return
         scale = self.train.torque
         if step > GAP:
-            self._lose_torque()
+            self._reset_torque()
         self.x[T] += step * self.x[RATE]
         self.p[T] += step * self.p[RATE]
         self.p[:, T] += step * self.p[:, RATE]
@@ -289,7 +289,7 @@ class BalanceFilter:
         fresh = (1.0 - keep**2) * wide**2 + self.memory.walk**2 * step
         self.p[np.arange(F, len(STATES)), np.arange(F, len(STATES))] += fresh
 
-    def _lose_torque(self) -> None:
+    def _reset_torque(self) -> None:
         self.x[RATE] = 0.0
         self.p[: RATE + 1], self.p[:, : RATE + 1] = 0.0, 0.0
         self.p[T, T] = self.p[RATE, RATE] = (FAR * self.train.torque) ** 2
@@ -321,13 +321,13 @@ class BalanceFilter:
         sd = math.sqrt(variance)
         gated = abs(innovation) > GATE * sd
         if not gated:
-            self._take(slope, innovation, noise)
+            self._update(slope, innovation, noise)
         share = min(step / NOISE_MEMORY, 0.1)
         over = min(innovation**2 / variance, GATE**2)
         self.excess = max(1.0, self.excess * (1.0 + share * (over - 1.0)))
         return Innovation(innovation, sd, gated)
 
-    def _take(self, slope: Array, innovation: float, noise: float) -> None:
+    def _update(self, slope: Array, innovation: float, noise: float) -> None:
         """Scalar update in Joseph's form."""
         along = self.p @ slope
         gain = along / (float(slope @ along) + noise)

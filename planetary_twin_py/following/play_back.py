@@ -45,12 +45,12 @@ def play_back(
             arrival = None if block.arrival is None else block.arrival[rows]
             follower.add(Readings(block.time[rows], columns, arrival, block.sender))
             for source in sources:
-                source.feed(follower, until)
+                source.add_until(follower, until)
             if follower.time > noted + EVERY - 0.5 * follower.period:
                 noted = follower.time
                 yield follower.estimate()
     for source in sources:
-        source.feed(follower, math.inf)
+        source.add_until(follower, math.inf)
     follower.finish()
     yield follower.estimate()
 
@@ -63,7 +63,7 @@ class _Source:
     time: NDArray[np.float64]  # latest stamp up to each sample [s], (n,)
     place: int = 0
 
-    def feed(self, follower: Follower, until: float) -> None:
+    def add_until(self, follower: Follower, until: float) -> None:
         """Pass the samples on up to a time [s]."""
         end = self.place + int(np.searchsorted(self.time[self.place :], until))
         rows, self.place = slice(self.place, end), end

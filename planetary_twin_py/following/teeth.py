@@ -275,7 +275,7 @@ class TeethFollower:
                 best, window = z, count
         self.outstanding = best
         if best < ALARM:
-            self._forget()
+            self._clear_teeth()
             return
         recent = list(self._recent)[-window:]
         total = np.sum([one.residual for one in recent], axis=0)
@@ -285,7 +285,7 @@ class TeethFollower:
         if found:
             self._name(found, cell, block, cell.noise(torques[-window:]))
         else:
-            self._forget()
+            self._clear_teeth()
 
     def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, noise: float) -> None:
         """Use the teeth of a search as the state; a new tooth is an event.
@@ -312,7 +312,7 @@ class TeethFollower:
                 _names(bank, (named, *(other for other in one.candidates if other != named))),
             )
             states.append(state)
-            self._tell(named, state, (since, block.end))
+            self._record_event(named, state, (since, block.end))
         self.teeth = tuple(states)
 
     def _amounts_of(self, teeth: list[int], bank: Bank) -> Array:
@@ -353,7 +353,7 @@ class TeethFollower:
         spread = math.hypot(sd * cell.noise(torques) / scale, uncertain * loss)
         return estimated("stiffness_loss", loss, spread, "")
 
-    def _tell(self, tooth: int, state: ToothState, times: tuple[float, float]) -> None:
+    def _record_event(self, tooth: int, state: ToothState, times: tuple[float, float]) -> None:
         """Add an event, with its earliest start and its detection [s], or update it."""
         size = state.loss
         reach = CONFIDENT * size.sd
@@ -376,7 +376,7 @@ class TeethFollower:
             self.events[place], size=size, causes=state.kinds, evidence=evidence
         )
 
-    def _forget(self) -> None:
+    def _clear_teeth(self) -> None:
         """Report no changed tooth; teeth found before remain until the window is full."""
         if len(self._recent) >= WINDOWS[2]:
             self.teeth, self._amounts = (), {}

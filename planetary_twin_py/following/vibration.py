@@ -260,14 +260,14 @@ class VibrationFollower:
             end = _end_of(course, self._turn, self._begin)
             if end is None:
                 if until > self._begin + self._longest:  # the train is at rest
-                    self._take(until)
+                    self._pop_samples(until)
                     self._begin = until
                 return
             newest = max((float(time.max()) for time, _ in self._waiting if len(time)), default=0.0)
             if end > until or newest < end:
                 return
             span, self._begin = (self._begin, end), end
-            self._judge(span, *self._take(end), course)
+            self._judge(span, *self._pop_samples(end), course)
 
     def _start(self, course: Turning) -> bool:
         """Start at the first sample whose speed is known; return whether there is one."""
@@ -275,10 +275,10 @@ class VibrationFollower:
         if not (firsts and len(course.time)):
             return False
         self._begin = max(min(firsts), float(course.time[0]))
-        self._take(self._begin)
+        self._pop_samples(self._begin)
         return True
 
-    def _take(self, until: float) -> tuple[Array, Array]:
+    def _pop_samples(self, until: float) -> tuple[Array, Array]:
         """Remove and return the samples before a time, in order, without duplicates."""
         time = np.concatenate([part for part, _ in self._waiting])
         values = np.concatenate([part for _, part in self._waiting])

@@ -65,7 +65,14 @@ def external_tip_reach(
 def internal_tip_reach(
     teeth: int, angle: float, height: float, working: float | None = None
 ) -> float:
-    """The same for an internal gear, whose tips are `height` [modules] inside the circle."""
+    """Distance from the pitch point to the tip circle of an internal gear [modules].
+
+    Args:
+        teeth: number of teeth.
+        angle: pressure angle on the reference circle [rad].
+        height: of the tip inside the reference circle [modules].
+        working: working pressure angle [rad]; default: `angle`.
+    """
     pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 - height
     return _tangent(pitch, angle, working) - math.sqrt(tip**2 - base**2)
 
@@ -80,10 +87,24 @@ def _tangent(pitch: float, angle: float, working: float | None) -> float:
 def on_involute(
     reach: float, teeth: int, angle: float, tip: str, flank: str, working: float | None = None
 ) -> float:
-    """`reach` of the mating tip; raises `ValueError` if it passes the start of the involute.
+    """Check that the tip of the mating gear does not pass the start of the involute.
 
     The involute starts where the line of action touches the base circle (Buckingham 1949,
     Analytical Mechanics of Gears, ch. 4: involute interference).
+
+    Args:
+        reach: of the mating tip along the line of action [modules].
+        teeth: number of teeth of the gear.
+        angle: pressure angle on the reference circle [rad].
+        tip: name of the mating gear, for the message.
+        flank: name of the gear, for the message.
+        working: working pressure angle [rad]; default: `angle`.
+
+    Returns:
+        `reach`.
+
+    Raises:
+        ValueError: the tip passes the start of the involute.
     """
     if reach >= _tangent(teeth / 2, angle, working):
         raise ValueError(

@@ -117,8 +117,8 @@ def _weights(
     table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw, force: float
 ) -> np.ndarray:
     """Weights of the pairs (n, PAIRS) at fractions (n,) of the cycle in segment j."""
-    loads, squeeze = _share(table, j, cycle, gap, law, force)
-    total = (force / squeeze - law.base) / law.gain
+    loads, deflection = _share(table, j, cycle, gap, law, force)
+    total = (force / deflection - law.base) / law.gain
     return np.asarray(total[:, None] * loads / force)
 
 
@@ -134,11 +134,11 @@ def _share(
     carries = stiffness > 0.0
     for _ in range(PAIRS):  # each pass drops pairs whose gap is not closed
         acting = np.where(carries, stiffness, 0.0)
-        squeeze = (force + (acting * missing).sum(axis=1)) / acting.sum(axis=1)
-        carries &= missing < squeeze[:, None]
+        deflection = (force + (acting * missing).sum(axis=1)) / acting.sum(axis=1)
+        carries &= missing < deflection[:, None]
     acting = np.where(carries, stiffness, 0.0)
-    squeeze = (force + (acting * missing).sum(axis=1)) / acting.sum(axis=1)
-    return acting * (squeeze[:, None] - missing), squeeze
+    deflection = (force + (acting * missing).sum(axis=1)) / acting.sum(axis=1)
+    return acting * (deflection[:, None] - missing), deflection
 
 
 def _changes(table: PairTable, gap: PairGap, law: StiffnessLaw, force: float) -> list[float]:

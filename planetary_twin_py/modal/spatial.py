@@ -6,7 +6,7 @@ its base radius, for the carrier at the radius of the planet centres. The deform
 follows from the displacements of both bodies at their contact point, so a rigid motion of the
 unsupported gearset deforms no spring at any helix angle. Beside its normal spring a mesh of
 stiffness k and face width L has the energy k L^2 s^2/24 of the slope s of the flanks along the
-face, with which the squeeze of its parts differs. Gyroscopic terms are in `turning`.
+face, with which the deflection of its parts differs. Gyroscopic terms are in `turning`.
 """
 
 from __future__ import annotations

@@ -108,8 +108,8 @@ def draw_course(
         speed = _between(knots, chance.uniform(*SPEED, targets))
     elif duty.kind == "reversing":
         torque = _between(knots, np.resize(REVERSED[::-1], targets))
-    torque = torque * (1.0 + duty.torque_wander * _wander(len(knots), 0.1, chance))
-    speed = speed * (1.0 + duty.speed_wander * _wander(len(knots), 0.1, chance))
+    torque = torque * (1.0 + duty.torque_wander * _gauss_markov(len(knots), 0.1, chance))
+    speed = speed * (1.0 + duty.speed_wander * _gauss_markov(len(knots), 0.1, chance))
     for change in changes:
         if change.load is not None:
             torque[knots >= change.at] = torque[knots >= change.at] * change.load
@@ -125,7 +125,7 @@ def _between(knots: Array, targets: Array) -> Array:
     return np.interp(knots, corners, np.repeat(targets, 2)[: len(corners)])
 
 
-def _wander(count: int, step: float, chance: np.random.Generator) -> Array:
+def _gauss_markov(count: int, step: float, chance: np.random.Generator) -> Array:
     """Gauss-Markov process with unit standard deviation, smooth over a second."""
     every = round(1.0 / step)
     keep = np.exp(-1.0 / WANDERING)

@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .hidden import EncoderErrors
+from .packets import chunks, received
 from .pattern import course_of
 from .readings import Plant
 
 Array = NDArray[np.float64]
-
-CHUNK = 20_000  # samples computed at once
 
 
 class EncoderCounts(NamedTuple):
@@ -27,7 +26,7 @@ class EncoderCounts(NamedTuple):
     """Counts of input and output since time 0, (n, 2)."""
 
 
-def play_encoders(plant: Plant) -> Iterator[EncoderCounts]:
+def simulate_encoders(plant: Plant) -> Iterator[EncoderCounts]:
     """Simulate the encoders of a plant, in packets of which some are lost.
 
     Args:
@@ -40,12 +39,7 @@ def play_encoders(plant: Plant) -> Iterator[EncoderCounts]:
     errors = plant.hidden.sensors.encoders
     chance = np.random.default_rng([plant.hidden.seed, 2])
     phases = chance.uniform(0.0, 2.0 * math.pi, 4)
-    total = int(plant.duration * errors.rate)
-    for first in range(0, total, CHUNK):
-        sample = np.arange(first, min(first + CHUNK, total))
-        time = sample / errors.rate
-        angle, torque = plant.course.angle_at(time), plant.course.torque_at(time)
-        cycles = float(train.cycles) * angle / (2.0 * math.pi)
+    for sample, time, angle, torque, cycles in chunks(plant, errors.rate):
         twist = course_of(plant.error_stages, time, cycles, torque) / train.lever
         output = (float(train.twist[0]) * angle - twist) / float(train.twist[1])
         moved = errors.delay + errors.jitter * chance.standard_normal(len(time))
@@ -55,9 +49,7 @@ def play_encoders(plant: Plant) -> Iterator[EncoderCounts]:
             _counts(value, order, errors, phases[2 * k : 2 * k + 2], chance)
             for k, (value, order) in enumerate(zip((angle, read), orders, strict=True))
         ]
-        packet = sample // errors.packet
-        lost = chance.random(packet[-1] - packet[0] + 1) < errors.lost
-        kept = ~lost[packet - packet[0]]
+        kept = received(sample, errors.packet, errors.lost, chance)
         yield EncoderCounts(sample[kept], np.stack(columns, axis=1)[kept])
 
 

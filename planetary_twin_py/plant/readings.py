@@ -89,7 +89,7 @@ class Plant:
         return values
 
 
-def play_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
+def simulate_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
     """Simulate the readings of a plant, in the order of their arrival.
 
     The losses are those of the quasi-static train, see `loss_map`. The input torque also

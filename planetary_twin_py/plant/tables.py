@@ -2,74 +2,75 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..following.bins import CHANNELS
 from ..following.measured_tables import COUNTS, SAMPLE
 from ..recording.tables.message_tables import Column
 from ..recording.tables.table_files import FORMATS
-from .encoders import play_encoders
-from .readings import Plant, play_readings
-from .vibration import NAME, play_vibration
+from .encoders import simulate_encoders
+from .readings import Plant, simulate_readings
+from .vibration import NAME, simulate_vibration
 
 
-def write_readings(plant: Plant, path: Path) -> int:
-    """Write readings of torque, speed and temperature.
+class PlantTable(NamedTuple):
+    """A table of measurements, computed while it is written."""
+
+    columns: list[Column]
+    batches: Iterator[dict[str, NDArray[Any]]]
+    """Values by column, (n,) each."""
+
+
+def readings_table(plant: Plant) -> PlantTable:
+    """Readings of torque, speed and temperature.
 
     Args:
         plant: the plant.
-        path: path of the table: .csv, .parquet or .npz.
-
-    Returns:
-        Number of rows.
-
-    Raises:
-        ValueError: the format is unknown, or the scene cannot be simulated.
-        OSError: the file cannot be written.
     """
-    time, columns = play_readings(plant)
-    batch = {"time": time, **columns}
+    time, found = simulate_readings(plant)
+    batch = {"time": time, **found}
     units = {"time": "s", **CHANNELS}
-    table = _table(path, [Column(name, units[name], np.dtype(float)) for name in batch])
-    table.write(batch)
-    table.close()
-    return len(time)
+    columns = [Column(name, units[name], np.dtype(float)) for name in batch]
+    return PlantTable(columns, iter([batch]))
 
 
-def write_encoders(plant: Plant, path: Path) -> int:
-    """Write samples of both encoders.
+def encoders_table(plant: Plant) -> PlantTable:
+    """Samples of both encoders.
 
     Args:
-        plant: the plant.
-        path: path of the table: .csv, .parquet or .npz.
-
-    Returns:
-        Number of rows.
-
-    Raises:
-        ValueError: the format is unknown, or the scene cannot be simulated.
-        OSError: the file cannot be written.
+        plant: the plant; it has encoders.
     """
     names = SAMPLE, *COUNTS
-    table = _table(path, [Column(name, "", np.dtype(np.int64)) for name in names])
-    rows = 0
-    for packet in play_encoders(plant):
-        columns = (packet.sample, *packet.counts.T)
-        table.write(dict(zip(names, columns, strict=True)))
-        rows += len(packet.sample)
-    table.close()
-    return rows
+    batches = (
+        dict(zip(names, (sample, *counts.T), strict=True))
+        for sample, counts in simulate_encoders(plant)
+    )
+    return PlantTable([Column(name, "", np.dtype(np.int64)) for name in names], batches)
 
 
-def write_vibration(plant: Plant, path: Path) -> int:
-    """Write samples of the accelerometer.
+def vibration_table(plant: Plant) -> PlantTable:
+    """Samples of the accelerometer.
 
     Args:
-        plant: the plant.
-        path: path of the table: .csv, .parquet or .npz.
+        plant: the plant; it has an accelerometer.
+    """
+    rate, units = plant.hidden.sensors.vibration.rate, {"time": "s", NAME: "m/s^2"}
+    batches = ({"time": one.sample / rate, NAME: one.values} for one in simulate_vibration(plant))
+    columns = [Column(name, unit, np.dtype(float)) for name, unit in units.items()]
+    return PlantTable(columns, batches)
+
+
+def write_table(table: PlantTable, path: Path) -> int:
+    """Write a table.
+
+    Args:
+        table: its columns and values.
+        path: path of the file: .csv, .parquet or .npz.
 
     Returns:
         Number of rows.
@@ -78,19 +79,12 @@ def write_vibration(plant: Plant, path: Path) -> int:
         ValueError: the format is unknown, or the scene cannot be simulated.
         OSError: the file cannot be written.
     """
-    units = {"time": "s", NAME: "m/s^2"}
-    table = _table(path, [Column(name, unit, np.dtype(float)) for name, unit in units.items()])
-    rows = 0
-    for packet in play_vibration(plant):
-        time = packet.sample / plant.hidden.sensors.vibration.rate
-        table.write({"time": time, NAME: packet.values})
-        rows += len(packet.values)
-    table.close()
-    return rows
-
-
-def _table(path: Path, columns: list[Column]) -> Any:
     kind = path.suffix.removeprefix(".")
     if kind not in FORMATS:
         raise ValueError(f"{path}: must end in {', '.join('.' + name for name in FORMATS)}")
-    return FORMATS[kind](path, columns)
+    file, rows = FORMATS[kind](path, table.columns), 0
+    for batch in table.batches:
+        file.write(batch)
+        rows += len(next(iter(batch.values())))
+    file.close()
+    return rows

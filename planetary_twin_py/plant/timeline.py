@@ -9,9 +9,9 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .encoders import play_encoders
-from .readings import Plant, play_readings
-from .vibration import play_vibration
+from .encoders import simulate_encoders
+from .readings import Plant, simulate_readings
+from .vibration import simulate_vibration
 
 Number = TypeVar("Number", bound=np.generic)
 WARMTH = "oil_temperature"
@@ -85,7 +85,7 @@ def timeline(plant: Plant) -> Iterator[Measured]:
 
 def _readings(plant: Plant) -> Iterator[Measured]:
     """Readings of the shafts, and of the oil once a second."""
-    times, columns = play_readings(plant)
+    times, columns = simulate_readings(plant)
     oil = columns.pop(WARMTH)
     ratio = plant.train.ratio
     due = 0.0
@@ -101,7 +101,7 @@ def _readings(plant: Plant) -> Iterator[Measured]:
 def _packets(plant: Plant) -> Iterator[Measured]:
     """Packets of encoder samples, without the lost ones."""
     errors = plant.hidden.sensors.encoders
-    for found in play_encoders(plant):
+    for found in simulate_encoders(plant):
         for sample, counts in _cut(found.sample, found.counts, errors.packet):
             yield CountPacket(float(sample[-1]) / errors.rate, int(sample[0]), counts)
 
@@ -109,7 +109,7 @@ def _packets(plant: Plant) -> Iterator[Measured]:
 def _accelerations(plant: Plant) -> Iterator[Measured]:
     """Packets of accelerations, without the lost ones."""
     sensor = plant.hidden.sensors.vibration
-    for found in play_vibration(plant):
+    for found in simulate_vibration(plant):
         for sample, values in _cut(found.sample, found.values, sensor.packet):
             first, last = float(sample[0]), float(sample[-1])
             yield AccelerationPacket(last / sensor.rate, first / sensor.rate, values)

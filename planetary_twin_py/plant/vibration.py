@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .hidden import Accelerometer
+from .packets import chunks, received
 from .pattern import POINTS, Pattern, course_of
 from .readings import Plant
 
@@ -22,7 +23,6 @@ Array = NDArray[np.float64]
 
 NAME = "acceleration"
 RESOLVED = 0.4  # share of the sample rate that the filter passes
-CHUNK = 20_000  # samples computed at once
 
 
 class Acceleration(NamedTuple):
@@ -34,7 +34,7 @@ class Acceleration(NamedTuple):
     """Accelerations [m/s^2], (n,)."""
 
 
-def play_vibration(plant: Plant) -> Iterator[Acceleration]:
+def simulate_vibration(plant: Plant) -> Iterator[Acceleration]:
     """Simulate the accelerometer of a plant, in packets of which some are lost.
 
     Args:
@@ -54,17 +54,11 @@ def play_vibration(plant: Plant) -> Iterator[Acceleration]:
     stages = tuple(
         one._replace(pattern=_curvature(one.pattern, path)) for one in plant.error_stages
     )
-    total = int(plant.duration * sensor.rate)
-    for first in range(0, total, CHUNK):
-        sample = np.arange(first, min(first + CHUNK, total))
-        time = sample / sensor.rate
-        angle, torque = plant.course.angle_at(time), plant.course.torque_at(time)
-        cycles = float(train.cycles) * angle / (2.0 * math.pi)
+    for sample, time, _, torque, cycles in chunks(plant, sensor.rate):
         curvature = course_of(stages, time, cycles, torque)
         values = curvature * (per_turn * plant.course.speed_at(time)) ** 2
         values += sensor.noise * chance.standard_normal(len(time))
-        packet = sample // sensor.packet
-        kept = ~(chance.random(packet[-1] - packet[0] + 1) < sensor.lost)[packet - packet[0]]
+        kept = received(sample, sensor.packet, sensor.lost, chance)
         yield Acceleration(sample[kept], values[kept])
 
 

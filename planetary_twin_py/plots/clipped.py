@@ -33,7 +33,14 @@ def clipped_points(
 
 
 def mark(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    """Draw hollow points at `x`, `y` (n,) in `colour`."""
+    """Draw hollow points at `x`, `y` (n,) in `colour`.
+
+    Args:
+        axes: where to draw.
+        x: coordinates, (n,).
+        y: coordinates, (n,).
+        colour: of the points.
+    """
     if len(x):
         look = axes.scatter(x, y, s=9.0, zorder=3, clip_on=False)
         look.set(facecolor="white", edgecolor=colour, linewidth=0.9)

@@ -60,7 +60,11 @@ class Column(NamedTuple):
         return bool(ratios.std() / ratios.mean() < steps.std() / steps.mean())
 
     def text(self, value: Any) -> str:
-        """One of the values with its unit."""
+        """One of the values with its unit.
+
+        Args:
+            value: one of the values of the column.
+        """
         if not self.is_number:
             return f"{value}"
         return f"{value:.4g} {self.quantity.unit}".removesuffix(" -")

@@ -94,13 +94,21 @@ def plot_study(
 
 
 def fields(table: pa.Table) -> list[str]:
-    """Names of the columns that the study varied."""
+    """Names of the columns that the study varied.
+
+    Args:
+        table: of a study.
+    """
     own = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
     return [name for name in table.column_names if name not in own]
 
 
 def failures(table: pa.Table) -> int:
-    """Number of rows without results."""
+    """Number of rows without results.
+
+    Args:
+        table: of a study.
+    """
     return len(table) - table["failure"].null_count if "failure" in table.column_names else 0
 
 

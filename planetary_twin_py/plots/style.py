@@ -78,26 +78,44 @@ def panels(
 
 
 def colour_of(names: Sequence[str], name: str) -> str:
-    """The colour of one of several names."""
+    """The colour of one of several names.
+
+    Args:
+        names: of all curves.
+        name: of the curve.
+    """
     return CYCLE[names.index(name) % len(CYCLE)]
 
 
 def drawing(axes: Axes) -> Axes:
-    """Axes for a drawing to scale: no frame, no ticks."""
+    """Axes for a drawing to scale: no frame, no ticks.
+
+    Args:
+        axes: to change.
+    """
     axes.set_aspect("equal")
     axes.set_axis_off()
     return axes
 
 
 def logarithmic(axes: Axes, name: Literal["x", "y"]) -> None:
-    """Make one axis logarithmic, with numbers without exponents."""
+    """Make one axis logarithmic, with numbers without exponents.
+
+    Args:
+        axes: to change.
+        name: of the axis.
+    """
     axes.set(**{f"{name}scale": "log"})
     axis = axes.xaxis if name == "x" else axes.yaxis
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def widen(axes: Axes) -> None:
-    """Give the vertical axis a minimum relative span; smaller variations are numerical errors."""
+    """Give the vertical axis a minimum relative span; smaller variations are numerical errors.
+
+    Args:
+        axes: to change.
+    """
     low, high = axes.get_ylim()
     lacking = LEAST_SPAN * max(abs(low), abs(high)) - (high - low)
     if lacking > 0.0:
@@ -125,5 +143,10 @@ def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:
 
 
 def remark(figure: Figure, text: str) -> None:
-    """A line below the picture."""
+    """A line below the picture.
+
+    Args:
+        figure: to change.
+        text: of the line.
+    """
     figure.supxlabel(text, x=0.99, ha="right", fontsize=8.0, color=GREY)

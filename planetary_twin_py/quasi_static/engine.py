@@ -117,7 +117,7 @@ class QuasiStaticEngine:
             self.model, self.tolerance, self._origin, self._run, at, samples
         )
         try:
-            self._limits.check_squeeze(samples, self.model.load)
+            self._limits.check_deflection(samples, self.model.load)
         except ArithmeticError as reason:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
         self._core.roll(self.model, self._origin, instant(until))
@@ -142,8 +142,8 @@ class QuasiStaticEngine:
         out.friction[:] = shown[:, BOUNDARY] + shown[:, VISCOUS]
         if moving:
             self._put_axes(samples, place, out)
-        self.stand(until, end)
-        end.sums = record_of(self.take_mesh_sums(time), self._core)
+        self.begin_window(until, end)
+        end.sums = record_of(self.pop_mesh_sums(time), self._core)
         yield from ()  # all is done here: there are no jobs
 
     def _put_axes(self, samples: Samples, place: np.ndarray, out: Waves) -> None:
@@ -160,7 +160,7 @@ class QuasiStaticEngine:
         out.flank_force[:] = found.flank_force.reshape(rows, -1)
         out.lean[:] = samples.lean.reshape(rows, -1)
 
-    def stand(self, time: int, end: WindowEnd) -> None:
+    def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
         seconds, rest = divmod(self.reached, 1)
         end.seconds, end.time = seconds, float(rest)
@@ -206,16 +206,16 @@ class QuasiStaticEngine:
 
         They restart at zero, so that rounding does not grow with the length of the run.
         """
-        energy = self._ledger.take(instant(self.reached))
+        energy = self._ledger.pop_energy(instant(self.reached))
         self._count()
         return energy
 
-    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+    def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:
         """Integrals and extremes of the meshes from the previous call to `time` [s].
 
         `time` is the end of the last window.
         """
-        sums = self._ledger.take_mesh_sums(instant(time))
+        sums = self._ledger.pop_mesh_sums(instant(time))
         if not self.scene.moving_axes:
             return sums
         record = record_of(sums, self._core)

@@ -55,7 +55,7 @@ class Ledger:
         self._core = core
         self._model, self._tolerance, self._lean = model, tolerance, lean
         self._mark = origin.copy()
-        self._taken = Instant(origin.seconds, origin.time)
+        self._popped = Instant(origin.seconds, origin.time)
         self._totals, self._peak = (
             np.zeros(self._core.TOTALS),
             np.zeros((self._core.PEAKS, self._core.MESHES)),
@@ -74,20 +74,20 @@ class Ledger:
         """Equilibria so far in which both flanks of a mesh touch."""
         return int(self._run.both_flanks) + self._repeated_both_flanks
 
-    def take(self, time: Instant) -> np.ndarray:
+    def pop_energy(self, time: Instant) -> np.ndarray:
         """Energy ledger from the previous call to `time`, which is not before the origin."""
         energy = self.at(time)[0][ENERGY]
         self._totals[ENERGY] -= energy
         return energy
 
-    def take_mesh_sums(self, time: Instant) -> MeshSums:
+    def pop_mesh_sums(self, time: Instant) -> MeshSums:
         """Integrals and extremes of the meshes from the previous call to `time`.
 
         Extremes are those of all panels that overlap this interval.
         """
         totals, peak = self.at(time)
         self._totals[MEAN] -= totals[MEAN]
-        self._peak[:], self._taken = 0.0, time
+        self._peak[:], self._popped = 0.0, time
         return mesh_sums(totals[MEAN], peak, self._model.train.meshes)
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
@@ -130,7 +130,7 @@ class Ledger:
         """Peaks of the panels from the last reset to the fraction `until` of the mesh cycle."""
         assert self._cycle is not None
         phase, _, peaks = self._cycle
-        since = max(delay(self._mark, self._taken), 0.0) / period
+        since = max(delay(self._mark, self._popped), 0.0) / period
         within = (phase > since) & (phase <= until)
         return peaks[within].max(axis=0, initial=0.0)
 

@@ -24,29 +24,49 @@ _LAYER = 0.02  # [rad], largest twist of a layer of helical teeth
 
 
 def sun(gearset: Gearset) -> TriangleMesh:
-    """The sun: a toothed wheel with a bore for its shaft."""
+    """The sun: a toothed wheel with a bore for its shaft.
+
+    Args:
+        gearset: the gears.
+    """
     return _wheel(gearset, gearset.geometry.sun, gearset.twist.sun, bore=0.3)
 
 
 def planet(gearset: Gearset) -> TriangleMesh:
-    """A planet: a toothed wheel with a bore for its pin."""
+    """A planet: a toothed wheel with a bore for its pin.
+
+    Args:
+        gearset: the gears.
+    """
     return _wheel(gearset, gearset.geometry.planet, gearset.twist.planet, bore=0.35)
 
 
 def ring(gearset: Gearset) -> TriangleMesh:
-    """The ring: an annulus with internal teeth."""
+    """The ring: an annulus with internal teeth.
+
+    Args:
+        gearset: the gears.
+    """
     gear = gearset.geometry.ring
     return _toothed_rim(gear, rim(gear), 0.5 * gearset.face_width, gearset.twist.ring)
 
 
 def pin(gearset: Gearset) -> TriangleMesh:
-    """The pin of a planet, from the carrier through the planet."""
+    """The pin of a planet, from the carrier through the planet.
+
+    Args:
+        gearset: the gears.
+    """
     low, high = -0.7 * gearset.face_width, 0.56 * gearset.face_width
     return extrude(0.0, circle(pin_radius(gearset)), low, high)
 
 
 def spider(gearset: Gearset) -> TriangleMesh:
-    """The carrier: a plate behind the gears with one arm per planet."""
+    """The carrier: a plate behind the gears with one arm per planet.
+
+    Args:
+        gearset: the gears.
+    """
     width, hub = arm_width(gearset), hub_radius(gearset)
     angles = np.linspace(0.0, 2.0 * math.pi, 720, endpoint=False)
     radius = np.full_like(angles, hub)
@@ -57,7 +77,13 @@ def spider(gearset: Gearset) -> TriangleMesh:
 
 
 def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
-    """The teeth of one gear; of sun and planets with equal teeth, those of the sun."""
+    """The teeth of one gear; of sun and planets with equal teeth, those of the sun.
+
+    Args:
+        gearset: the gears.
+        teeth: number of teeth.
+        internal: whether the teeth point inwards.
+    """
     gears = gearset.geometry
     if internal:
         return gears.ring
@@ -65,7 +91,11 @@ def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
 
 
 def carrier_radius(gearset: Gearset) -> float:
-    """Radius of the circle of the planet centres [m]."""
+    """Radius of the circle of the planet centres [m].
+
+    Args:
+        gearset: the gears.
+    """
     return gearset.geometry.centre_distance
 
 
@@ -75,22 +105,38 @@ def rim(ring: SpurGear) -> float:
 
 
 def pin_radius(gearset: Gearset) -> float:
-    """Radius of the pin in a planet [m]."""
+    """Radius of the pin in a planet [m].
+
+    Args:
+        gearset: the gears.
+    """
     return 0.33 * gearset.geometry.planet.root_radius
 
 
 def arm_width(gearset: Gearset) -> float:
-    """Half the width of an arm of the carrier, and the radius of its end [m]."""
+    """Half the width of an arm of the carrier, and the radius of its end [m].
+
+    Args:
+        gearset: the gears.
+    """
     return 0.6 * gearset.geometry.planet.root_radius
 
 
 def hub_radius(gearset: Gearset) -> float:
-    """Radius of the carrier's hub [m]."""
+    """Radius of the carrier's hub [m].
+
+    Args:
+        gearset: the gears.
+    """
     return 0.9 * gearset.geometry.sun.root_radius
 
 
 def plate(gearset: Gearset) -> tuple[float, float]:
-    """Lower and upper z of the carrier's plate [m]."""
+    """Lower and upper z of the carrier's plate [m].
+
+    Args:
+        gearset: the gears.
+    """
     return -0.72 * gearset.face_width, -0.54 * gearset.face_width
 
 

@@ -47,7 +47,12 @@ def wheel(gearset: Gearset, part: str, mount: float) -> list[Shape]:
 
 
 def ring(gearset: Gearset, mount: float) -> list[Shape]:
-    """The ring: teeth inside a rim of flat pieces, one behind each tooth; `mount` as in `wheel`."""
+    """The ring: teeth inside a rim of flat pieces, one behind each tooth; `mount` as in `wheel`.
+
+    Args:
+        gearset: the gears.
+        mount: direction of tooth 0 [rad].
+    """
     teeth, width = gearset.teeth.ring, gearset.face_width
     gear = gearset.geometry.ring
     inner, outer = gear.root_radius, rim(gear)
@@ -57,7 +62,11 @@ def ring(gearset: Gearset, mount: float) -> list[Shape]:
 
 
 def carrier(gearset: Gearset) -> list[Shape]:
-    """The carrier behind the gears: a hub, and per planet an arm with a round end and a pin."""
+    """The carrier behind the gears: a hub, and per planet an arm with a round end and a pin.
+
+    Args:
+        gearset: the gears.
+    """
     reach, width = carrier_radius(gearset), arm_width(gearset)
     low, high = plate(gearset)
     middle, thick = 0.5 * (low + high), high - low

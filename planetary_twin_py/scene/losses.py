@@ -44,7 +44,7 @@ class Churning(Section):
     carrier: float | None = quantity("m", "radius of the carrier's disc", None, gt=0.0, le=10.0)
 
     @model_validator(mode="after")
-    def _something_churns(self) -> Self:
+    def _require_a_disc(self) -> Self:
         if self.sun is None and self.ring is None and self.carrier is None:
             raise ValueError("sun, ring, carrier: give the radius of at least one of them")
         return self

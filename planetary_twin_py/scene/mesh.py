@@ -181,7 +181,7 @@ class Mesh(Section):
     runout: Runout = Field(Runout(), description="eccentricities of the gears")
 
     @model_validator(mode="after")
-    def _numbers_where_they_are_wanted(self) -> Self:
+    def _require_stiffness(self) -> Self:
         if self.stiffness == "given":
             for name in ("sun_planet_stiffness", "planet_ring_stiffness"):
                 if getattr(self, name) is None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..result import Result
 
 
-def uneven_squeeze(scene: Scene, run: Result) -> float:
+def uneven_deflection(scene: Scene, run: Result) -> float:
     """Relative difference of the approach of the flanks at an end of the face.
 
     Args:
@@ -53,7 +53,7 @@ def face_warning(scene: Scene, run: Result) -> str | None:
     Returns:
         A sentence, or None.
     """
-    uneven = uneven_squeeze(scene, run)
+    uneven = uneven_deflection(scene, run)
     if uneven <= 1.0:
         return None
     return (

@@ -2,14 +2,14 @@
 
 The normal of a pair of flanks is n = cos(beta_b) n_t + hand sin(beta_b) e_z, with n_t in the
 transverse plane, e_z along the axes and the base helix angle beta_b (Kahraman 1994, J. Sound Vib.
-173, 125). Forces, squeezes and stiffnesses of the model are those of the transverse plane, so the
-row is r = n/cos(beta_b) = n_t + hand tan(beta_b) e_z: a mesh force F along n_t has the axial part
-F tan(beta_b). It acts at the pitch point in the middle of the face, at R e_r from the axis of a
-gear, and turns that by R e_r x r: tilts it by -hand tan(beta_b) R about e_t.
+173, 125). Forces, deflections and stiffnesses of the model are those of the transverse plane, so
+the row is r = n/cos(beta_b) = n_t + hand tan(beta_b) e_z: a mesh force F along n_t has the axial
+part F tan(beta_b). It acts at the pitch point in the middle of the face, at R e_r from the axis of
+a gear, and turns that by R e_r x r: tilts it by -hand tan(beta_b) R about e_t.
 
 Coast flanks have the hand of the drive flanks, but the opposite normal in the plane. As their row
-counts the approach negatively, axial displacements have the same factors. Tilts change the squeeze
-along the face by the slope (e_z x n_t) . (theta_A - theta_B).
+counts the approach negatively, axial displacements have the same factors. Tilts change the
+deflection along the face by the slope (e_z x n_t) . (theta_A - theta_B).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class LeaningRow(NamedTuple):
     """Of the tilts [m/rad]: of the central gear about x and y, of the planet about the radial and
     the tangential direction, (2, 2)."""
     slope: np.ndarray
-    """Slope of the squeeze along the face per tilt [-], (2, 2)."""
+    """Slope of the deflection along the face per tilt [-], (2, 2)."""
 
 
 def leaning_row(mesh: MeshOfKind, side: float, psi: float) -> LeaningRow:

@@ -153,7 +153,13 @@ def _spread(scene: Scene, span: Span, text: str, count: str) -> Axis:
 
 
 def admitted(scene: Scene, span: Span, values: np.ndarray) -> tuple[Any, ...]:
-    """Values (n,) as the field accepts them: rounded for an integer field, without duplicates."""
+    """Values (n,) as the field accepts them: rounded for an integer field, without duplicates.
+
+    Args:
+        scene: has the field.
+        span: the field and its range.
+        values: in SI, (n,).
+    """
     whole = isinstance(span.low, int)
     numbers = [round(value) if whole else float(value) for value in values]
     return tuple(dict.fromkeys(read_value(scene, span.field, number) for number in numbers))

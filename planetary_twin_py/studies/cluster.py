@@ -44,10 +44,15 @@ class Cluster:
                     "install the same version"
                 )
 
-    def do(
+    def run(
         self, work: Callable[[Task], Answer], points: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer | Failure]]:
-        """Yield every point with its result, in order of completion."""
+        """Yield every point with its result, in order of completion.
+
+        Args:
+            work: function to evaluate at each point.
+            points: of the study.
+        """
         from distributed import as_completed
 
         waiting = iter(points)

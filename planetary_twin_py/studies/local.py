@@ -28,10 +28,15 @@ class Threads:
         if self.count < 1:
             raise ValueError(f"workers = {count!r}: must be at least 1")
 
-    def do(
+    def run(
         self, work: Callable[[Task], Answer], points: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer]]:
-        """Yield every point with its result, in order of completion."""
+        """Yield every point with its result, in order of completion.
+
+        Args:
+            work: function to evaluate at each point.
+            points: of the study.
+        """
         waiting = iter(points)
         pool = ThreadPoolExecutor(self.count, "point")
         under_way: dict[Future[Answer], Task] = {}

@@ -24,15 +24,15 @@ from ..twin import Twin
 SHARE = 0.03  # of the torque, at which lost motion is measured
 UPPER = 0.5  # of the torque, from which the stiffness is measured
 LEVELS = 25  # torques from 0 to the largest
-DWELL = 0.01  # [s] from one look at the twist to the next
-LOOKS = 4  # of which the last must agree, as two of a vibration may
-PATIENCE = 100  # more looks at most at each torque
+DWELL = 0.01  # [s] from one reading of the twist to the next
+READINGS = 4  # the last ones must agree; two may agree by chance in a vibration
+PATIENCE = 100  # further readings at each torque, at most
 FREQUENCY = 200.0  # [Hz] of a machine of the bench on the gear set
 GEARS = 1000.0  # [Hz] of a gear of the bench on its meshes
 CARRIED = 0.1  # mass of the planets on the carrier, over J/r^2 of the carrier
 COUPLING = 10.0  # stiffness of its coupling over that of the gear set
 MESH_DAMPING = 0.3  # damping ratio of a mesh on the bench
-SETTLED = 1e-4  # of the elastic twist, by which it may still move between two looks
+SETTLED = 1e-4  # change between two readings of a twist at rest, over the elastic twist
 
 
 @dataclass(frozen=True)
@@ -109,18 +109,17 @@ def lost_motion(
 ) -> LostMotion:
     """Load the output from 0 to a torque, to its opposite and back, with the input held.
 
-    The scene runs at speed 0, with dynamics, so that friction holds and breaks away by the laws of
-    the scene. Machines and couplings of the scene are replaced by stiff, well damped ones, which
-    hold the input and come to rest between two torques. Inertias are replaced by those with which
-    the gears swing slowly: those of light gears would demand steps of a microsecond. Neither
-    changes the statics.
+    The scene is simulated at speed 0, so friction sticks and breaks away by the laws of the scene.
+    Machines and couplings are replaced by stiff and well damped ones, which hold the input and come
+    to rest between two torques. Inertias are replaced by larger ones, because vibration of light
+    gears would require steps of a microsecond. Neither changes the statics.
 
     Args:
         scene: with one input.
         torque: largest torque on the output member [N m].
         share: part of it at which lost motion is measured.
         levels: torques from 0 to the largest.
-        dwell: time between two looks at the twist, which is to be at rest [s].
+        dwell: time between two readings of the twist [s].
         tolerance: relative local error tolerance.
         report: called with the number of torques completed since the last call.
 
@@ -130,7 +129,7 @@ def lost_motion(
     Raises:
         ValueError: the torque is not positive or exceeds drive.torque_limit, or the scene has two
             inputs.
-        RunawayError: the teeth yield more than they can.
+        RunawayError: a mesh deflects by more than a base pitch.
     """
     if scene.drive.second_input is not None:
         raise ValueError("drive.second_input: must be none for a lost-motion test")
@@ -146,22 +145,22 @@ def lost_motion(
     loop, moving = [], 0.0
     for step in steps:
         twin.set(input_torque=float(step / per_input))
-        looks = [_twist(twin, still, dwell) for _ in range(LOOKS)]
+        readings = [_twist(twin, still, dwell) for _ in range(READINGS)]
         for _ in range(PATIENCE):
-            if _motion(looks) <= rest:
+            if _motion(readings) <= rest:
                 break
-            looks = [*looks[1:], _twist(twin, still, dwell)]
-        moving = max(moving, _motion(looks))
-        loop.append(looks[-1])
+            readings = [*readings[1:], _twist(twin, still, dwell)]
+        moving = max(moving, _motion(readings))
+        loop.append(readings[-1])
         report(1)
     closed = np.array(loop[len(up) - 1 :])
     couplings = _compliance_of_couplings(scene)
     return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share, couplings)
 
 
-def _motion(looks: list[tuple[float, float]]) -> float:
-    """Largest change of the twist from one look to the next [rad], without the first look."""
-    return float(np.abs(np.diff([twist for _, twist in looks[1:]])).max())
+def _motion(readings: list[tuple[float, float]]) -> float:
+    """Largest change of the twist between successive readings [rad], without the first one."""
+    return float(np.abs(np.diff([twist for _, twist in readings[1:]])).max())
 
 
 def _on_bench(scene: Scene) -> Scene:

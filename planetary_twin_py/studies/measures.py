@@ -62,7 +62,11 @@ class RunSummary(NamedTuple):
 
 
 def summary_of(result: Result) -> RunSummary:
-    """Summary of a run over its duration and over all meshes."""
+    """Summary of a run over its duration and over all meshes.
+
+    Args:
+        result: of the run.
+    """
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
     peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}
@@ -86,7 +90,11 @@ def row(scene: Scene, window: Window) -> Row:
 
 
 def axes_row(motion: AxesMotion) -> Row:
-    """Values of `AXES_RESULTS` of axes that move, in SI."""
+    """Values of `AXES_RESULTS` of axes that move, in SI.
+
+    Args:
+        motion: statistics of the axes over a window.
+    """
     found, members = axes_statistics(motion), len(MEMBERS)
     figures = {"load_sharing_factor": motion.load_sharing_factor}
     for name in STUDIED_OF_AXES:
@@ -118,7 +126,11 @@ def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
 
 
 def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
-    """Values of `MESH` for both `SIDES`, from statistics of the meshes, shape (meshes,) each."""
+    """Values of `MESH` for both `SIDES`, from statistics of the meshes, shape (meshes,) each.
+
+    Args:
+        mesh: statistics of the meshes by name, (meshes,) each, in SI.
+    """
     planets = len(mesh["dte_mean"]) // 2
     return {
         side: {

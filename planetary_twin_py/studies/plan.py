@@ -63,12 +63,12 @@ class Study:
     points: tuple[Point, ...]
     settings: Settings = Settings()
 
-    def key(self, point: Point, makers: str) -> str:
+    def key(self, point: Point, versions: str) -> str:
         """Digest of everything that determines the results of a point.
 
         Args:
             point: of this study.
-            makers: identifies the core and the measures.
+            versions: digest of the core and names of the measures.
 
         Returns:
             32 hexadecimal digits.
@@ -77,7 +77,7 @@ class Study:
             "scene": self.scene.model_dump(mode="json", exclude={"name", "description"}),
             "changes": dict(point.changes),
             "settings": asdict(self.settings),
-            "makers": makers,
+            "makers": versions,
         }
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
 
@@ -165,7 +165,11 @@ def _study(scene: Scene, axes: Sequence[Axis | Span], rows: Any, settings: Setti
 
 
 def describe(changes: Mapping[str, Any]) -> str:
-    """Changes as text: "backlash = 1e-07, mesh.ramp = 0"."""
+    """Changes as text: "backlash = 1e-07, mesh.ramp = 0".
+
+    Args:
+        changes: values in SI by field.
+    """
     return ", ".join(
         f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
         for name, value in changes.items()

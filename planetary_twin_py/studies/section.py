@@ -69,7 +69,7 @@ class Section:
         ).operating_point
         self._pace()
         self._run.change(self._point, self._tolerance, self._time)
-        self._go(duration)
+        self._advance(duration)
 
     def dte(self) -> np.ndarray:
         """DTE at the next passage of the section [m], shape (meshes,).
@@ -82,7 +82,8 @@ class Section:
         passage = math.floor(cycle + GUARD) + 1.0
         while (left := passage - cycle) > EXACT:
             far = left > 2.0 * GUARD
-            samples = self._go((left - GUARD) / self._frequency if far else SHORT * left / rate)
+            duration = (left - GUARD) / self._frequency if far else SHORT * left / rate
+            samples = self._advance(duration)
             cycle, rate = self._passed(samples)
         if left < -MISSED:
             raise ArithmeticError(
@@ -110,6 +111,6 @@ class Section:
         """Sun and carrier of samples (1, bodies); 0 for a held member."""
         return np.append(bodies[0], 0.0)[self._places]
 
-    def _go(self, duration: float) -> Samples:
+    def _advance(self, duration: float) -> Samples:
         self._time += Fraction(duration)
         return self._run.sample(self._time)

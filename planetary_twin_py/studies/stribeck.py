@@ -76,7 +76,7 @@ def stribeck(
     study = grid(scene.replace(**LAWS), [axis])
     evaluation = CycleEvaluation(study.scene)
     found: dict[int, Found] = {}
-    for point, result in executor.do(evaluation, study.points):
+    for point, result in executor.run(evaluation, study.points):
         found[point.place] = result
         report(1, result if isinstance(result, Failure) else None)
     settings = asdict(evaluation)

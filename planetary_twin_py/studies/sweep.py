@@ -41,15 +41,16 @@ def sweep(
     from .._core import SOURCES
     from .table import tabulate
 
-    makers = "/".join((SOURCES, *STUDY_RESULTS, *AXES_RESULTS))  # others: new results
-    keys = {point.place: study.key(point, makers) for point in study.points}
+    # A journal of another core, or with other measures, is not resumed.
+    versions = "/".join((SOURCES, *STUDY_RESULTS, *AXES_RESULTS))
+    keys = {point.place: study.key(point, versions) for point in study.points}
     book = Journal(journal) if journal else None
     known = book.done if book else {}
     found: dict[int, Found] = {place: known[key] for place, key in keys.items() if key in known}
     report(len(found), None)
     left = (point for point in study.points if point.place not in found)
     try:
-        for point, result in executor.do(Evaluation(study.scene, study.settings), left):
+        for point, result in executor.run(Evaluation(study.scene, study.settings), left):
             found[point.place] = result
             if book:
                 book.add(keys[point.place], result)

@@ -1,4 +1,4 @@
-"""Runs too short for means, and gears that turn at another speed than the operating point's."""
+"""Warnings about runs that are too short for means, and about deviations of the mean speed."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ def wanted_mesh_frequency(scene: Scene) -> float:
 
 
 def speed_share(scene: Scene, found: float) -> float:
-    """Mean mesh frequency/that of the operating point.
+    """Mean mesh frequency of a run over that of the operating point.
 
     Args:
         scene: the scene.
-        found: mean mesh frequency of a run of it [Hz].
+        found: mean mesh frequency of a run of the scene [Hz].
 
     Returns:
-        The ratio; NaN where the gears are to stand still, or start at a speed of their own.
+        The ratio; NaN if the set-point is standstill, or if `start_speed` starts a run-up.
     """
     wanted = wanted_mesh_frequency(scene)
     runs_up = scene.drive.speed_control.start_speed is not None
@@ -56,7 +56,11 @@ def speed_share(scene: Scene, found: float) -> float:
 
 
 def off_speed(share: float) -> bool:
-    """Whether gears turn at another speed than asked for, by their `speed_share`."""
+    """Whether the mean speed deviates from that of the operating point.
+
+    Args:
+        share: from `speed_share`.
+    """
     return abs(share - 1.0) > ALLOWED  # NaN is no deviation
 
 

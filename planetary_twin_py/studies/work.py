@@ -39,7 +39,7 @@ class Evaluation:
 class Executor(Protocol):
     """Runs the points of a study: `local.Threads` or `cluster.Cluster`."""
 
-    def do(
+    def run(
         self, work: Callable[[Point], Found], points: Iterable[Point]
     ) -> Iterator[tuple[Point, Found]]:
         """Yield every point with its result, in order of completion.

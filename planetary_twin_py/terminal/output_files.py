@@ -1,9 +1,10 @@
-"""Checks of output files, made while the options are read, before anything is computed."""
+"""Output files: checked while the options are read, before anything is computed, and written."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -81,6 +82,20 @@ def check_recording(option: str, path: Path) -> None:
         _check_folder(option, path, above)
     except OSError as error:  # of a name that is too long
         _refuse(option, path, str(error.strerror))
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """Context that ends the command in one line if the file of an option cannot be written.
+
+    Args:
+        option: name of the option that gives the path, e.g. "--out".
+        path: the file.
+    """
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        _refuse(option, path, str(error))
 
 
 def _check_folder(option: str, path: Path, folder: Path) -> None:

@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 _COLLECTIONS = ("[", "{")
 
 
-def settings(given: Sequence[str]) -> dict[str, Any]:
+def settings(given: Sequence[str], option: str = "--set") -> dict[str, Any]:
     """Parse settings for `Scene.replace`.
 
     Args:
         given: texts NAME=VALUE. Lists and sections are written as in a scene file:
             gearset.planet_angles=[0 deg, 180 deg], losses.planet_bearing={mean_diameter: 10 mm}.
+        option: name of the option that gives them, for error messages.
 
     Returns:
         Values (texts, lists and mappings) by name.
@@ -32,12 +33,12 @@ def settings(given: Sequence[str]) -> dict[str, Any]:
     for setting in given:
         name, equals, value = setting.partition("=")
         if not (name and equals):
-            raise ValueError(f"--set {setting!r}: must be NAME=VALUE")
+            raise ValueError(f"{option} {setting!r}: must be NAME=VALUE")
         if name in values:
-            raise ValueError(f"--set {name}: given twice, as {values[name]} and as {value}")
+            raise ValueError(f"{option} {name}: given twice, as {values[name]} and as {value}")
         values[name] = value
         if value.lstrip().startswith(_COLLECTIONS):
-            values[name] = read_yaml(value, f"--set {name}")
+            values[name] = read_yaml(value, f"{option} {name}")
     return values
 
 

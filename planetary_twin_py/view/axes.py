@@ -49,7 +49,12 @@ class Scales(NamedTuple):
 
 
 def scales(gearset: Gearset, axes: Series) -> Scales | None:
-    """Scales at which the largest values in states of axes are well seen; None without states."""
+    """Scales at which the largest values in states of axes are well seen; None without states.
+
+    Args:
+        gearset: the gears.
+        axes: states of the axes.
+    """
     if not len(axes):
         return None
     far, force = (
@@ -90,6 +95,13 @@ def log_bearing_forces(
     """Log an arrow for the force of every body on its bearing, and the scale of the arrows.
 
     /gears/bearing_force/BODY is at rest in the housing; that of a planet moves with the carrier.
+
+    Args:
+        layer: recording to draw into.
+        axes: states of the axes.
+        gearset: the gears.
+        places: angles over time.
+        drawn: the scales.
     """
     per_newton = MILLIMETRES * drawn.length / drawn.force
     index = timeline.columns(places.time, places.stamp)
@@ -110,7 +122,12 @@ def log_bearing_forces(
 
 
 def turned(vectors: Array, angle: Array | float) -> Array:
-    """Vectors (n, 2) turned by an angle [rad], one or (n,)."""
+    """Vectors (n, 2) turned by an angle [rad], one or (n,).
+
+    Args:
+        vectors: (n, 2).
+        angle: [rad], one or (n,).
+    """
     along = vectors @ np.array([1.0, 1.0j]) * np.exp(1j * np.asarray(angle))
     return np.column_stack([along.real, along.imag])
 
@@ -171,7 +188,15 @@ def _log_scale(layer: Layer, gearset: Gearset, drawn: Scales, thick: float) -> N
 def log_axes(
     layer: Layer, recording: Recording, gearset: Gearset, motion: Motion, drawn: Scales
 ) -> None:
-    """Log the arrows of a recording at the times of its states."""
+    """Log the arrows of a recording at the times of its states.
+
+    Args:
+        layer: recording to draw into.
+        recording: recording to draw.
+        gearset: the gears.
+        motion: angles over time.
+        drawn: the scales.
+    """
     axes = recording.axes_state
     angle = {"carrier": np.interp(axes.time, motion.time, motion.angle["carrier"])}
     log_bearing_forces(layer, axes, gearset, Motion(axes.time, axes.stamp, angle), drawn)

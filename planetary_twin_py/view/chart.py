@@ -35,7 +35,12 @@ class Chart:
     y: tuple[float, float]
 
     def place(self, x: Array, y: Array) -> NDArray[np.float32]:
-        """Points (n, 2) in the plane, whose second axis points down, clipped to the frame."""
+        """Points (n, 2) in the plane, whose second axis points down, clipped to the frame.
+
+        Args:
+            x: coordinates in units of the axis, (n,).
+            y: coordinates in units of the axis, (n,).
+        """
         across = np.clip((x - self.x[0]) / (self.x[1] - self.x[0]), 0.0, 1.0)
         up = np.clip((y - self.y[0]) / (self.y[1] - self.y[0]), 0.0, 1.0)
         return np.column_stack((self.width * across, -self.height * up)).astype(np.float32)
@@ -58,7 +63,12 @@ class Ticks:
 
 
 def bounds(width: float, height: float) -> rrb.VisualBounds2D:
-    """Visible region of a chart: the frame and the labels around it."""
+    """Visible region of a chart: the frame and the labels around it.
+
+    Args:
+        width: of the frame.
+        height: of the frame.
+    """
     left, right, below, above = _MARGINS
     return rrb.VisualBounds2D(
         x_range=rr.encodings.Range1D((-left, width + right)),
@@ -67,21 +77,41 @@ def bounds(width: float, height: float) -> rrb.VisualBounds2D:
 
 
 def grid(chart: Chart, x: Ticks, y: Ticks) -> list[NDArray[np.float32]]:
-    """Grid lines, then the frame."""
+    """Grid lines, then the frame.
+
+    Args:
+        chart: the chart.
+        x: ticks of the horizontal axis.
+        y: ticks of the vertical axis.
+    """
     box = np.array([(0, 0), (1, 0), (1, -1), (0, -1), (0, 0)]) * (chart.width, chart.height)
     lines = [chart.upright(value) for value in x.values]
     return [*lines, *(chart.level(value) for value in y.values), box.astype(np.float32)]
 
 
 def labels(chart: Chart, x: Ticks, y: Ticks) -> tuple[NDArray[np.float32], list[str]]:
-    """Positions (n, 2) and texts of the tick labels on both axes."""
+    """Positions (n, 2) and texts of the tick labels on both axes.
+
+    Args:
+        chart: the chart.
+        x: ticks of the horizontal axis.
+        y: ticks of the vertical axis.
+    """
     below = [(chart.upright(value)[0, 0], 0.4 * _LABEL) for value in x.values]
     beside = [(-2.3 * _LABEL, chart.level(value)[0, 1] - _LABEL) for value in y.values]
     return np.array([*below, *beside], dtype=np.float32), [*x.texts, *y.texts]
 
 
 def log_frame(layer: Layer, chart: Chart, x: Ticks, y: Ticks, name: str) -> None:
-    """Log frame, grid and tick labels as static data, with the `name` of the x axis."""
+    """Log frame, grid and tick labels as static data, with the `name` of the x axis.
+
+    Args:
+        layer: recording to draw into.
+        chart: the chart.
+        x: ticks of the horizontal axis.
+        y: ticks of the vertical axis.
+        name: of the horizontal axis.
+    """
     lines = grid(chart, x, y)
     colours = [GRID] * (len(lines) - 1) + [FRAME]
     frame = rr.LineStrips2D(lines, colors=colours, radii=0.5, draw_order=-10.0)
@@ -92,7 +122,12 @@ def log_frame(layer: Layer, chart: Chart, x: Ticks, y: Ticks, name: str) -> None
 
 
 def texts_at(places: NDArray[np.float32], texts: Sequence[str]) -> rr.Points2D:
-    """Texts at positions (n, 2) in the plane."""
+    """Texts at positions (n, 2) in the plane.
+
+    Args:
+        places: positions, (n, 2).
+        texts: n texts.
+    """
     return rr.Points2D(places, labels=list(texts), colors=TEXT, radii=0.0, show_labels=True)
 
 
@@ -124,7 +159,14 @@ def send_labels(
     index: list[rr.TimeColumn],
     rows: Sequence[tuple[NDArray[np.float32], Sequence[str]]],
 ) -> None:
-    """Send labels over time: for each row of `index`, positions (m, 2) and m texts."""
+    """Send labels over time: for each row of `index`, positions (m, 2) and m texts.
+
+    Args:
+        layer: recording to draw into.
+        path: of the entity.
+        index: time columns, n rows.
+        rows: positions (m, 2) and m texts, n times.
+    """
     layer.log(
         path,
         rr.Points2D.from_fields(colors=[TEXT], radii=[0.0], show_labels=True),

@@ -31,7 +31,11 @@ _TO_LINEAR = np.array(
 
 
 def shade(level: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Colours (..., 3) of levels (...) from 0, dark, to 1, bright; clipped outside."""
+    """Colours (..., 3) of levels (...) from 0, dark, to 1, bright; clipped outside.
+
+    Args:
+        level: levels, any shape.
+    """
     place = np.rint((_LEVELS - 1) * np.clip(level, 0.0, 1.0)).astype(np.intp)
     return _TABLE[place]
 

@@ -56,7 +56,14 @@ class Contacts:
 
 
 def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motion) -> None:
-    """Log the tooth pairs in contact at the times of `motion`, and the scale of their loads."""
+    """Log the tooth pairs in contact at the times of `motion`, and the scale of their loads.
+
+    Args:
+        layer: recording to draw into.
+        scene: gears, stiffness and faults.
+        recording: recording to draw.
+        motion: angles at the times to draw.
+    """
     force = forces(recording, motion.time)
     found = [
         contacts(scene, mesh, motion.angle, force[:, mesh]) for mesh in range(len(recording.meshes))
@@ -76,6 +83,10 @@ def forces(recording: Recording, time: Array) -> Array:
     """Forces of the meshes [N] at `time` [s] (n,), shape (n, meshes).
 
     They are samples of the waveform, or means of the interval where there is no sample.
+
+    Args:
+        recording: has waveform or states.
+        time: [s], (n,).
     """
     state = recording.state
     row = np.minimum(np.searchsorted(state.time, time), len(state) - 1)

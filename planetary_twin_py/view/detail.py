@@ -50,7 +50,12 @@ def detailed_spans(recording: Recording) -> list[TimeSpan]:
 
 
 def overview(recording: Recording, detail: list[TimeSpan]) -> Recording:
-    """The same with fewer states: intervals outside `detail` are aggregated."""
+    """The same with fewer states: intervals outside `detail` are aggregated.
+
+    Args:
+        recording: the recording.
+        detail: time spans [s] whose intervals are kept.
+    """
     state, axes = (_fewer(series, detail) for series in (recording.state, recording.axes_state))
     return replace(recording, state=state, axes_state=axes)
 
@@ -60,7 +65,12 @@ def _fewer(series: Series, detail: list[TimeSpan]) -> Series:
 
 
 def first_rows(time: NDArray[np.float64], detail: list[TimeSpan]) -> NDArray[np.intp]:
-    """First row of each group that is aggregated to one row; in `detail` a group is one row."""
+    """First row of each group that is aggregated to one row; in `detail` a group is one row.
+
+    Args:
+        time: of the rows [s], (n,).
+        detail: time spans [s] whose rows are kept.
+    """
     step = math.ceil(len(time) / MOST_ROWS)
     single = np.zeros(len(time) + 1, dtype=bool)
     for begin, end in detail:

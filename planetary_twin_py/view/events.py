@@ -42,7 +42,12 @@ def log_events(layer: Layer, recording: Recording, known: int = 0) -> None:
 
 
 def sentence(recording: Recording, row: int) -> str:
-    """Changed set-points with new and old values; all values for the first message."""
+    """Changed set-points with new and old values; all values for the first message.
+
+    Args:
+        recording: has the operating points.
+        row: index of the operating point.
+    """
     point = recording.operating_point
     changed = [name for name in str(point["changed"][row]).split(",") if name in OPERATING_POINT]
     if row == 0 or not changed:

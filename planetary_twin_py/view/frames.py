@@ -58,7 +58,11 @@ class Frames:
         return min(max(seconds, cycles / usual if usual > 0.0 else 0.0), max(seconds, longest))
 
     def state(self, name: str) -> Array:
-        """A field of GearboxState at the centres of the windows (n,)."""
+        """A field of GearboxState at the centres of the windows (n,).
+
+        Args:
+            name: of the field.
+        """
         state = self.recording.state
         row = np.minimum(np.searchsorted(state.time, self.time), len(state) - 1)
         return np.asarray(state[name][row], dtype=np.float64)
@@ -86,7 +90,11 @@ class Frames:
 
 
 def frames(recording: Recording) -> Frames | None:
-    """Windows from the first sample to the last; None without samples."""
+    """Windows from the first sample to the last; None without samples.
+
+    Args:
+        recording: has the waveform.
+    """
     wave = recording.waveform
     if wave is None or len(wave.time) < 2:
         return None

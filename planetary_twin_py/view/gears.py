@@ -39,7 +39,12 @@ MILLIMETRES = 1e3
 
 
 def log_gears(layer: Layer, gearset: Gearset) -> None:
-    """Log the gearset's solids."""
+    """Log the gearset's solids.
+
+    Args:
+        layer: recording to draw into.
+        gearset: the gears.
+    """
     gears, twist = gearset.geometry, gearset.twist
     _gear(layer, "gears/sun", sun(gearset), SUN, gears.sun, twist.sun)
     _gear(layer, "gears/ring", ring(gearset), RING, gears.ring, twist.ring)

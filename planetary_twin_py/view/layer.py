@@ -42,7 +42,13 @@ class Layer:
     def send_columns(
         self, path: str, index: list[rr.TimeColumn], columns: Iterable[ComponentColumn]
     ) -> None:
-        """Send columns at `path` unless they are empty, on which the viewer fails."""
+        """Send columns at `path` unless they are empty, on which the viewer fails.
+
+        Args:
+            path: of the entity.
+            index: time columns.
+            columns: of components.
+        """
         if len(index[0].as_arrow_array()):
             self.stream.send_columns(self._place(path), index, columns)
 
@@ -53,7 +59,13 @@ class Layer:
     def lines(
         self, names: Sequence[str], colours: Sequence[Colour], steps: bool = False
     ) -> rr.SeriesLines:
-        """Style of one line per name."""
+        """Style of one line per name.
+
+        Args:
+            names: of the lines.
+            colours: of the lines.
+            steps: whether values are constant between their times.
+        """
         return rr.SeriesLines(
             names=[self.label(name) for name in names],
             colors=[self.shade(colour) for colour in colours[: len(names)]],

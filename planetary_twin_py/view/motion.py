@@ -30,7 +30,11 @@ class Motion:
 
 
 def motion(recording: Recording) -> Motion:
-    """Motion of sun, planet_1..N, ring and carrier, from GearboxState."""
+    """Motion of sun, planet_1..N, ring and carrier, from GearboxState.
+
+    Args:
+        recording: has the states.
+    """
     state = recording.state
     rows = _rows_per_interval(state)
     time, stamp = _refine(state.time, rows), np.rint(_refine(state.stamp - state.stamp[0], rows))

@@ -20,7 +20,13 @@ _LEAST = 1e-3  # [um] from the centre to the edge of a chart
 
 
 def log_orbits(layer: Layer, frames: Frames, samples: AxesSamples) -> None:
-    """Log /orbit/BODY, each with its own scale, the same for both directions and all times."""
+    """Log /orbit/BODY, each with its own scale, the same for both directions and all times.
+
+    Args:
+        layer: recording to draw into.
+        frames: windows around which orbits are drawn.
+        samples: displacements of the axes.
+    """
     for body, name in enumerate(MEMBERS):
         orbit = 1e6 * samples.orbit[:, body].astype(np.float64)
         reach = max(_MARGIN * float(np.abs(orbit).max()), _LEAST)

@@ -37,7 +37,12 @@ class _Portrait(NamedTuple):
 
 
 def log_phase_portrait(layer: Layer, frames: Frames) -> None:
-    """Log /phase_portrait, with axes scaled to its size."""
+    """Log /phase_portrait, with axes scaled to its size.
+
+    Args:
+        layer: recording to draw into.
+        frames: windows of the DTE.
+    """
     point = frames.recording.operating_point
     rows = np.searchsorted(point.time, frames.time, side="right") - 1
     half = [0.5 * float(point["backlash"][row]) if row >= 0 else math.nan for row in rows]

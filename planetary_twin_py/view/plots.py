@@ -20,7 +20,12 @@ TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))
 
 
 def log_plots(layer: Layer, recording: Recording) -> None:
-    """Log every quantity of the state: /mesh/NAME with one series per mesh, and /train/NAME."""
+    """Log every quantity of the state: /mesh/NAME with one series per mesh, and /train/NAME.
+
+    Args:
+        layer: recording to draw into.
+        recording: recording to draw.
+    """
     state = recording.state
     index = timeline.columns(state.time, state.stamp)
     colours = mesh_colours(recording.planets)
@@ -33,7 +38,12 @@ def log_plots(layer: Layer, recording: Recording) -> None:
 
 
 def log_plots_of_axes(layer: Layer, recording: Recording) -> None:
-    """Log the state of axes that move: /axes/NAME with one series per planet or body."""
+    """Log the state of axes that move: /axes/NAME with one series per planet or body.
+
+    Args:
+        layer: recording to draw into.
+        recording: recording to draw.
+    """
     axes, planets = recording.axes_state, recording.planets
     if not len(axes):
         return
@@ -58,13 +68,26 @@ def log_series(
     names: Sequence[str],
     colours: Sequence[Colour],
 ) -> None:
-    """Log `values` (rows, series) as lines at `path`."""
+    """Log `values` (rows, series) as lines at `path`.
+
+    Args:
+        layer: recording to draw into.
+        path: of the entity.
+        index: time columns, n rows.
+        values: (n, series).
+        names: of the series.
+        colours: of the series.
+    """
     layer.log(path, layer.lines(names, colours), static=True)
     layer.send_columns(path, index, rr.Scalars.columns(scalars=values))
 
 
 def mesh_colours(planets: int) -> list[Colour]:
-    """Shades of blue for the sun meshes, then of orange for the ring meshes."""
+    """Shades of blue for the sun meshes, then of orange for the ring meshes.
+
+    Args:
+        planets: number of planets.
+    """
     shades = np.linspace(0.78, 0.3, planets)
     tints = [
         colorsys.hsv_to_rgb(hue, shade, 0.95)

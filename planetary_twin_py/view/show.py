@@ -93,7 +93,11 @@ def save(
 
 
 def to_file(rrd: Path) -> rr.RecordingStream:
-    """A stream into a Rerun file."""
+    """A stream into a Rerun file.
+
+    Args:
+        rrd: path of the file.
+    """
     stream = rr.RecordingStream(APPLICATION)
     try:
         stream.save(rrd)
@@ -127,7 +131,16 @@ def send_layout(
     *,
     followed: bool = False,
 ) -> None:
-    """Send the layout; see `blueprint` for `mode`, `compared`, `axes` and `followed`."""
+    """Send the layout; see `blueprint` for `mode`, `compared`, `axes` and `followed`.
+
+    Args:
+        stream: Rerun stream.
+        scene: of the gears; None shows no gears.
+        mode: see `blueprint`.
+        compared: see `blueprint`.
+        axes: see `blueprint`.
+        followed: see `blueprint`.
+    """
     gearset = scene.gearset if scene else None
     layout = blueprint(gearset, mode, compared, axes, followed=followed)
     # Active, because the viewer would otherwise prefer a layout stored earlier.
@@ -135,7 +148,13 @@ def send_layout(
 
 
 def log_curves(layer: Layer, recording: Recording, detail: list[TimeSpan]) -> list[str]:
-    """Log curves and changes, with samples in `detail`; return warnings."""
+    """Log curves and changes, with samples in `detail`; return warnings.
+
+    Args:
+        layer: recording to draw into.
+        recording: recording to draw.
+        detail: time spans [s] shown sample by sample.
+    """
     shown = overview(recording, detail)
     log_plots(layer, shown)
     log_plots_of_axes(layer, shown)
@@ -167,7 +186,15 @@ def _log_first(
 def log_solids(
     layer: Layer, recording: Recording, gearset: Gearset, turned: Motion, drawn: Scales | None
 ) -> None:
-    """Log the motion of the gears, and bearing forces and displacements if axes move."""
+    """Log the motion of the gears, and bearing forces and displacements if axes move.
+
+    Args:
+        layer: recording to draw into.
+        recording: recording to draw.
+        gearset: the gears.
+        turned: angles of the members over time.
+        drawn: how moving axes are drawn; None if axes are held.
+    """
     if drawn is None or not recording.moves_axes:
         log_motion(layer, gearset, turned)
         return

@@ -36,13 +36,15 @@ def test_page_figures_and_picture_come_from_one_run(tmp_path):
         "--costs", "--markdown", str(page), "--plot", str(picture), "--json", str(figures)
     )
     assert answer.exit_code == 0, answer.output
-    text, rows = page.read_text(), json.loads(figures.read_text())
+    rows = json.loads(figures.read_text())
+    text = page.read_text() + page.with_name("page-runs.md").read_text()
     assert [(row["method"], row["tolerance"]) for row in rows] == [
         (method, tolerance) for method in table.METHODS for tolerance in table.TOLERANCES
     ]
     for row in rows:
         assert f"| {speed_cell(Speed(row['rtf'], row['rtf_low'], row['rtf_high']))} |" in text
-    assert "| 1e-02 | never |" in text
+    assert "| short | 1e-02 | never |" in text
+    assert "(page-runs.md)" in text and "(page.md)" in text
     assert "(work.png)" in text and picture.read_bytes().startswith(b"\x89PNG")
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)
 

@@ -89,10 +89,10 @@ def test_no_more_nodes_than_there_is_room_for():
 def test_the_mean_film_of_steps_that_flanks_cut_is_that_of_dense_samples():
     begin, duration, rate = 0.01, 0.004, 2e6
     engine = run(begin, 1e-4, **CHAOS)
-    engine.take_mesh_sums(begin)
+    engine.pop_mesh_sums(begin)
     before, room = engine.control.flank_events, round(duration * rate)
     shown = engine.advance(begin + duration, round(begin * rate) + 1, rate, room)
-    sums = engine.take_mesh_sums(begin + duration)
+    sums = engine.pop_mesh_sums(begin + duration)
     assert engine.control.flank_events > before + 10
     film = np.nansum(shown.mesh[:, FILM], axis=0) / rate
     assert sums.integral[FILM] == pytest.approx(film, rel=0.0, abs=5e-3 * film.max())

@@ -14,7 +14,7 @@ DIALECT = re.compile(
 )
 DEPRECATED = {
     (f"planetary_twin_py/cli/{file}.py", word)
-    for file, word in (("fit", "told"), ("fit", "untold"), ("doctor", "told"))
+    for file, word in (("_fit_points", "told"), ("_fit_points", "untold"), ("doctor", "told"))
 } | {
     ("tests/cli/test_fit_command.py", "told"),
     ("tests/cli/test_fit_command.py", "untold"),

@@ -13,11 +13,11 @@ from planetary_twin_py._core import (
     OPEN,
     Evaluation,
     StepConstants,
+    copy_segment,
     find_segment,
     forces,
     mesh_motion,
     set_step_constants,
-    take_segment,
 )
 from planetary_twin_py.engine import Engine
 
@@ -35,7 +35,7 @@ def random_moment(engine, random):
         state.side[i] = DRIVE_SIDE if mesh_motion(train, i, x) > 0.0 else COAST_SIDE
         moment.start[i] = random.uniform()
         state.segment[i] = find_segment(train, train.kind[i], moment.start[i], 1.0)
-        take_segment(train, state, moment, i)
+        copy_segment(train, state, moment, i)
     return state, moment, x, v
 
 
@@ -143,7 +143,7 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
         state, moment, x, v = random_moment(engine, random)
         for i in random.choice(meshes, 2, replace=False):
             state.side[i] = OPEN
-            take_segment(train, state, moment, i)
+            copy_segment(train, state, moment, i)
         forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), out)
         columns = {
             name: values[: slots * meshes].reshape(slots, meshes).copy()

@@ -34,7 +34,7 @@ def test_a_bearing_that_the_centrifugal_force_overcomes_is_refused(dynamics):
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "quasi_static_planar"])
-def test_a_twin_refuses_a_speed_at_which_planets_are_thrown_off_and_goes_on(dynamics):
+def test_a_twin_refuses_a_speed_at_which_planets_have_no_equilibrium_and_goes_on(dynamics):
     stiffness = 5e7
     twin = pt.Twin(turning(dynamics, 20.0, stiffness))
     twin.advance(0.001)

@@ -8,9 +8,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.following.balance import BalanceFollower
 from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.teeth import TeethFollower
-from planetary_twin_py.plant.encoders import play_encoders
+from planetary_twin_py.plant.encoders import simulate_encoders
 from planetary_twin_py.plant.hidden import Hidden
-from planetary_twin_py.plant.readings import Plant, play_readings
+from planetary_twin_py.plant.readings import Plant, simulate_readings
 
 RATE, COUNTS = 20_000.0, 2**20
 LAWS = {  # of plants; the follower has the first
@@ -59,7 +59,7 @@ def played(kind, laws, duration, seed=0, changes=(), sensors=None):
          "seed": seed}
     )  # fmt: skip
     plant = Plant(paper(), hidden, duration)
-    return plant, *play_readings(plant)
+    return plant, *simulate_readings(plant)
 
 
 def balance_of(kind, laws, duration, seed=0, changes=()):
@@ -94,7 +94,7 @@ def hunted(laws, changes, duration, seed=0, encoders=None, wander=0.02):
         true = plant.course.torque_at(np.linspace(begin, end, 50)).mean()
         return float(true) + 0.011 * noise.standard_normal()
 
-    for packets in play_encoders(plant):
+    for packets in simulate_encoders(plant):
         follower.add(packets.sample, packets.counts)
         blocks = follower.blocks
         follower.judge(np.inf, torque)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from planetary_twin_py._core import Springs, planet_force, ring_force, share, wind_up_at
+from planetary_twin_py._core import Springs, planet_force, ring_force, share, windup_at
 
 MESH = 1e8  # [N/m] of both meshes
 
@@ -41,7 +41,7 @@ def test_a_planet_is_in_equilibrium_with_both_meshes_and_friction(rub, sun, ring
 def test_wind_up_at_a_force_gives_that_force():
     steps = steps_of(2.0, (1e-7, 1e-7), (2e-7, 1e-7))
     for force in np.linspace(-10.0, 10.0, 41):
-        w = wind_up_at(force, 2.0 / MESH, 2.0, steps)
+        w = windup_at(force, 2.0 / MESH, 2.0, steps)
         assert ring_force(w, 2.0 / MESH, 2.0, steps)[0] == pytest.approx(force, abs=1e-9)
 
 

@@ -117,7 +117,7 @@ def aged(scene):
         state.turns[:1] += turns_after(scene, HOURS)
     twin._ticks += 3600 * HOURS * TICKS
     engine.reached = Fraction(3600 * HOURS)
-    twin._stand()
+    twin._begin_window()
     return twin
 
 

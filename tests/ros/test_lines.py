@@ -38,8 +38,8 @@ def stalled(domain: int, tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
 
 SHARED = """
 import os
-from planetary_twin.standard_error import never_waiting
-with never_waiting():
+from planetary_twin.standard_error import nonblocking_stderr
+with nonblocking_stderr():
     os.write(2, b"of the node\\n")
 """
 

@@ -7,7 +7,7 @@ import pytest
 from spatial.test_spatial_dynamics import constant, tilting_of_teeth
 
 import planetary_twin_py as pt
-from planetary_twin_py.spatial.face_contact import uneven_squeeze
+from planetary_twin_py.spatial.face_contact import uneven_deflection
 
 
 def test_the_squeeze_at_an_end_follows_from_the_moment_of_the_teeth():
@@ -17,7 +17,7 @@ def test_the_squeeze_at_an_end_follows_from_the_moment_of_the_teeth():
     run = pt.simulate(scene, 0.01)
     moment = np.linalg.norm(tilting_of_teeth(scene, run, 3))
     force = abs(run.mesh["mesh_force_mean"][0])
-    found = uneven_squeeze(scene, run)
+    found = uneven_deflection(scene, run)
     of_both = 6.0 * moment / (force * scene.gearset.face_width)
     assert 0.5 * of_both < found < 1.5 * of_both
 

@@ -122,7 +122,7 @@ def test_a_defect_of_the_program_is_not_reported_as_a_failed_point(monkeypatch):
 def test_only_a_few_points_are_computed_ahead():
     started = threading.Semaphore(0)
     asked = iter(range(1000))
-    found = Threads(2).do(lambda point: started.release(), (next(asked) for _ in range(1000)))
+    found = Threads(2).run(lambda point: started.release(), (next(asked) for _ in range(1000)))
     next(found)
     assert next(asked) <= AHEAD * 2 + 1
     found.close()

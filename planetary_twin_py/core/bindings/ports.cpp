@@ -79,10 +79,11 @@ double seconds(std::int64_t ticks) {
 }
 
 // Whether the ports accept the command, which then acts.
-bool py_give(Model& model, March& march, std::int64_t begin, std::int64_t end,
-             const Given& input_torque, const Given& output_torque, const Given& input_speed,
-             const Given& output_speed, const Given& input_position, const Given& output_position,
-             bool linear, const PortRanges& ranges) {
+bool py_apply_command(Model& model, March& march, std::int64_t begin, std::int64_t end,
+                      const Given& input_torque, const Given& output_torque,
+                      const Given& input_speed, const Given& output_speed,
+                      const Given& input_position, const Given& output_position, bool linear,
+                      const PortRanges& ranges) {
     const GivenValues given{{input_torque, output_torque},
                             {input_speed, output_speed},
                             {input_position, output_position}};
@@ -90,7 +91,7 @@ bool py_give(Model& model, March& march, std::int64_t begin, std::int64_t end,
     const double duration = seconds(end - begin);
     const Command command = command_of(model, march, now, duration, given);
     if (check(model.load, ranges, command) != Answer::OBEYED) return false;
-    run_unlocked([&] { give(model, march, now, command, linear ? duration : 0.0); });
+    run_unlocked([&] { apply_command(model, march, now, command, linear ? duration : 0.0); });
     return true;
 }
 
@@ -123,11 +124,11 @@ void bind_ports(nb::module_& m) {
     m.def("step_ports", &py_step_ports, "model"_a, "march"_a, "begin"_a, "end"_a, "input_torque"_a,
           "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
           "output_position"_a, "linear"_a, "ranges"_a, "limits"_a, "reached"_a, "out"_a,
-          "Give the command at `begin` [ticks], and integrate to `end`; returns the outcome.\n\n"
-          "`None`: what acts stays as it is.");
+          "Apply the command at `begin` [ticks], and integrate to `end`; returns the outcome.\n\n"
+          "`None`: the value does not change.");
     m.def(
-        "give", &py_give, "model"_a, "march"_a, "begin"_a, "end"_a, "input_torque"_a,
-        "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
+        "apply_command", &py_apply_command, "model"_a, "march"_a, "begin"_a, "end"_a,
+        "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
         "output_position"_a, "linear"_a, "ranges"_a,
         "Let a command act from `begin` [ticks] on; with `linear`, its values are reached at "
         "`end`.\n\nPositions are always reached at `end`. Returns whether the ports accept it.\n\n"

@@ -128,7 +128,7 @@ void bind_planet_load(nb::module_& m) {
         },
         nb::arg("w"), nb::arg("compliance"), nb::arg("friction"), nb::arg("steps"),
         "Force [N] of a planet on the ring and its growth with the wind-up w [N/m].");
-    m.def("wind_up_at", &with_steps<wind_up_at>, nb::arg("force"), nb::arg("compliance"),
+    m.def("windup_at", &with_steps<windup_at>, nb::arg("force"), nb::arg("compliance"),
           nb::arg("friction"), nb::arg("steps"),
           "A wind-up [m] at which a planet has a force on the ring.");
     m.def(

@@ -403,18 +403,18 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Propagation, suspect)
         .FIELD(Propagation, scan_d)
         .FIELD(Propagation, scan_rate);
-    record<Look>(m, "Look")
-        .FIELD(Look, count)
-        .FIELD(Look, at)
-        .FIELD(Look, weight)
-        .FIELD(Look, d)
-        .FIELD(Look, push);
+    record<Series>(m, "Series")
+        .FIELD(Series, count)
+        .FIELD(Series, at)
+        .FIELD(Series, weight)
+        .FIELD(Series, d)
+        .FIELD(Series, push);
     record<StepSums>(m, "StepSums")
         .FIELD(StepSums, step)
         .FIELD(StepSums, part)
         .FIELD(StepSums, total)
         .FIELD(StepSums, taken)
-        .FIELD(StepSums, look)
+        .FIELD(StepSums, series)
         .FIELD(StepSums, stale)
         .FIELD(StepSums, rates)
         .FIELD(StepSums, push);
@@ -536,7 +536,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Problem, evaluation);
     record<Peaks>(m, "Peaks").FIELD(Peaks, dte).FIELD(Peaks, speed);
     record<Limits>(m, "Limits")
-        .FIELD(Limits, squeeze)
+        .FIELD(Limits, deflection)
         .FIELD(Limits, error)
         .FIELD(Limits, speed)
         .FIELD(Limits, torque);

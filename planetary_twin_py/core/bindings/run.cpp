@@ -156,17 +156,19 @@ void bind_run(nb::module_& m) {
         "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
     m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
           "`run_window` of every job, in so many threads; the outcomes in order.");
-    m.def("take_books", &take_books, "model"_a, "march"_a, "end"_a,
-          "Take the ledger, and what stands beside it.");
+    m.def("begin_window", &begin_window, "model"_a, "march"_a, "end"_a,
+          "Begin a window: fill time, ledger, power and stored energy of `end`.");
     m.def(
-        "take_ledger",
-        [](March& march, const Values& ledger) { take_ledger(march, entries(ledger, LEDGER)); },
+        "pop_energy_ledger",
+        [](March& march, const Values& ledger) {
+            pop_energy_ledger(march, entries(ledger, LEDGER));
+        },
         "march"_a, "ledger"_a, "Integrals of the ledger since they were last taken.");
     m.def(
-        "take_mesh_sums",
+        "pop_mesh_sums",
         [](const Model& model, March& march, const InstantTuple& until, MeshSums& sums) {
             Unlocked unlocked;
-            take_mesh_sums(model, march, instant_of(until), sums);
+            pop_mesh_sums(model, march, instant_of(until), sums);
         },
         "model"_a, "march"_a, "until"_a, "sums"_a,
         "Integrals and extremes of the meshes up to `until`, the end of the last window.");

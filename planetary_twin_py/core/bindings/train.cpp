@@ -78,7 +78,7 @@ void bind_cycle(nb::module_& m) {
     m.def("set_step_constants", &set_step_constants, "model"_a, "state"_a, "step"_a,
           "Fill `step` for a step that begins at `state`.");
     m.def("place_mesh", &place_mesh, "train"_a, "state"_a, "step"_a, "i"_a, "cycles"_a);
-    m.def("take_segment", &take_segment, "train"_a, "state"_a, "step"_a, "i"_a);
+    m.def("copy_segment", &copy_segment, "train"_a, "state"_a, "step"_a, "i"_a);
     m.def("frame_cycle_rate", &frame_cycle_rate, "train"_a, "state"_a,
           "Mesh cycles per second of the rigid frame, signed.");
     m.def(
@@ -189,7 +189,7 @@ void bind_contact(nb::module_& m) {
         "Play [m] that mesh i has left before its contact changes; negative: it has changed.");
     m.def("change_contact", &change_contact, "model"_a, "state"_a, "step"_a, "i"_a);
     m.def("change_segment", &change_segment, "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
-    m.def("push_drift", &push_drift, "model"_a, "state"_a, "step"_a, "i"_a, "pace"_a);
+    m.def("force_drift", &force_drift, "model"_a, "state"_a, "step"_a, "i"_a, "pace"_a);
     m.def("stored_energy", &stored_energy, "model"_a, "state"_a, "step"_a, "i"_a);
     m.def("add_sums", &add_sums, "step"_a, "total"_a, "lanes"_a);
 }
@@ -237,12 +237,12 @@ void bind_equations(nb::module_& m) {
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "trim"_a, "out"_a,
         "Forces on all bodies in coordinates x, `delay` seconds after the start of a step.");
     m.def(
-        "press_rolling",
+        "rolling_bearing_law",
         [](const RollingBearing& bearing, double clearance, const Vector& size) {
             const std::size_t count = size.size();
             std::vector<double> found(3 * count);
             for (std::size_t i = 0; i < count; ++i) {
-                const Pressed at = press_rolling(bearing, clearance, size.data()[i]);
+                const Pressed at = rolling_bearing_law(bearing, clearance, size.data()[i]);
                 found[i] = at.energy;
                 found[count + i] = at.push;
                 found[2 * count + i] = at.stiffness;

@@ -67,25 +67,25 @@ struct OneSample {
     }
 };
 
-void take_sample(RunState& run, OneSample& sample) {
+void fill_sample(RunState& run, OneSample& sample) {
     advance(run.model, run.march, now(run), NEVER, {}, {}, sample.room(run.model.train));
 }
 
 // Mean loss of tooth friction [W] in the last step.
 double mean_loss(const Exported& scene, RunState& run, double duration) {
-    take_mesh_sums(run.model, run.march, now(run), run.books.sums);
+    pop_mesh_sums(run.model, run.march, now(run), run.window_end.sums);
     double lost = 0.0;
     for (std::int64_t i = 0; i < scene.report.meshes; ++i)
-        lost += run.books.sums.integral[POWER_LOSS][scene.report.mesh[i]];
+        lost += run.window_end.sums.integral[POWER_LOSS][scene.report.mesh[i]];
     return lost / duration;
 }
 
 // Restart the sums of the meshes and the ledger.
-void clear_books(RunState& run) {
+void restart_sums(RunState& run) {
     OneSample sample;
-    take_mesh_sums(run.model, run.march, now(run), run.books.sums);
-    take_books(run.model, run.march, run.books);
-    take_sample(run, sample);
+    pop_mesh_sums(run.model, run.march, now(run), run.window_end.sums);
+    begin_window(run.model, run.march, run.window_end);
+    fill_sample(run, sample);
 }
 
 }  // namespace
@@ -118,26 +118,26 @@ void start(const Exported& scene, RunState& run) {
     begin_step(run.model, march);
     march.end = march.begin;  // tooth pairs may have started to stick
     OneSample sample;
-    take_sample(run, sample);
+    fill_sample(run, sample);
     stored(run.model, march.end, march.scratch);
-    take_mesh_sums(run.model, march, now(run), run.books.sums);
+    pop_mesh_sums(run.model, march, now(run), run.window_end.sums);
     cut(run.model, march, now(run));
-    take_books(run.model, march, run.books);
-    take_sample(run, sample);
+    begin_window(run.model, march, run.window_end);
+    fill_sample(run, sample);
     read_ports(run.model, march, now(run), run.shown);
     run.started = true;
 }
 
 void change_point(const Exported& scene, RunState& run) {
     if (same(run.wanted, run.point)) return;
-    if (run.stepped) clear_books(run);
+    if (run.stepped) restart_sums(run);
     cut(run.model, run.march, now(run));
     run.march.sums.total = {};
     run.march.sums.taken = run.march.control.step;
     load_point(scene, run);
-    take_books(run.model, run.march, run.books);
+    begin_window(run.model, run.march, run.window_end);
     OneSample sample;
-    take_sample(run, sample);
+    fill_sample(run, sample);
     run.stepped = false;
 }
 
@@ -148,7 +148,7 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
         return Outcome::REFUSED;
     run.command = NO_COMMAND;
     const Outcome outcome =
-        step_ports(run.model, run.march, step, scene.limits, run.books, run.shown);
+        step_ports(run.model, run.march, step, scene.limits, run.window_end, run.shown);
     run.ticks = end;
     run.stepped = true;
     if (outcome == Outcome::WITHIN_LIMITS) run.tooth_loss = mean_loss(scene, run, duration);
@@ -158,7 +158,7 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
 void show_meshes(const Exported& scene, RunState& run, MeshesShown& out) {
     const Train& train = run.model.train;
     OneSample sample;
-    take_sample(run, sample);
+    fill_sample(run, sample);
     double lost = 0.0;
     for (std::int64_t i = 0; i < scene.report.meshes; ++i) {
         for (int q = 0; q < QUANTITIES; ++q)

@@ -17,7 +17,7 @@ struct alignas(64) RunState {
     OperatingPoint wanted;  // operating point from the next step on
     Command command;        // of the next step; NaN: no value is given
     PortStates shown;
-    WindowEnd books;
+    WindowEnd window_end;
     std::int64_t ticks;  // since the start
     double origin;       // time at the start [s]
     double tolerance;

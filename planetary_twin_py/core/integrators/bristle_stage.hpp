@@ -27,8 +27,8 @@ inline void bristle_damping(const Train& train, const ToothPairs& pairs, double 
 }
 
 // Shares of friction at a stage, from those at the start and the stages before.
-inline void bend_bristles(ToothPairs& pairs, const double* share, const double* weights,
-                          const double (*bend)[ROOM], int stage) {
+inline void advance_bristles(ToothPairs& pairs, const double* share, const double* weights,
+                             const double (*bend)[ROOM], int stage) {
     if (!pairs.held) return;
     for (int k = 0; k < ROOM; ++k) {
         double value = share[k];
@@ -40,9 +40,9 @@ inline void bend_bristles(ToothPairs& pairs, const double* share, const double* 
 // Fill r_z of a stage in its row of `work.bend`; add to `right`, the right-hand side of the linear
 // system [N], what it pulls the bodies by. `start`: pairs at the start of the step, whose
 // derivatives the method uses; `weights`: C of the method, of the stages before.
-inline void pull_bristles(const Train& train, const ToothPairs& start, const ToothPairs& pairs,
-                          double h, double step, const double* weights, int stage, double* right,
-                          Workspace& work) {
+inline void add_bristle_forces(const Train& train, const ToothPairs& start, const ToothPairs& pairs,
+                               double h, double step, const double* weights, int stage,
+                               double* right, Workspace& work) {
     for (std::int64_t k = 0; k < start.count; ++k) {
         std::int64_t i = k % train.meshes;
         double rate = pairs.bristle_rate[k];

@@ -26,7 +26,7 @@ constexpr int LANDINGS = 3;
 // Whether Rosenbrock's method is to be taken rather than collocation over h seconds: where the
 // sweeps do not settle, or where friction reverses so fast that its steps are longer. Elsewhere
 // short steps are what the accuracy asks for.
-bool outdone(const Control& control, double h, bool settled, int restless) {
+bool rosenbrock_is_faster(const Control& control, double h, bool settled, int restless) {
     if (control.method == COLLOCATION) return false;
     if (!settled && (restless > 1 || h < control.next_stiff)) return true;
     return control.slow && h < control.next_stiff;
@@ -79,8 +79,8 @@ void finish_end(const Model& model, March& march) {
     const double h = march.control.step;
     trim_at(model, march, h, march.end.x, march.end.trim);
     integrate_powers<L>(model.train, march, h);
-    book_given_work<L>(model, march, h);
-    pass_time(model, march, h);
+    add_given_work<L>(model, march, h);
+    advance_clock(model, march, h);
 }
 
 // Time [s] until `mesh` comes to the edge of its segment, were the pace to change on as it did
@@ -100,7 +100,7 @@ double time_by_pace(const Model& model, const March& march, std::int64_t mesh) {
 // Move the end of the step to where `mesh` comes to the edge of its segment. Where the pace has
 // changed too much for that, the next steps come to the edge.
 template <int L>
-void meet_edge(const Model& model, March& march, std::int64_t mesh, double h) {
+void end_step_at_edge(const Model& model, March& march, std::int64_t mesh, double h) {
     for (int k = 0; k < LANDINGS; ++k) {
         double gap = time_by_pace(model, march, mesh);
         if (std::fabs(gap) < ON_EDGE || !(std::fabs(gap) < WITHIN * h)) return;
@@ -147,7 +147,7 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
             return {h, tried.error};
         restless += tried.settled ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
-        if (h <= SHORTEST_STEP || outdone(control, shorter, tried.settled, restless))
+        if (h <= SHORTEST_STEP || rosenbrock_is_faster(control, shorter, tried.settled, restless))
             return {0.0, 0.0, DETOUR};
         ++control.rejected;
         h = std::max(shorter, SHORTEST_STEP);
@@ -157,10 +157,10 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
 // Powers and friction at the last node, with which the next step begins.
 void keep_last_forces(const Model& model, const March& march, Node& node, Evaluation& last) {
     for (double& force : last.rubbing) force = 0.0;
-    rub_bodies_at(model, march, node, last.rubbing);
+    find_friction_forces(model, march, node, last.rubbing);
     std::memcpy(last.power, node.power, sizeof last.power);
     last.power[STIFFNESS_WORK] = 0.0;
-    book_mesh_power(model.train, node.meshes, last.power);
+    add_mesh_power(model.train, node.meshes, last.power);
     last.power[FRICTION] =
         model.train.friction ? friction_power(model.train, node.friction.drag) : 0.0;
 }
@@ -185,17 +185,17 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) contacts_of(run).step = control.next_step;
-    remember<L>(model, march);
+    store_growth<L>(model, march);
     // There a step that may grow was short by its trial, after one between close edges, not by its
     // error.
     const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);
-    if (held_back && outdone(control, h, true, 0)) control.detour = DETOUR;
+    if (held_back && rosenbrock_is_faster(control, h, true, 0)) control.detour = DETOUR;
     keep_step<L>(run);
     control.collocated = true;
     control.changed = false;
     march.end = march.begin;
     place_end<L>(model, march, h);
-    if (event.mesh != NO_MESH && h == event.time) meet_edge<L>(model, march, event.mesh, h);
+    if (event.mesh != NO_MESH && h == event.time) end_step_at_edge<L>(model, march, event.mesh, h);
     keep_last_forces(model, march, run.node[last], march.last);
     std::int64_t changing = end_on_flank_event<L>(model, march, h);
     finish_end<L>(model, march);

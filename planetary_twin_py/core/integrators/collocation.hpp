@@ -69,7 +69,7 @@ void enter(const Model& model, March& march) {
     meshes.first.store(start.d);
     meshes.second.store(start.rate);
     sum_rows<L>(contacts.matrices.share(), V(march.last.rubbing)).store(start.rubbing);
-    push_node<L>(model, march, start, 0.0);
+    find_forces_at_node<L>(model, march, start, 0.0);
     node_force<L>(model, march, contacts, 0.0, start).store(run.force);
 }
 
@@ -91,8 +91,8 @@ void sweep(const Model& model, March& march, bool with_friction) {
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
     for (std::int64_t n = 0; n < run.nodes.count; ++n)
-        push_node<L>(model, march, run.node[n], run.nodes.abscissa[n] * run.motion.step);
-    if (with_friction) rub_nodes<L>(model, march);
+        find_forces_at_node<L>(model, march, run.node[n], run.nodes.abscissa[n] * run.motion.step);
+    if (with_friction) find_friction_of_nodes<L>(model, march);
     for (std::int64_t n = 0; n < run.nodes.count; ++n) find_rest<L>(model, march, contacts, n);
 }
 
@@ -201,7 +201,7 @@ template <int L>
 Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
     set_step<L>(run, h);
-    const bool recalled = recall<L>(march);
+    const bool recalled = repeat_growth<L>(march);
     if (!recalled && !fresh && continues(march))
         extrapolate<L>(run);
     else

@@ -315,7 +315,7 @@ void sample_step(const Model& model, March& march, CycleStep& step, Sampling& sa
         if (delay(periodic.start, at) > step.end.after) return;
         double passed = since_begin(periodic, step, at);
         if (!show_from_table(model, periodic, step, passed, out, taken)) {
-            if (!stands) stand_on(model, march, step);
+            if (!stands) continue_from(model, march, step);
             stands = true;
             sample(model, march, passed, out, taken);
         }
@@ -342,7 +342,7 @@ void play_window(const Model& model, March& march, const Instant& until, Samplin
         CycleStep& step = next_step(model, march, taken < out.rows ? due(samples) : until);
         if (taken < out.rows) sample_step(model, march, step, samples, out, taken);
         if (taken == out.rows && delay(periodic.start, until) <= step.end.after) {
-            stand_on(model, march, step);
+            continue_from(model, march, step);
             return;
         }
         add_sums(step.sums, march.sums.total, mesh_lanes(model.train));

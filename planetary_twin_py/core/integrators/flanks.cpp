@@ -12,7 +12,8 @@ constexpr double CLOSEST = 1e-16;     // relative length of an interval without 
 
 // Where the play of mesh i falls below zero: regula falsi, Illinois form (Dahlquist and Björck
 // 1974, Numerical Methods, section 6.3).
-double close_in(const Model& model, March& march, std::int64_t i, double low, double high) {
+double find_contact_time(const Model& model, March& march, std::int64_t i, double low,
+                         double high) {
     double above = departure_at(model, march, i, low), below = departure_at(model, march, i, high);
     double enough = ENOUGH * slack_of(march);
     int last = 0;
@@ -106,7 +107,7 @@ bool loaded_throughout(const Model& model, const March& march, const Row<L>& bou
 }
 
 // The same where each flank has an entry: whether all of them keep the contact they have. Open
-// flanks come no closer than their squeeze, which damping holds back further.
+// flanks come no closer than their deflection, which damping holds back further.
 template <int L>
 bool contacts_stay(const Model& model, const March& march, const Row<L>& bound) {
     using V = Row<L>;
@@ -132,7 +133,7 @@ bool contacts_stay(const Model& model, const March& march, const Row<L>& bound) 
 // are bounded by their amplitudes. The rates at the nodes are those of the last sweep, so what is
 // left is known to the tolerance.
 template <int L>
-bool suspect_flanks(const Model& model, March& march) {
+bool flanks_may_change(const Model& model, March& march) {
     const Train& train = model.train;
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
@@ -200,7 +201,7 @@ FlankEvent first_of_stiff_step(const Model& model, March& march) {
     FlankEvent first{NO_MESH, march.control.step};
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         if (departure_at(model, march, i, first.when) < 0.0)
-            first = {i, close_in(model, march, i, 0.0, first.when)};
+            first = {i, find_contact_time(model, march, i, 0.0, first.when)};
     return first;
 }
 
@@ -208,7 +209,7 @@ template <int L>
 FlankEvent first_of_collocation(const Model& model, March& march) {
     const double end = march.control.step;
     FlankEvent first{NO_MESH, end};
-    if (!suspect_flanks<L>(model, march)) return first;
+    if (!flanks_may_change<L>(model, march)) return first;
     scan<L>(march, end);
     for (std::int64_t i = 0; i < model.train.meshes; ++i) {
         if (!march.run.suspect[i]) continue;
@@ -216,7 +217,7 @@ FlankEvent first_of_collocation(const Model& model, March& march) {
         double low = place * end / SCANNED,
                high = std::min((place + 1) * end / SCANNED, first.when);
         if (low < high && departure_at(model, march, i, high) < 0.0)
-            first = {i, close_in(model, march, i, low, high)};
+            first = {i, find_contact_time(model, march, i, low, high)};
     }
     return first;
 }

@@ -43,7 +43,7 @@ inline void rebase(const Train& train, State& state) {
 }
 
 // Let clock, set-points and frame of `end` run on for h seconds.
-inline void pass_time(const Model& model, March& march, double h) {
+inline void advance_clock(const Model& model, March& march, double h) {
     const State& begin = march.begin;
     State& end = march.end;
     run_on(begin, end, h);

@@ -60,7 +60,7 @@ inline double damped_across(const Model& model, const Propagation& run, std::int
 // Impulse and work of a given torque on the shaft of machine c over h seconds. The torque is known;
 // what the nodes say of the speed lags by the last sweep.
 template <int L>
-void book_given_torque(const Model& model, March& march, std::int64_t c, double h) {
+void add_work_of_given_torque(const Model& model, March& march, std::int64_t c, double h) {
     const Train& train = model.train;
     const Propagation& run = march.run;
     const std::int64_t body = train.coupling[c][0];
@@ -79,7 +79,7 @@ void book_given_torque(const Model& model, March& march, std::int64_t c, double 
 
 // Impulse and work at the end of the shaft of machine c, whose motion is given, over h seconds.
 template <int L>
-void book_given_motion(const Model& model, March& march, std::int64_t c, double h) {
+void add_work_of_given_motion(const Model& model, March& march, std::int64_t c, double h) {
     const Train& train = model.train;
     const State& begin = march.begin;
     State& after = march.end;
@@ -105,10 +105,10 @@ void book_given_motion(const Model& model, March& march, std::int64_t c, double 
 
 // Book impulse and work at the ports at which torque or motion is given, h seconds into the step.
 template <int L>
-void book_given_work(const Model& model, March& march, double h) {
+void add_given_work(const Model& model, March& march, double h) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
-        if (model.load.port[c] == BY_TORQUE) book_given_torque<L>(model, march, c, h);
-        if (model.load.port[c] == BY_MOTION) book_given_motion<L>(model, march, c, h);
+        if (model.load.port[c] == BY_TORQUE) add_work_of_given_torque<L>(model, march, c, h);
+        if (model.load.port[c] == BY_MOTION) add_work_of_given_motion<L>(model, march, c, h);
     }
 }
 

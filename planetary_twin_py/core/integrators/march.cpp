@@ -62,8 +62,8 @@ void end_slews(const Model& model, March& march) {
 }
 
 // Write the samples that are due up to the end of the last step.
-void take_samples(const Model& model, March& march, Sampling& samples, const Samples& out,
-                  std::int64_t& taken) {
+void write_due_samples(const Model& model, March& march, Sampling& samples, const Samples& out,
+                       std::int64_t& taken) {
     const std::int64_t room = out.rows;
     double delays[MOST_INSTANTS];
     while (taken < room && delay(march.end, due(samples)) <= 0.0) {
@@ -128,7 +128,7 @@ void advance(const Model& model, March& march, const Instant& until, const Insta
              Sampling samples, const Samples& out) {
     std::int64_t taken = 0;
     while (true) {
-        take_samples(model, march, samples, out, taken);
+        write_due_samples(model, march, samples, out, taken);
         if (taken == out.rows && delay(march.end, until) <= 0.0) return;
         count_step(model, march);
         if (march.periodic.playing) {
@@ -152,7 +152,7 @@ void advance(const Model& model, March& march, const Instant& until, const Insta
 
 void interrupt(const Model& model, March& march, const Instant& until) {
     if (!march.control.collocated || march.periodic.playing) return cut(model, march, until);
-    forget(march);
+    restart_settling(march);
     if (delay(march.end, until) < 0.0) {
         end_within(model, march, delay(march.begin, until));
         march.control.changed = false;
@@ -163,7 +163,7 @@ void interrupt(const Model& model, March& march, const Instant& until) {
 }
 
 void cut(const Model& model, March& march, const Instant& until) {
-    forget(march);
+    restart_settling(march);
     if (delay(march.end, until) < 0.0) {
         march.end = march.begin;
         march.control.changed = true;
@@ -174,7 +174,7 @@ void cut(const Model& model, March& march, const Instant& until) {
             one_step(model, march, delay(march.begin, until));
             watch(model, march);
         }
-        forget(march);
+        restart_settling(march);
     }
     march.end.seconds = until.seconds;
     march.end.time = until.time;

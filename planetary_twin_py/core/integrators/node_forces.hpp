@@ -17,21 +17,21 @@ inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 
 // Forces of the meshes at a node.
 template <int L>
-SHARED void push_node(const Model& model, const March& march, Node& node, double delay) {
+SHARED void find_forces_at_node(const Model& model, const March& march, Node& node, double delay) {
     constexpr int M = MESH_LANES<L>;
     copy<M>(node.d, node.meshes.d);
     copy<M>(node.rate, node.meshes.rate);
     const StepConstants& constants = march.constants;
     place_meshes(model.train, march.begin, constants, node.x, node.v, delay, node.meshes);
-    push_meshes<M>(model, march.begin, constants, node.meshes);
+    find_mesh_forces<M>(model, march.begin, constants, node.meshes);
     if (tilts(model.train)) tilt_flanks(model.train, constants, node.x, node.v, node.meshes);
 }
 
 // Friction and drag at a node as forces on the bodies, but for what `find_friction` has found.
-SHARED inline void rub_bodies_at(const Model& model, const March& march, Node& node,
-                                 double* rubbing) {
+SHARED inline void find_friction_forces(const Model& model, const March& march, Node& node,
+                                        double* rubbing) {
     const Train& train = model.train;
-    if (train.friction) rub_bodies(train, node.friction.drag, rubbing);
+    if (train.friction) add_friction_forces(train, node.friction.drag, rubbing);
     if (train.joints + train.discs == 0) return;
     for (int e : {BEARING, CHURNING}) node.power[e] = 0.0;
     apply_drag(model, march.begin, node.v, node.meshes.push, rubbing, node.power);
@@ -39,15 +39,15 @@ SHARED inline void rub_bodies_at(const Model& model, const March& march, Node& n
 
 // Friction and drag at a node in the modes.
 template <int L>
-LAW void rub_node(const Model& model, const March& march, const ContactState& contacts,
-                  Node& node) {
+LAW void find_node_friction(const Model& model, const March& march, const ContactState& contacts,
+                            Node& node) {
     using V = Row<L>;
     const Train& train = model.train;
     if (train.printed_torque) print_torques(train, march.constants, node.v, node.friction.drag);
     V rubbing(0.0);
     if (MOVING || train.printed_torque || train.joints + train.discs > 0) {
         alignas(64) double on_bodies[BODIES] = {};
-        rub_bodies_at(model, march, node, on_bodies);
+        find_friction_forces(model, march, node, on_bodies);
         rubbing = sum_rows<L>(contacts.matrices.share(), V(on_bodies));
     } else if (train.friction) {
         for (int g = 0; g < GEARS - 1; ++g)
@@ -59,7 +59,7 @@ LAW void rub_node(const Model& model, const March& march, const ContactState& co
 
 // Friction and drag at all nodes, under the forces of the meshes there.
 template <int L>
-void rub_nodes(const Model& model, March& march) {
+void find_friction_of_nodes(const Model& model, March& march) {
     const Train& train = model.train;
     Propagation& run = march.run;
     const int count = static_cast<int>(run.nodes.count);
@@ -67,14 +67,14 @@ void rub_nodes(const Model& model, March& march) {
         FrictionInstant instants[MOST_NODES] = {};
         for (int n = 0; n < count; ++n) {
             Node& node = run.node[n];
-            share_pushes<MESH_LANES<L>>(train, march.constants, node.meshes);
+            distribute_forces<MESH_LANES<L>>(train, march.constants, node.meshes);
             instants[n] = {&node.meshes, node.spin, &node.friction};
         }
         find_friction(model, march.constants, instants, count,
                       march.control.tolerance >= SINGLE_PRECISION);
     }
     const ContactState& contacts = contacts_of(run);
-    for (int n = 0; n < count; ++n) rub_node<L>(model, march, contacts, run.node[n]);
+    for (int n = 0; n < count; ++n) find_node_friction<L>(model, march, contacts, run.node[n]);
 }
 
 // Forces of meshes, friction and machines at a node, in the modes.
@@ -111,7 +111,7 @@ template <int L>
 void show_meshes(const Model& model, const March& march, double delay, Node& node) {
     Waves<L> at = waves_at<L>(march.run.motion, delay);
     move_node<L>(model, march, delay, at.cosine, at.sine, node);
-    push_node<L>(model, march, node, delay);
+    find_forces_at_node<L>(model, march, node, delay);
 }
 
 // The same at so many times, at most MOST_INSTANTS, in `run.shown`, and friction with it.
@@ -121,7 +121,7 @@ void show_friction(const Model& model, March& march, const double* delays, int c
     for (int n = 0; n < count; ++n) {
         Node& node = march.run.shown[n];
         show_meshes<L>(model, march, delays[n], node);
-        share_pushes<MESH_LANES<L>>(model.train, march.constants, node.meshes);
+        distribute_forces<MESH_LANES<L>>(model.train, march.constants, node.meshes);
         instants[n] = {&node.meshes, node.spin, &node.friction};
     }
     find_friction(model, march.constants, instants, count,

@@ -29,7 +29,7 @@ Instant now_of(const State& state) {
 }
 
 // Whether a mesh cycle begins at the end of the step.
-bool comes_round(const March& march) {
+bool begins_mesh_cycle(const March& march) {
     const State &begin = march.begin, &end = march.end;
     return begin.segment[0] != 0 && end.segment[0] == 0 && end.side[0] != OPEN;
 }
@@ -147,7 +147,7 @@ bool has_settled(const Periodic& periodic, const State& end) {
     return !(since < SETTLED * static_cast<double>(periodic.age) || stayed < periodic.pause);
 }
 
-void look(const Model& model, March& march) {
+void check_repetition(const Model& model, March& march) {
     Periodic& periodic = march.periodic;
     const State& end = march.end;
     ++periodic.age;
@@ -192,7 +192,7 @@ void begin_cycle_of(March& march, std::int64_t lanes, const Instant& until) {
 }
 
 // Let `state` be at a place in the present cycle.
-void stand(const Periodic& periodic, const Place& place, State& state) {
+void restore(const Periodic& periodic, const Place& place, State& state) {
     const State& start = periodic.start;
     state = place.state;
     run_on(start, state, place.after);
@@ -230,22 +230,22 @@ void watch(const Model& model, March& march) {
     Periodic& periodic = march.periodic;
     if (periodic.cycles == 0) return;
     if (periodic.recording) record_step(march);
-    if (!comes_round(march)) return;
+    if (!begins_mesh_cycle(march)) return;
     if (++periodic.passed < periodic.cycles) return;
     periodic.passed = 0;
-    look(model, march);
+    check_repetition(model, march);
 }
 
-void forget(March& march) {
+void restart_settling(March& march) {
     Periodic& periodic = march.periodic;
     periodic.age = periodic.anchor_age = periodic.passed = 0;
     periodic.recording = periodic.playing = false;
 }
 
-void stand_on(const Model& model, March& march, const CycleStep& step) {
+void continue_from(const Model& model, March& march, const CycleStep& step) {
     const Periodic& periodic = march.periodic;
-    stand(periodic, step.begin, march.begin);
-    stand(periodic, step.end, march.end);
+    restore(periodic, step.begin, march.begin);
+    restore(periodic, step.end, march.end);
     march.control.collocated = step.collocated;
     march.control.step = step.end.after - step.begin.after;
     std::memcpy(march.last.power, step.power, sizeof step.power);

@@ -16,11 +16,11 @@
 
 namespace gearbox {
 
-// Look whether the step just made ends where the train has been before.
+// Check whether the step just made ends where the train has been before.
 void watch(const Model& model, March& march);
 
 // Something acts on the train from outside: it must settle again.
-void forget(March& march);
+void restart_settling(March& march);
 
 // The step that was played last, or that closed the cycle.
 CycleStep& played_step(Periodic& periodic);
@@ -29,7 +29,7 @@ CycleStep& played_step(Periodic& periodic);
 CycleStep& next_step(const Model& model, March& march, const Instant& until);
 
 // Let the march be as if it had just made a step of the cycle.
-void stand_on(const Model& model, March& march, const CycleStep& step);
+void continue_from(const Model& model, March& march, const CycleStep& step);
 
 // Turns of the motor.
 struct Turns {

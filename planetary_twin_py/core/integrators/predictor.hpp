@@ -66,7 +66,7 @@ inline KeptGrowth* growth_here(Propagation& run) {
 // Let rest and friction grow over the step as they did when it was last made; whether that is
 // known.
 template <int L>
-bool recall(March& march) {
+bool repeat_growth(March& march) {
     Propagation& run = march.run;
     const KeptGrowth* past = growth_here(run);
     const double step = run.motion.step;
@@ -124,7 +124,7 @@ void extrapolate(Propagation& run) {
 
 // Keep how rest and friction grew over the step, but for what was given.
 template <int L>
-void remember(const Model& model, March& march) {
+void store_growth(const Model& model, March& march) {
     Propagation& run = march.run;
     KeptGrowth* const kept = growth_here(run);
     if (kept == nullptr) return;

@@ -41,7 +41,7 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
         if (state.side[i] == OPEN) continue;
         std::int64_t kind = train.kind[i];
         double side = static_cast<double>(state.side[i]), copies = train.copies[i];
-        double drift = copies * push_drift(model, state, constants, i, pace);
+        double drift = copies * force_drift(model, state, constants, i, pace);
         for (int j = 0; j < entries_of(train); ++j)
             work.drift[train.body[i][j]] -= side * drift * train.sign[i][j];
         double cycle = constants.start[i] + side * pace * 0.5 * h;
@@ -71,7 +71,7 @@ void free_given(const Model& model, double h, Workspace& work) {
 // The same of the bearings that press; the turning of the frame is left out.
 void assemble_bearings(const Train& train, const State& state, double step, Workspace& work) {
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
-        const bool pressed = presses(train, b, state.x);
+        const bool pressed = beyond_clearance(train, b, state.x);
         for (const BearingRow& row : rows_of_bearing(train, b)) {
             if (row.radial && !pressed) continue;
             add_outer(work.stiffness, row.place, row.factor, row.size, row.stiffness);
@@ -162,7 +162,7 @@ void make_stage(const Model& model, const State& state, const StepConstants& con
     place_stage(train, state, h, i, work);
     Evaluation& out = i == 0 ? first : work.evaluation;
     if (i > 0) {
-        bend_bristles(out.pairs, state.bristle, STAGE.a[i], work.bend, i);
+        advance_bristles(out.pairs, state.bristle, STAGE.a[i], work.bend, i);
         forces(model, state, constants, work.x, work.v, STAGE.abscissa[i] * h, work.trim, out);
     }
     add_stage(train, state, constants, h, i, out, work);
@@ -173,7 +173,7 @@ void make_stage(const Model& model, const State& state, const StepConstants& con
         right[j] = value;
     }
     if (first.pairs.held)
-        pull_bristles(train, first.pairs, out.pairs, h, GAMMA * h, STAGE.c[i], i, right, work);
+        add_bristle_forces(train, first.pairs, out.pairs, h, GAMMA * h, STAGE.c[i], i, right, work);
     pull_by_given(model, h, right);
     solve(work.system, bodies - 1, right);
     right[bodies - 1] = 0.0;
@@ -214,8 +214,8 @@ void sum_stage(const Model& model, double h, int i, const Evaluation& first, Sta
 
 }  // namespace
 
-void work_over_the_way(const Train& train, const State& state, double h, const State& out,
-                       Workspace& work) {
+void add_machine_work(const Train& train, const State& state, double h, const State& out,
+                      Workspace& work) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t body = train.coupling[c][0];
         double force = work.energy[IMPULSE + c] / (h * train.radius[body]);
@@ -232,7 +232,7 @@ void rosenbrock_step(const Model& model, const State& state, const StepConstants
         make_stage(model, state, constants, h, i, first, work);
         sum_stage(model, h, i, first, out, work);
     }
-    work_over_the_way(model.train, state, h, out, work);
+    add_machine_work(model.train, state, h, out, work);
 }
 
 }  // namespace gearbox

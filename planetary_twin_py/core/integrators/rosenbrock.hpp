@@ -32,7 +32,7 @@ void rosenbrock_step(const Model& model, const State& state, const StepConstants
 //
 // A shaft is wound up by far more than it swings: what its end is wrong by, times all of its
 // torque, would be missing in the ledger, though both ends of the shaft agree on it.
-void work_over_the_way(const Train& train, const State& state, double h, const State& out,
-                       Workspace& work);
+void add_machine_work(const Train& train, const State& state, double h, const State& out,
+                      Workspace& work);
 
 }  // namespace gearbox

@@ -48,42 +48,42 @@ void add_films_of_cut_step(const Model& model, March& march, ContactSums<MESH_LA
     for (int k = 0; k < 3; ++k) add_films(model.train, march.run.shown[k], SHARE[k] * h, contacts);
 }
 
-// Fill the look at the start and the nodes of a step by collocation.
+// Fill the series at the start and the nodes of a step by collocation.
 template <int M>
-void look_at_nodes(March& march) {
+void fill_at_nodes(March& march) {
     const Propagation& run = march.run;
-    Look& look = march.sums.look;
-    look.count = run.nodes.count + 1;
-    look.at[0] = look.weight[0] = 0.0;
-    copy<M>(run.start.d, look.d[0]);
-    copy<M>(run.start.meshes.push, look.push[0]);
+    Series& series = march.sums.series;
+    series.count = run.nodes.count + 1;
+    series.at[0] = series.weight[0] = 0.0;
+    copy<M>(run.start.d, series.d[0]);
+    copy<M>(run.start.meshes.push, series.push[0]);
     for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-        look.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
-        look.weight[n + 1] = run.weight[n];
-        copy<M>(run.node[n].d, look.d[n + 1]);
-        copy<M>(run.node[n].meshes.push, look.push[n + 1]);
+        series.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
+        series.weight[n + 1] = run.weight[n];
+        copy<M>(run.node[n].d, series.d[n + 1]);
+        copy<M>(run.node[n].meshes.push, series.push[n + 1]);
     }
 }
 
-// Fill the look at `intervals` + 1 even times of a step by collocation.
+// Fill the series at `intervals` + 1 even times of a step by collocation.
 template <int L>
-void look_at_even_times(const Model& model, March& march, std::int64_t intervals) {
-    Look& look = march.sums.look;
+void fill_at_even_times(const Model& model, March& march, std::int64_t intervals) {
+    Series& series = march.sums.series;
     Node& node = march.run.shown[0];
-    set_even_times(look, 0.0, march.control.step, intervals);
+    set_even_times(series, 0.0, march.control.step, intervals);
     const ModalMotion& motion = march.run.motion;
-    const Waves<L> gap = waves_at<L>(motion, look.at[1]);
+    const Waves<L> gap = waves_at<L>(motion, series.at[1]);
     Waves<L> now{1.0, 0.0};
-    for (std::int64_t k = 0; k < look.count; ++k) {
-        move_node<L>(model, march, look.at[k], now.cosine, now.sine, node);
-        push_node<L>(model, march, node, look.at[k]);
-        copy<MESH_LANES<L>>(node.d, look.d[k]);
-        copy<MESH_LANES<L>>(node.meshes.push, look.push[k]);
+    for (std::int64_t k = 0; k < series.count; ++k) {
+        move_node<L>(model, march, series.at[k], now.cosine, now.sine, node);
+        find_forces_at_node<L>(model, march, node, series.at[k]);
+        copy<MESH_LANES<L>>(node.d, series.d[k]);
+        copy<MESH_LANES<L>>(node.meshes.push, series.push[k]);
         now = waves_after(motion, now, gap);
     }
 }
 
-// Fill the look at a step by collocation, and sum up its contacts and friction.
+// Fill the series at a step by collocation, and sum up its contacts and friction.
 template <int L>
 void add_collocated(const Model& model, March& march) {
     const Train& train = model.train;
@@ -94,14 +94,14 @@ void add_collocated(const Model& model, March& march) {
         add_node(train, run.node[n], run.weight[n], contacts);
     std::int64_t intervals = even_intervals(march, train, h);
     if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
-        look_at_even_times<L>(model, march, std::max(intervals, FEWEST));
+        fill_at_even_times<L>(model, march, std::max(intervals, FEWEST));
         contacts.share = contacts.film = 0.0;
         add_films_of_cut_step<L>(model, march, contacts);
     } else {
         if (intervals == 0)
-            look_at_nodes<MESH_LANES<L>>(march);
+            fill_at_nodes<MESH_LANES<L>>(march);
         else
-            look_at_even_times<L>(model, march, intervals);
+            fill_at_even_times<L>(model, march, intervals);
         if (!train.friction) add_films_of_nodes(model, march, contacts);
     }
     put_contacts(train, model.oil, contacts, march.sums.step.integral);
@@ -125,33 +125,33 @@ void add_rates(const Train& train, const StepSums& sums, double weight, double (
         for (std::int64_t i = 0; i < lanes; ++i) out[row][i] += weight * sums.rates[row][i];
 }
 
-// Fill the look at the ends of a stiff step, and sum up its contacts and friction.
+// Fill the series at the ends of a stiff step, and sum up its contacts and friction.
 void add_ends(const Model& model, March& march) {
     const Train& train = model.train;
     const State& begin = march.begin;
     StepSums& sums = march.sums;
-    Look& look = sums.look;
+    Series& series = sums.series;
     const double half = 0.5 * march.control.step;
-    look.count = 2;
-    look.at[0] = 0.0;
-    look.at[1] = 2.0 * half;
-    look.weight[0] = look.weight[1] = half;
-    std::memcpy(look.push[0], sums.push, sizeof look.push[0]);
+    series.count = 2;
+    series.at[0] = 0.0;
+    series.at[1] = 2.0 * half;
+    series.weight[0] = series.weight[1] = half;
+    std::memcpy(series.push[0], sums.push, sizeof series.push[0]);
     if (sums.stale) {
         Evaluation& work = march.work.evaluation;
         forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, work);
-        std::memcpy(look.push[0], work.now.push, sizeof look.push[0]);
+        std::memcpy(series.push[0], work.now.push, sizeof series.push[0]);
         put_rates(model, march.constants, begin.v, work, sums);
     }
     std::memset(sums.step.integral, 0, sizeof sums.step.integral);
     add_rates(train, sums, half, sums.step.integral);
-    std::memcpy(look.push[1], march.last.now.push, sizeof look.push[1]);
+    std::memcpy(series.push[1], march.last.now.push, sizeof series.push[1]);
     std::memcpy(sums.push, march.last.now.push, sizeof sums.push);
     put_rates(model, march.constants, march.end.v, march.last, sums);
     add_rates(train, sums, half, sums.step.integral);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        look.d[0][i] = mesh_motion(train, i, begin.x);
-        look.d[1][i] = mesh_motion(train, i, march.end.x);
+        series.d[0][i] = mesh_motion(train, i, begin.x);
+        series.d[1][i] = mesh_motion(train, i, march.end.x);
     }
 }
 
@@ -174,24 +174,24 @@ LAW Row<L> vertex(const Around& at, const double* before, const double* middle,
 }
 
 template <int L>
-void add_look_in_lanes(const StepConstants& constants, const Look& look, MeshSums& step) {
+void add_series_in_lanes(const StepConstants& constants, const Series& series, MeshSums& step) {
     using V = Row<L>;
     V mean(0.0), square(0.0), force_sum(0.0), dte(0.0), force_peak(0.0);
-    for (std::int64_t n = 0; n < look.count; ++n) {
-        double weight = look.weight[n];
-        V d(look.d[n]), force = larger(V(0.0), V(look.push[n]));
+    for (std::int64_t n = 0; n < series.count; ++n) {
+        double weight = series.weight[n];
+        V d(series.d[n]), force = larger(V(0.0), V(series.push[n]));
         mean += weight * d;
         square += weight * d * d;
         force_sum += weight * force;
         dte = larger(dte, absolute(d));
         force_peak = larger(force_peak, force);
     }
-    for (std::int64_t n = 1; n < look.count - 1; ++n) {
-        double left = look.at[n - 1] - look.at[n], right = look.at[n + 1] - look.at[n];
+    for (std::int64_t n = 1; n < series.count - 1; ++n) {
+        double left = series.at[n - 1] - series.at[n], right = series.at[n + 1] - series.at[n];
         Around at{left, right, 1.0 / left, 1.0 / right, 1.0 / (right - left)};
-        V d = vertex<L>(at, look.d[n - 1], look.d[n], look.d[n + 1]);
+        V d = vertex<L>(at, series.d[n - 1], series.d[n], series.d[n + 1]);
         dte = larger(dte, absolute(d));
-        V push = vertex<L>(at, look.push[n - 1], look.push[n], look.push[n + 1]);
+        V push = vertex<L>(at, series.push[n - 1], series.push[n], series.push[n + 1]);
         force_peak = larger(force_peak, push);
     }
     mean.store(step.integral[DTE]);
@@ -209,7 +209,7 @@ void sum_step(const Model& model, March& march) {
         with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, march); });
     else
         add_ends(model, march);
-    add_look(model.train, march.constants, march.sums.look, march.sums.step);
+    add_series(model.train, march.constants, march.sums.series, march.sums.step);
 }
 
 // Nodes resolve as many radians of a free wave as they are; even times one each. Waves below the
@@ -232,19 +232,20 @@ std::int64_t even_intervals(const March& march, const Train& train, double h) {
     return std::min(2 * static_cast<std::int64_t>(halves), MOST_LOOKS - 1);
 }
 
-void set_even_times(Look& look, double begin, double end, std::int64_t intervals) {
+void set_even_times(Series& series, double begin, double end, std::int64_t intervals) {
     const double gap = (end - begin) / static_cast<double>(intervals);
-    look.count = intervals + 1;
-    for (std::int64_t k = 0; k < look.count; ++k) {
-        look.at[k] = begin + static_cast<double>(k) * gap;
-        look.weight[k] = gap / 3.0 * (k % 2 == 1 ? 4.0 : 2.0);
+    series.count = intervals + 1;
+    for (std::int64_t k = 0; k < series.count; ++k) {
+        series.at[k] = begin + static_cast<double>(k) * gap;
+        series.weight[k] = gap / 3.0 * (k % 2 == 1 ? 4.0 : 2.0);
     }
-    look.weight[0] = look.weight[intervals] = gap / 3.0;
+    series.weight[0] = series.weight[intervals] = gap / 3.0;
 }
 
-void add_look(const Train& train, const StepConstants& constants, const Look& look,
-              MeshSums& step) {
-    with_mesh_lanes(train, [&](auto lanes) { add_look_in_lanes<lanes>(constants, look, step); });
+void add_series(const Train& train, const StepConstants& constants, const Series& series,
+                MeshSums& step) {
+    with_mesh_lanes(train,
+                    [&](auto lanes) { add_series_in_lanes<lanes>(constants, series, step); });
 }
 
 }  // namespace gearbox

@@ -20,9 +20,10 @@ void sum_step(const Model& model, March& march);
 std::int64_t even_intervals(const March& march, const Train& train, double h);
 
 // Set times from `begin` to `end` [s] and weights of Simpson's rule; intervals are even.
-void set_even_times(Look& look, double begin, double end, std::int64_t intervals);
+void set_even_times(Series& series, double begin, double end, std::int64_t intervals);
 
-// Integrals and extremes of transmission errors and forces, from the look.
-void add_look(const Train& train, const StepConstants& constants, const Look& look, MeshSums& step);
+// Integrals and extremes of transmission errors and forces, from the series.
+void add_series(const Train& train, const StepConstants& constants, const Series& series,
+                MeshSums& step);
 
 }  // namespace gearbox

@@ -6,7 +6,8 @@
 
 namespace gearbox {
 
-struct alignas(64) Look {
+// Transmission errors and forces at several times of a step.
+struct alignas(64) Series {
     std::int64_t count;
     alignas(64) double at[129];            // [s] since its start
     alignas(64) double weight[129];        // of a quadrature [s]
@@ -17,9 +18,9 @@ struct alignas(64) Look {
 struct alignas(64) StepSums {
     MeshSums step;   // over the last step
     MeshSums part;   // over a part of it
-    MeshSums total;  // since it was taken, up to the start of the last step
+    MeshSums total;  // since it was popped, up to the start of the last step
     double taken;    // of the last step [s]
-    Look look;
+    Series series;
     bool unasked;  // no one asks for sums: steps have none
     bool known;    // `rates` are those of the end of the last step
     bool stale;    // `rates` are not those of the start of the step

@@ -33,7 +33,7 @@ void try_step(const Model& model, March& march, double h) {
     State& end = march.end;
     end = begin;
     trial_step(model, march, h, end);
-    pass_time(model, march, h);
+    advance_clock(model, march, h);
     for (int e = 0; e < LEDGER; ++e) end.energy[e] = begin.energy[e] + march.work.energy[e];
     place_bristles(march.last.pairs, end.bristle);
     forces(model, begin, march.constants, end.x, end.v, h, end.trim, march.last);

@@ -18,27 +18,27 @@ template <int L>
 void count_part(const Model& model, March& march, double begin, double end) {
     const Train& train = model.train;
     StepSums& sums = march.sums;
-    Look& look = sums.look;
+    Series& series = sums.series;
     Evaluation& work = march.work.evaluation;
     const double *x = march.dense.x, *v = march.dense.v;
     std::int64_t intervals = FEWEST;
     if (march.control.collocated)
         intervals = std::max(even_intervals(march, train, end - begin), FEWEST);
-    set_even_times(look, begin, end, intervals);
+    set_even_times(series, begin, end, intervals);
     ContactSums<L> contacts;
-    for (std::int64_t k = 0; k < look.count; ++k) {
-        interpolate(model, march, look.at[k]);
+    for (std::int64_t k = 0; k < series.count; ++k) {
+        interpolate(model, march, series.at[k]);
         move_meshes(train, x, v, work.now);
-        copy<L>(work.now.d, look.d[k]);
-        mesh_forces(model, march.begin, march.constants, x, v, look.at[k], work);
-        copy<L>(work.now.push, look.push[k]);
+        copy<L>(work.now.d, series.d[k]);
+        mesh_forces(model, march.begin, march.constants, x, v, series.at[k], work);
+        copy<L>(work.now.push, series.push[k]);
         find_contacts(model, march.constants, v, work);
-        add_films(train, work.pairs, look.weight[k], contacts);
-        add_friction(train, work, look.weight[k], contacts);
+        add_films(train, work.pairs, series.weight[k], contacts);
+        add_friction(train, work, series.weight[k], contacts);
     }
     sums.part.time = end - begin;
     put_contacts(train, model.oil, contacts, sums.part.integral);
-    add_look(train, march.constants, look, sums.part);
+    add_series(train, march.constants, series, sums.part);
     add_sums(sums.part, sums.total, mesh_lanes(train));
 }
 

@@ -4,8 +4,8 @@
 //
 // A mesh is in contact on its drive side, on its coast side, or open. Flanks never pull. Contact
 // ends where the force falls below zero; with damping, the flanks are still squeezed there. Contact
-// starts where both squeeze and force are positive, with a jump of the force by its damping. (Dead
-// zone of Al-shyyab and Kahraman 2007.)
+// starts where both deflection and force are positive, with a jump of the force by its damping.
+// (Dead zone of Al-shyyab and Kahraman 2007.)
 
 #include <algorithm>
 

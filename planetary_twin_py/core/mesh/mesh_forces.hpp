@@ -69,7 +69,7 @@ LAW Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES], co
 }
 
 // Add the power that the meshes lose to damping, and that of their changing shape.
-inline void book_mesh_power(const Train& train, const MeshesNow& now, double* power) {
+inline void add_mesh_power(const Train& train, const MeshesNow& now, double* power) {
     double lost = 0.0, work = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         lost += train.copies[i] * now.lost[i];
@@ -88,11 +88,11 @@ LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, Mesh
     auto [weight, growth] = weigh<L>(model.train.terms, step.weight[TOTAL], u);
     V side(step.side), closed = absolute(side), gain(step.gain);
     V k = closed * (V(step.base) + gain * weight);
-    V squeeze = side * V(now.d) - offset, closing = side * V(now.rate);
+    V deflection = side * V(now.d) - offset, closing = side * V(now.rate);
     V damped = k * (V(step.fixed) + now.following) * closing;
-    V push = k * squeeze + damped;
+    V push = k * deflection + damped;
     V work = 0.5 * closed * gain * growth;
-    work *= (squeeze * squeeze - inner_squared) * now.pace;
+    work *= (deflection * deflection - inner_squared) * now.pace;
     push.store(now.push);
     if constexpr (MOVING) {
         k.store(now.stiffness);
@@ -130,7 +130,7 @@ LAW Radii<L> flank_radii(const StepConstants& step, std::int64_t p, const Row<L>
 
 // Distance of the contacts along their path from cycle 0 [m].
 template <int L>
-LAW Row<L> way_on_path(const Train& train, const StepConstants& step, double advance) {
+LAW Row<L> path_position(const Train& train, const StepConstants& step, double advance) {
     const double pitch = train.base_pitch;
     return Row<L>(step.side) * (advance * pitch) + Row<L>(step.start) * pitch;
 }
@@ -147,7 +147,7 @@ LAW Row<L> face_in_contact(const StepConstants& step, std::int64_t p, double adv
 template <int L>
 inline void fill_pairs(const Train& train, const StepConstants& step, const MeshesNow& now,
                        ToothPairs& pairs) {
-    Row<L> moved = way_on_path<L>(train, step, now.advance);
+    Row<L> moved = path_position<L>(train, step, now.advance);
     for (std::int64_t p = 0; p < train.slots; ++p) {
         std::int64_t first =
             p * train.meshes;  // the next pair overwrites entries beyond the meshes
@@ -172,7 +172,7 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
     if (state.side[i] == OPEN) return;
     double side = static_cast<double>(state.side[i]);
     double u = step.start[i] - step.low[i] + side * now.advance;
-    double squeeze = side * now.d[i] - model.load.offset, closing = side * now.rate[i];
+    double deflection = side * now.d[i] - model.load.offset, closing = side * now.rate[i];
     auto [total, fading] = total_weight(train, kind, segment, u);
     double tau = step.fixed[i] + now.following, per_weight = step.base[i] / total + step.gain[i];
     double falling = -step.base[i] * fading / (total * total), work = 0.0;
@@ -182,7 +182,7 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         double k = per_weight * weight * effect.factor;
         double dk = (per_weight * growth + falling * weight) * effect.factor +
                     per_weight * weight * effect.growth;
-        double q = squeeze - effect.gap;
+        double q = deflection - effect.gap;
         if (effect.gap > 0.0 && q < 0.0) k = dk = 0.0;
         double force = k * (q + tau * closing);
         if (effect.gap > 0.0) force = at_least(force, 0.0);
@@ -207,8 +207,8 @@ RARE void faulty_mesh_forces(const Model& model, const State& state, const StepC
 
 // Forces of the meshes, whose transmission errors are in `now`.
 template <int L>
-LAW void push_meshes(const Model& model, const State& state, const StepConstants& step,
-                     MeshesNow& now) {
+LAW void find_mesh_forces(const Model& model, const State& state, const StepConstants& step,
+                          MeshesNow& now) {
     if (model.train.faults > 0)
         faulty_mesh_forces<L>(model, state, step, now);
     else
@@ -217,7 +217,7 @@ LAW void push_meshes(const Model& model, const State& state, const StepConstants
 
 // Distribute the forces to the tooth pairs where that is not done yet.
 template <int L>
-SHARED void share_pushes(const Train& train, const StepConstants& step, MeshesNow& now) {
+SHARED void distribute_forces(const Train& train, const StepConstants& step, MeshesNow& now) {
     if (train.faults == 0) spread_loads<L>(train, step, now);
 }
 
@@ -227,22 +227,22 @@ inline void mesh_forces(const Model& model, const State& state, const StepConsta
     for (double& power : out.power) power = 0.0;
     place_meshes(model.train, state, step, x, v, delay, out.now);
     with_mesh_lanes(model.train,
-                    [&](auto lanes) { push_meshes<lanes>(model, state, step, out.now); });
+                    [&](auto lanes) { find_mesh_forces<lanes>(model, state, step, out.now); });
     if (tilts(model.train)) tilt_flanks(model.train, step, x, v, out.now);
-    book_mesh_power(model.train, out.now, out.power);
+    add_mesh_power(model.train, out.now, out.power);
 }
 
 // Distribute the forces to the tooth pairs, in columns.
 inline void share_loads(const Model& model, const StepConstants& step, Evaluation& out) {
     with_mesh_lanes(model.train, [&](auto lanes) {
-        share_pushes<lanes>(model.train, step, out.now);
+        distribute_forces<lanes>(model.train, step, out.now);
         fill_pairs<lanes>(model.train, step, out.now, out.pairs);
     });
 }
 
 // Rate of change [N/s] of the force of closed mesh i with its cycle, with its bodies at rest in x.
-inline double push_drift(const Model& model, const State& state, const StepConstants& step,
-                         std::int64_t i, double pace) {
+inline double force_drift(const Model& model, const State& state, const StepConstants& step,
+                          std::int64_t i, double pace) {
     const Train& train = model.train;
     std::int64_t kind = train.kind[i];
     double side = static_cast<double>(state.side[i]);

@@ -3,7 +3,7 @@
 // How the tooth pairs of a mesh share a given force, e.g. a recorded one.
 //
 // The pairs have the stiffnesses k and the missing material g of `faulty_mesh_force`, at the
-// squeeze q at which they carry the force F: F = sum of k (q - g) over the pairs with q > g.
+// deflection q at which they carry the force F: F = sum of k (q - g) over the pairs with q > g.
 // Damping acts on all pairs in proportion to k, so it does not change the shares, except for a worn
 // pair that only just touches.
 
@@ -21,18 +21,18 @@ inline void balance_pairs(const Train& train, const StepConstants& step, std::in
     std::int64_t present = train.present[train.kind[i]][segment];
     for (std::int64_t p = 0; p < present; ++p) load[p] = 1.0;
     for (std::int64_t pass = 0; pass < present; ++pass) {
-        double stiffness = 0.0, squeeze = force;
+        double stiffness = 0.0, deflection = force;
         for (std::int64_t p = 0; p < present; ++p) {
             if (!(load[p] > 0.0)) continue;
             auto [k, gap] = pair_stiffness(train, step, i, segment, p, u);
             stiffness += k;
-            squeeze += k * gap;
+            deflection += k * gap;
         }
-        squeeze /= stiffness;
+        deflection /= stiffness;
         for (std::int64_t p = 0; p < present; ++p) {
             if (!(load[p] > 0.0)) continue;
             auto [k, gap] = pair_stiffness(train, step, i, segment, p, u);
-            load[p] = at_least(k * (squeeze - gap), 0.0);
+            load[p] = at_least(k * (deflection - gap), 0.0);
         }
     }
 }

@@ -2,9 +2,9 @@
 
 // Tilting of the flanks of a mesh against each other.
 //
-// Where gears tilt, the squeeze of their flanks changes along the face by a slope s. Each part of
-// the face has its share of the stiffness k of the mesh, so beside the force at the middle there is
-// a moment k L^2/12 s, and the energy k L^2 s^2/24, with the face width L. The face is taken as
+// Where gears tilt, the deflection of their flanks changes along the face by a slope s. Each part
+// of the face has its share of the stiffness k of the mesh, so beside the force at the middle there
+// is a moment k L^2/12 s, and the energy k L^2 s^2/24, with the face width L. The face is taken as
 // touching all along.
 
 #include "mesh/meshes_now.hpp"

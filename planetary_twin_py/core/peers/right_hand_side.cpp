@@ -59,8 +59,8 @@ TablesHeld open_meshes(const Train& train, State& state, StepConstants& step) {
     return held;
 }
 
-// As `take_segment`, which costs more than all else here, where other tables are held.
-void take_tables(const Train& train, const State& state, StepConstants& step, std::int64_t i,
+// As `copy_segment`, which costs more than all else here, where other tables are held.
+void copy_tables(const Train& train, const State& state, StepConstants& step, std::int64_t i,
                  const TablesHeld& held) {
     double side = static_cast<double>(state.side[i]);
     std::int64_t segment = state.segment[i] + 1;
@@ -68,7 +68,7 @@ void take_tables(const Train& train, const State& state, StepConstants& step, st
         step.side[i] = side;
         step.segment[i] = segment;
     } else {
-        take_segment(train, state, step, i);
+        copy_segment(train, state, step, i);
     }
 }
 
@@ -82,7 +82,7 @@ void find_contacts(Problem& problem, const TablesHeld& held) {
     double cycles = frame_cycle(train, state, 1) + cycle_shift(train, x);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (departure(problem.model, state, step, i, x, v, {0.0, pace, 0.0}) >= 0.0) {
-            take_tables(train, state, step, i, held);
+            copy_tables(train, state, step, i, held);
             continue;
         }
         double d = deflection(train, step, i, x, v, 0.0, pace).d;
@@ -94,7 +94,7 @@ void find_contacts(Problem& problem, const TablesHeld& held) {
         state.side[i] = side;
         state.segment[i] =
             find_segment(train, train.kind[i], cycle, static_cast<double>(side) * pace);
-        take_tables(train, state, step, i, held);
+        copy_tables(train, state, step, i, held);
         step.start[i] = cycle;
         if (train.faults > 0) find_faults(train, state, i, side, cycle, step.faulty);
     }

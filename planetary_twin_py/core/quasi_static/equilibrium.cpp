@@ -37,7 +37,7 @@ bool keeps_sides(const Train& train, const Equilibrium& run, const double (*show
 }
 
 // Whether friction and drag of these forces are those the forces were found with.
-bool rubs_as_before(const Model& model, Equilibrium& run, double slack) {
+bool friction_converged(const Model& model, Equilibrium& run, double slack) {
     Evaluation& evaluation = run.evaluation;
     std::copy(std::begin(evaluation.rubbing), std::end(evaluation.rubbing), run.before);
     std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
@@ -56,7 +56,7 @@ bool rubs_as_before(const Model& model, Equilibrium& run, double slack) {
 //
 // The friction of a light load is large beside it, so an idle planet jumps from flank to flank,
 // pass by pass, while it is at rest amid its play.
-void rest_the_idle(const Train& train, Equilibrium& run) {
+void center_idle_planets(const Train& train, Equilibrium& run) {
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double now = run.evaluation.rubbing[j], before = run.before[j];
         run.evaluation.rubbing[j] = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
@@ -97,14 +97,14 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double (*sho
         double moved = std::abs(cycle_shift(train, state.x) - shift);
         kept = keeps_sides(train, run, shown, slack);
         bool rests = kept && (moved <= PLACE * tolerance || !free);
-        if (rubs_as_before(model, run, slack) && rests) {
+        if (friction_converged(model, run, slack) && rests) {
             check_jump(model, run);
             put_external(model, run);
-            book_machines(model, run);
+            add_machine_powers(model, run);
             if (both_flanks_touch(model, state, run.step)) ++run.both_flanks;
             return;
         }
-        if (n >= BRISK_PASSES) rest_the_idle(train, run);
+        if (n >= BRISK_PASSES) center_idle_planets(train, run);
     }
     throw std::invalid_argument(
         "dynamics = 'quasi_static': no static equilibrium is found, some planet has none between "

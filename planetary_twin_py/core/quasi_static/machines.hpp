@@ -43,7 +43,7 @@ inline void balance_torques(const Model& model, Equilibrium& run) {
 }
 
 // Book what the machines give in the equilibrium that has been found.
-inline void book_machines(const Model& model, Equilibrium& run) {
+inline void add_machine_powers(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {
         double speed = body_speed(train, run.state, run.state.v, train.coupling[c][0]);

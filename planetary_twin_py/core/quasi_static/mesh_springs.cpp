@@ -39,8 +39,8 @@ Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i,
     const StepConstants& step = run.step;
     std::int64_t segment = run.state.segment[i], kind = train.kind[i], side = run.state.side[i];
     double u = step.start[i] - train.edge[kind][segment];
-    double squeeze = side * (mesh_motion(train, i, run.state.x) - run.error[i]);
-    squeeze -= run.play[i][side == DRIVE_SIDE ? DRIVE_PLAY : COAST_PLAY];
+    double deflection = side * (mesh_motion(train, i, run.state.x) - run.error[i]);
+    deflection -= run.play[i][side == DRIVE_SIDE ? DRIVE_PLAY : COAST_PLAY];
     std::int64_t count = train.present[kind][segment];
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t p = 0; p < count; ++p)
@@ -49,7 +49,7 @@ Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i,
     double stiffness = 0.0, first = 0.0;
     for (std::int64_t p = 0; p < count; ++p) {
         auto effect = fault_effect(train, step, i, segment, p, u);
-        if (effect.gap > std::max(squeeze, least)) continue;
+        if (effect.gap > std::max(deflection, least)) continue;
         double weight = polynomial(train.weight[kind][segment][p], u, train.terms).value;
         double k = std::max(healthy * effect.factor * weight / total, LEAST_STIFFNESS * healthy);
         stiffness += k;

@@ -35,7 +35,7 @@ double share(double total, std::int64_t planets, const Springs& springs) {
     double low = INFINITE, high = -INFINITE, stiffness = 0.0, w = 0.0, mean = total / copies;
     for (std::int64_t p = 0; p < planets; ++p) {
         double compliance = springs.compliance[p];
-        double alone = wind_up_at(mean, compliance, springs.friction[p], springs.steps[p]);
+        double alone = windup_at(mean, compliance, springs.friction[p], springs.steps[p]);
         alone += springs.error[p];
         low = std::min(low, alone);
         high = std::max(high, alone);

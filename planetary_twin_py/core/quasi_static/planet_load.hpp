@@ -44,7 +44,7 @@ inline SpringForce ring_force(double w, double compliance, double friction, cons
 }
 
 // A w [m] at which the planet has `force` on the ring: the inverse of `ring_force`.
-inline double wind_up_at(double force, double compliance, double friction, const double* steps) {
+inline double windup_at(double force, double compliance, double friction, const double* steps) {
     double first = std::min(0.0, -friction), last = std::max(0.0, -friction), step;
     if (force > last)
         step = steps[2];

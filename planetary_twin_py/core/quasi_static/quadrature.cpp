@@ -114,9 +114,9 @@ void integrate(const Follower& follower, const State& origin, Span span, double*
         settle(follower.model, follower.tolerance, follower.run, follower.shown);
         add_rates(train, follower.run.evaluation.power, follower.shown, half * GAUSS_WEIGHTS[n],
                   out);
-        see_node(train, follower.shown, n, peak);
+        raise_peaks_at_node(train, follower.shown, n, peak);
     }
-    see_ends(train, peak);
+    raise_peaks_at_ends(train, peak);
 }
 
 Panels divide_cycle(const Follower& follower, const State& origin, std::span<const double> edges,

@@ -86,7 +86,7 @@ bool touch_flanks(const Model& model, Equilibrium& run) {
 }
 
 // Find friction and drag of the forces in `run.evaluation`; the largest change of it [N].
-double rub(const Model& model, Equilibrium& run, bool midway) {
+double update_friction(const Model& model, Equilibrium& run, bool midway) {
     const Train& train = model.train;
     Evaluation& evaluation = run.evaluation;
     std::copy_n(evaluation.rubbing, BODIES, run.before);
@@ -142,7 +142,7 @@ BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     r.along -= axes.centre[b][0];
     r.across -= axes.centre[b][1];
     const double size = std::sqrt(r.along * r.along + r.across * r.across);
-    const Pressed at = press(axes, b, size);
+    const Pressed at = bearing_law(axes, b, size);
     BearingRow first = rows.row[0], second = rows.row[1];
     const double cosine = size > 0.0 ? r.along / size : 1.0;
     const double sine = size > 0.0 ? r.across / size : 0.0;
@@ -258,14 +258,14 @@ bool converges(const Model& model, double tolerance, Equilibrium& run, double (*
         double slack = tolerance * std::max(mean_force(train, shown), LIGHTEST_FORCE);
         const bool brisk = n < BRISK_PASSES;
         if (!brisk) slack = std::max(slack, DITHER);
-        const double change = rub(model, run, !brisk);
+        const double change = update_friction(model, run, !brisk);
         find_forces(model, run, force);
         if (n > 0 && !changes && largest(train, force) <= slack && (brisk || change <= slack)) {
             if (!brisk) {  // friction as it is, with its losses
-                rub(model, run, false);
+                update_friction(model, run, false);
                 find_forces(model, run, force);
             }
-            book_machines(model, run);
+            add_machine_powers(model, run);
             return true;
         }
         if (n > 0 && line.overshoots(train, force)) {

@@ -34,7 +34,7 @@ void choose_sides(const Train& train, Equilibrium& run) {
         double force = run.force[i];
         run.state.side[i] = force == 0.0 ? OPEN : force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
         if (static_cast<double>(run.state.side[i]) != run.step.side[i])
-            take_segment(train, run.state, run.step, i);
+            copy_segment(train, run.state, run.step, i);
     }
 }
 
@@ -44,7 +44,7 @@ double carrier_factor(const Train& train) {
 }
 
 // Let couplings and members yield; w [m] is what the ring stands behind the sun.
-void wind(const Train& train, Equilibrium& run, double w) {
+void displace_by_windup(const Train& train, Equilibrium& run, double w) {
     double* x = run.state.x;
     std::int64_t planets = train.meshes / 2, loaded = train.coupling[LOAD_MACHINE][1];
     x[loaded] = 0.0;
@@ -65,7 +65,7 @@ double stretch(const Equilibrium& run, std::int64_t i) {
 }
 
 // d [m] of the sun mesh of an idle planet, amid its play; w [m]: wind-up.
-double idle_stretch(const Equilibrium& run, std::int64_t p, double w) {
+double idle_deflection(const Equilibrium& run, std::int64_t p, double w) {
     double low = run.springs.steps[p][0], high = run.springs.steps[p][2];
     double passed = w - run.springs.error[p] - low;
     passed = high > low ? passed / (high - low) : 0.0;
@@ -101,7 +101,7 @@ double carry(const Model& model, Equilibrium& run) {
         run.force[p] = run.force[planets + p] + run.springs.friction[p];
     }
     choose_sides(train, run);
-    wind(train, run, w);
+    displace_by_windup(train, run, w);
     return std::abs(total) / copies;
 }
 
@@ -117,7 +117,7 @@ void deflect(const Model& model, Equilibrium& run) {
         else if (run.force[planets + p] != 0.0)
             d = w - stretch(run, planets + p);
         else
-            d = idle_stretch(run, p, w);
+            d = idle_deflection(run, p, w);
         x[train.body[p][1]] = d - sun + carrier;
     }
 }

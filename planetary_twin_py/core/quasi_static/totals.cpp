@@ -21,7 +21,7 @@ double raise(double peak, double value) {
     return value <= peak ? peak : value;
 }
 
-void see_value(double value, int row, int n, std::int64_t i, double (*peak)[MESHES]) {
+void raise_peak(double value, int row, int n, std::int64_t i, double (*peak)[MESHES]) {
     peak[row][i] = raise(peak[row][i], std::abs(value));
     for (int end = 0; end < 2; ++end) {
         double& room = peak[2 + 2 * row + end][i];
@@ -48,14 +48,15 @@ void add_rates(const Train& train, const double* power, const double (*shown)[ME
     out[TOTALS - 1] += weight;
 }
 
-void see_node(const Train& train, const double (*shown)[MESHES], int n, double (*peak)[MESHES]) {
+void raise_peaks_at_node(const Train& train, const double (*shown)[MESHES], int n,
+                         double (*peak)[MESHES]) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        see_value(shown[DTE][i], DTE_PEAK, n, i, peak);
-        see_value(shown[MESH_FORCE][i], FORCE_PEAK, n, i, peak);
+        raise_peak(shown[DTE][i], DTE_PEAK, n, i, peak);
+        raise_peak(shown[MESH_FORCE][i], FORCE_PEAK, n, i, peak);
     }
 }
 
-void see_ends(const Train& train, double (*peak)[MESHES]) {
+void raise_peaks_at_ends(const Train& train, double (*peak)[MESHES]) {
     for (std::int64_t i = 0; i < train.meshes; ++i)
         for (int row = 0; row < 2; ++row)
             for (int end = 0; end < 2; ++end)

@@ -35,9 +35,10 @@ void add_rates(const Train& train, const double* power, const double (*shown)[ME
                double weight, double* out);
 
 // Raise `peak` to what is shown at node n of a panel, the first of them 0.
-void see_node(const Train& train, const double (*shown)[MESHES], int n, double (*peak)[MESHES]);
+void raise_peaks_at_node(const Train& train, const double (*shown)[MESHES], int n,
+                         double (*peak)[MESHES]);
 
 // Raise `peak` to the ends of the panel whose nodes have been seen.
-void see_ends(const Train& train, double (*peak)[MESHES]);
+void raise_peaks_at_ends(const Train& train, double (*peak)[MESHES]);
 
 }  // namespace gearbox

@@ -20,10 +20,10 @@ struct Peaks {
 
 // Largest magnitudes that are allowed.
 struct Limits {
-    double squeeze[MESHES];   // [m]
-    double error[MESHES];     // largest errors of form, by which a squeeze may be smaller [m]
-    double speed[BODIES];     // [rad/s]
-    double torque[MACHINES];  // [N m]
+    double deflection[MESHES];  // [m]
+    double error[MESHES];       // largest errors of form, by which a deflection may be smaller [m]
+    double speed[BODIES];       // [rad/s]
+    double torque[MACHINES];    // [N m]
 };
 
 // Whether a run has passed one of them; a NaN has. `power` is that of the ledger.
@@ -32,7 +32,7 @@ inline bool exceeds(const Limits& limits, const Train& train, const Load& load, 
     bool within = true;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double least = peaks.dte[i] - load.half_backlash - limits.error[i];
-        within &= least <= limits.squeeze[i];
+        within &= least <= limits.deflection[i];
     }
     for (std::int64_t j = 0; j < train.bodies; ++j) within &= peaks.speed[j] <= limits.speed[j];
     for (std::int64_t m = 0; m < train.machines; ++m)

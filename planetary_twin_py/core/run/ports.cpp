@@ -153,7 +153,8 @@ void approach(const Model& model, March& march, const Instant& now, double durat
     }
 }
 
-void give(Model& model, March& march, const Instant& now, const Command& command, double reaching) {
+void apply_command(Model& model, March& march, const Instant& now, const Command& command,
+                   double reaching) {
     Actions actions = actions_of(model.load, now, command, reaching);
     if (!actions.change) return;
     count_until(model, march, delay(march.begin, now));

@@ -61,7 +61,8 @@ void approach(const Model& model, March& march, const Instant& now, double durat
 // Let a command act from `now` on, the end of the last window: at once, or, where `reaching` is not
 // 0, along straight lines that reach its values after so many seconds. What the meshes show in the
 // last step counts up to `now`. Throws NoFiniteState.
-void give(Model& model, March& march, const Instant& now, const Command& command, double reaching);
+void apply_command(Model& model, March& march, const Instant& now, const Command& command,
+                   double reaching);
 
 // What the ports show at `time`, within the last step.
 void read_ports(const Model& model, March& march, const Instant& time, PortStates& out);

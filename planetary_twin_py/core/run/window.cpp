@@ -123,32 +123,32 @@ Outcome run_window(const WindowJob& job) {
     try {
         if (fill_waveform(job)) return Outcome::EXCEEDED;
         if (!job.closes) return Outcome::WITHIN_LIMITS;
-        take_books(job.model, job.march, job.end);
-        take_mesh_sums(job.model, job.march, job.until, job.end.sums);
+        begin_window(job.model, job.march, job.end);
+        pop_mesh_sums(job.model, job.march, job.until, job.end.sums);
         return Outcome::WITHIN_LIMITS;
     } catch (const NoFiniteState&) {
         return Outcome::NOT_FINITE;
     }
 }
 
-void take_ledger(March& march, double* ledger) {
+void pop_energy_ledger(March& march, double* ledger) {
     std::copy_n(march.end.energy, LEDGER, ledger);
     for (State* state : {&march.begin, &march.end, &march.periodic.start})
         for (int e = 0; e < LEDGER; ++e) state->energy[e] -= ledger[e];
 }
 
-void take_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums) {
+void pop_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums) {
     count_until(model, march, delay(march.begin, until));
     sums = march.sums.total;
     if constexpr (MOVING) join_flanks(model.train, sums);
     march.sums.total = {};
 }
 
-void take_books(const Model& model, March& march, WindowEnd& end) {
+void begin_window(const Model& model, March& march, WindowEnd& end) {
     end.seconds = march.end.seconds;
     end.time = march.end.time;
     end.time_rest = 0.0;
-    take_ledger(march, end.ledger);
+    pop_energy_ledger(march, end.ledger);
     std::copy_n(march.last.power, LEDGER, end.power);
     auto [kinetic, elastic] = stored(model, march.end, march.scratch);
     end.kinetic = kinetic;

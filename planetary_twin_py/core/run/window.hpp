@@ -69,17 +69,18 @@ enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 
 // Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.
 //
-// Where the window closes within the limits, `end` takes all that has been added up.
+// Where the window closes within the limits, ledger and sums are moved to `end`.
 Outcome run_window(const WindowJob& job);
 
-// Take the integrals of the ledger since the last call and set them to zero: beside the sums of a
+// Copy the integrals of the ledger since the last call and set them to zero: beside the sums of a
 // long run, rounding would lose what a window adds.
-void take_ledger(March& march, double* ledger);
+void pop_energy_ledger(March& march, double* ledger);
 
-// Take integrals and extremes of the meshes up to `until`, the end of the last window.
-void take_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums);
+// Copy integrals and extremes of the meshes up to `until`, the end of the last window, and restart
+// them.
+void pop_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums);
 
-// Take the ledger, and what stands beside it.
-void take_books(const Model& model, March& march, WindowEnd& end);
+// Begin a window at the end of the last one: fill time, ledger, power and stored energy of `end`.
+void begin_window(const Model& model, March& march, WindowEnd& end);
 
 }  // namespace gearbox

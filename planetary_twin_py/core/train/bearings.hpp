@@ -64,8 +64,8 @@ inline bool is_linear(const MovingAxes& axes, std::int64_t b) {
 }
 
 // What bearing b does under an eccentricity of `size` [m].
-inline Pressed press(const MovingAxes& axes, std::int64_t b, double size) {
-    if (rolls(axes, b)) return press_rolling(axes.rolling[b], axes.clearance[b], size);
+inline Pressed bearing_law(const MovingAxes& axes, std::int64_t b, double size) {
+    if (rolls(axes, b)) return rolling_bearing_law(axes.rolling[b], axes.clearance[b], size);
     const double k = axes.stiffness[b], pressed = size - axes.clearance[b];
     if (!(pressed > 0.0)) return {0.0, 0.0, 0.0};
     return {0.5 * k * pressed * pressed, k * pressed, k};
@@ -107,7 +107,7 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
                 -(damped.along * rate.along + damped.across * rate.across)};
     }
     const double size = std::sqrt(r.along * r.along + r.across * r.across);
-    const Pressed at = press(axes, b, size);
+    const Pressed at = bearing_law(axes, b, size);
     if (!(at.push > 0.0)) return {{0.0, 0.0}, 0.0};
     const RadialDamping damping = radial_damping(axes, b, at, size);
     const double nx = r.along / size, ny = r.across / size;
@@ -192,11 +192,11 @@ inline BearingRows rows_of_bearing(const Train& train, std::int64_t b) {
 
 // Elastic energy of bearing b [J].
 inline double bearing_energy(const Train& train, std::int64_t b, const double* x) {
-    return press(train.moving, b, eccentricity(train, b, x)).energy;
+    return bearing_law(train.moving, b, eccentricity(train, b, x)).energy;
 }
 
 // Whether bearing b, seen at x, is beyond its clearance.
-inline bool presses(const Train& train, std::int64_t b, const double* x) {
+inline bool beyond_clearance(const Train& train, std::int64_t b, const double* x) {
     if (is_linear(train.moving, b)) return true;
     return bearing_energy(train, b, x) > 0.0;
 }

@@ -19,7 +19,7 @@
 namespace gearbox {
 
 // Add the friction torques of all meshes as forces on the bodies.
-inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rubbing) {
+inline void add_friction_forces(const Train& train, const DragOfMeshes& drag, double* rubbing) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (MOVING && drag.torque[0][i] == 0.0 && drag.torque[1][i] == 0.0) continue;
         for (int j = 0; j < GEARS; ++j) {
@@ -50,7 +50,7 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
         evaluate(model, out.pairs);
         collect(train, out.pairs, out.dragging);
         if (train.printed_torque) print_torques(train, step, v, out.dragging);
-        rub_bodies(train, out.dragging, out.rubbing);
+        add_friction_forces(train, out.dragging, out.rubbing);
         out.power[FRICTION] += friction_power(train, out.dragging);
     }
     if (train.joints + train.discs > 0)

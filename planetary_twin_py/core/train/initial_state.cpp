@@ -67,7 +67,7 @@ void hold_body(Balance& balance, std::int64_t body) {
 double stiffest(const Train& train, std::int64_t b, const double* x) {
     const MovingAxes& axes = train.moving;
     if (!rolls(axes, b)) return axes.stiffness[b];
-    return std::max(axes.stiffness[b], press(axes, b, eccentricity(train, b, x)).stiffness);
+    return std::max(axes.stiffness[b], bearing_law(axes, b, eccentricity(train, b, x)).stiffness);
 }
 
 // Add the stiffness of the bearings, as if none had clearance: so no step leads far away, at the
@@ -87,7 +87,7 @@ void hold_axes(Start& start) {
 }
 
 // Move x by what springs of meshes and couplings yield to `balance.force`, the motors held.
-void yield_to_forces(Start& start) {
+void displace_by_forces(Start& start) {
     const Train& train = start.model.train;
     Balance& balance = start.balance;
     std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
@@ -131,7 +131,7 @@ void balance_mean_forces(Start& start) {
         force[machine] += pull;
         force[member] -= pull;
     }
-    yield_to_forces(start);
+    displace_by_forces(start);
 }
 
 // Let those flanks touch that are squeezed at x; whether any of them changes.
@@ -142,8 +142,9 @@ bool touch_flanks(Start& start) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         auto side = static_cast<double>(only_side(train, i));
         double error = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
-        double squeeze = side * (mesh_motion(train, i, state.x) - error) - start.model.load.offset;
-        std::int64_t found = squeeze > 0.0 ? only_side(train, i) : OPEN;
+        double deflection =
+            side * (mesh_motion(train, i, state.x) - error) - start.model.load.offset;
+        std::int64_t found = deflection > 0.0 ? only_side(train, i) : OPEN;
         changes |= found != state.side[i];
         state.side[i] = found;
     }
@@ -190,7 +191,7 @@ void balance_axes(Start& start) {
         if (changes) place_pairs(start);
         forces_at_rest(start);
         State before = state;
-        yield_to_forces(start);
+        displace_by_forces(start);
         const double share = pass < SHORTENED_PASSES ? 1.0 : 0.5;
         double moved = 0.0;
         for (std::int64_t j = 0; j < train.bodies; ++j) {
@@ -279,7 +280,7 @@ void balance_friction(Start& start, double* drags) {
     forces_at_constant_speed(start.model, start);
     const double* force = start.balance.evaluation.force;
     std::copy(force, force + BODIES, start.balance.force);
-    yield_to_forces(start);
+    displace_by_forces(start);
     place_pairs(start);
     forces_at_constant_speed(start.model, start);
     for (std::int64_t a = 0; a < start.model.train.axes; ++a) drags[a] = drag(start, a);

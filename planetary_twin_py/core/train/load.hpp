@@ -9,7 +9,7 @@ namespace gearbox {
 struct alignas(64) Load {
     double half_backlash;              // where flanks meet [m]
     double offset;                     // transmission error from which the force grows [m]
-    double inner_squared;              // squeeze at which flanks meet, squared [m^2]
+    double inner_squared;              // deflection at which flanks meet, squared [m^2]
     double release;                    // 1: flanks part where the force vanishes, 0: where they met
     double target_speed[AXES];         // [rad/s]
     double slew_rate;                  // [rad/s^2]

@@ -36,7 +36,7 @@ struct Pressed {
 };
 
 // Of a rolling bearing with a radial clearance [m] under an eccentricity [m].
-inline Pressed press_rolling(const RollingBearing& bearing, double clearance, double size) {
+inline Pressed rolling_bearing_law(const RollingBearing& bearing, double clearance, double size) {
     const double x = size - clearance;
     if (!(x > 0.0)) return {0.0, 0.0, 0.0};
     const double n = bearing.exponent, e = 0.5 * x / size, open = 1.0 - 2.0 * e;

@@ -15,7 +15,7 @@
 namespace gearbox {
 
 // Copy side and segment of mesh i from the tables; an open one carries nothing anywhere.
-inline void take_segment(const Train& train, const State& state, StepConstants& step,
+inline void copy_segment(const Train& train, const State& state, StepConstants& step,
                          std::int64_t i) {
     std::int64_t kind = train.kind[i], segment = state.segment[i], side = state.side[i];
     step.side[i] = static_cast<double>(side);
@@ -47,7 +47,7 @@ inline void place_mesh(const Train& train, const State& state, StepConstants& st
     std::int64_t side = state.side[i], kind = train.kind[i];
     if (train.lines[kind] > 0) place_lines(train, state, i, step.line_angle);
     if (step.segment[i] != state.segment[i] + 1 || step.side[i] != static_cast<double>(side))
-        take_segment(train, state, step, i);
+        copy_segment(train, state, step, i);
     if (side == OPEN) {
         step.start[i] = step.low[i];
         return;

@@ -87,7 +87,7 @@ template <int L, class Number>
 LAW void place_pairs(const Train& train, const StepConstants& step, const FrictionInstant& instant,
                      Columns<Number>& pairs, std::int64_t first) {
     using V = Row<L>;
-    V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
+    V moved = path_position<L>(train, step, instant.meshes->advance), external(step.external);
     const V spin1(instant.spin[0]), spin2(instant.spin[1]);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
@@ -104,7 +104,7 @@ LAW void place_pairs(const Train& train, const StepConstants& step, const Fricti
 
 // The same as `tooth_contact`, part by part for all registers.
 template <Laws laws, class Number>
-void rub_pairs(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
+void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
     using Real = typename RegisterOf<Number>::type;
     constexpr int IN_ONE = sizeof(Real) / sizeof(Number);
     constexpr int MOST = Columns<Number>::MOST / IN_ONE + 1;
@@ -143,7 +143,7 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
                 std::int64_t first, bool rolling, const FrictionInstant& instant) {
     using V = Row<L>;
     MeshFriction& out = *instant.found;
-    V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
+    V moved = path_position<L>(train, step, instant.meshes->advance), external(step.external);
     V torque1(0.0), torque2(0.0), lost(0.0), boundary(0.0), viscous(0.0), film(0.0);
     const V spin1(instant.spin[0]), spin2(instant.spin[1]);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
@@ -187,8 +187,8 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
     with_laws(oil, [&]<Laws laws>() {
         constexpr bool SINGLE = std::is_same_v<Number, float>;
         if constexpr (!SINGLE || has_single_precision(laws.traction))
-            rub_pairs<laws>(oil, slowest_rolling(train, step), pairs,
-                            static_cast<int>(count * of_instant));
+            find_pair_friction<laws>(oil, slowest_rolling(train, step), pairs,
+                                     static_cast<int>(count * of_instant));
     });
     for (int n = 0; n < count; ++n)
         add_up<L>(train, step, pairs, n * of_instant, oil.rolling, instants[n]);

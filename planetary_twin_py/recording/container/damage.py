@@ -39,14 +39,14 @@ class Damages:
         self.reached = 0
         """End of the last intact record."""
 
-    def lose(self, lost: Lost) -> None:
+    def add_lost(self, lost: Lost) -> None:
         """Add an unreadable part, which follows the parts added before."""
         if self._open is None:
             self._open = _Gap(max(_log_times(self._newest), default=None))
             self._gaps.append(self._open)
         self._open.losses.append(lost)
 
-    def see(self, sound: Sound) -> None:
+    def add_sound(self, sound: Sound) -> None:
         """Add an intact record."""
         self.reached = sound.piece.end
         if self._open and sound.piece.opcode == Opcode.MESSAGE_INDEX:

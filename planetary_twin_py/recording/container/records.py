@@ -91,11 +91,11 @@ def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
             return
         for step in Walk(file, stream):
             if isinstance(step, Sound):
-                damages.see(step)
+                damages.add_sound(step)
                 ended = ended or step.piece.opcode == Opcode.DATA_END  # the rest only repeats
                 place, found = step.piece.place, [] if ended else known.described(step.records)
             elif isinstance(step, Lost):
-                damages.lose(step)
+                damages.add_lost(step)
                 place, found = step.place, known.summarised()
             else:
                 behind = _truncated(file, damages.reached, step)

@@ -32,7 +32,7 @@ def with_clock(tape: Tape, begin: int, end: int, frequency: float) -> Iterator[C
     ticks = _Ticks(tape, begin, frequency)
     for cue in tape.cues(begin, end):
         yield from ticks.until(cue.time)
-        ticks.see(cue)
+        ticks.update(cue)
         yield cue
     yield from ticks.until(end + 1)
 
@@ -55,7 +55,7 @@ class _Ticks:
                 self._newest = max(self._newest, stamp + time - since)
                 yield Cue(time, CLOCK.name, _serialized(self._newest))
 
-    def see(self, cue: Cue) -> None:
+    def update(self, cue: Cue) -> None:
         """Use the stamp of `cue` if it is the newest."""
         if cue.topic in self._stamped:
             seconds, nanoseconds = _STAMP[cue.data[1] & 1].unpack_from(cue.data)

@@ -57,7 +57,7 @@ class Ring:
     def flush(self) -> None:
         """Do nothing: messages are in memory only."""
 
-    def pour(self, bag: BagWriter) -> None:
+    def write_to(self, bag: BagWriter) -> None:
         """Write the buffered messages to `bag`."""
         for name, content in self._attached.items():
             bag.attach(name, *content)

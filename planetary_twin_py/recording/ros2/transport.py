@@ -45,12 +45,12 @@ class Transport:
         due = (instant - self._position) * 1e-9 / self._rate_factor
         return due - (now - self._since)
 
-    def hold(self, now: float, limit: int) -> None:
+    def pause(self, now: float, limit: int) -> None:
         """Pause."""
         self._position = self.position(now, limit)
         self.held = True
 
-    def go(self, now: float) -> None:
+    def resume(self, now: float) -> None:
         """Resume."""
         if self.held:
             self._since = now

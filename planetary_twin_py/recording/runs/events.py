@@ -42,12 +42,12 @@ def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Even
             yield Event(begin, run, f"{missing} messages of {STATE} are missing before")
         if started:
             yield Event(begin, run, "start" if run == 1 else "start after a reset")
-        for text in _news(None if started else before, state):
+        for text in _changes(None if started else before, state):
             yield Event(begin, run, text)
         before = state
 
 
-def _news(before: Any, state: Any) -> Iterator[str]:
+def _changes(before: Any, state: Any) -> Iterator[str]:
     """Differences of an interval from the previous one of its run."""
     for name, text in (("tolerance", "tolerance = {:g}"), ("sample_rate", "waveform at {:g} Hz")):
         now = getattr(state, name)

@@ -31,7 +31,7 @@ class Ramp:
     def add(self, change: Changed) -> bool:
         """Add `change` if it is the next step; return whether it is."""
         same = change.values.keys() == self.last.keys() == self.first.keys()
-        if not (same and self._in_time(change.time) and self._onwards(change.values)):
+        if not (same and self._in_time(change.time) and self._continues(change.values)):
             return False
         self.times.append(change.time)
         self.last = change.values
@@ -43,7 +43,7 @@ class Ramp:
         before = self.times[-1] - self.times[-2] if len(self.times) > 1 else gap
         return 0.0 < gap < LONGEST_STEP and math.isclose(gap, before, abs_tol=_ROUNDING)
 
-    def _onwards(self, values: Mapping[str, float]) -> bool:
+    def _continues(self, values: Mapping[str, float]) -> bool:
         """Whether `values` continue in the direction of the previous changes."""
         last = self.last
         return all(

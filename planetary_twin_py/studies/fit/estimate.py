@@ -36,7 +36,11 @@ class Estimate:
     """Reduced chi-squared that widens the intervals; 1 if noise explains the residuals."""
 
     def identifiable(self, place: int) -> bool:
-        """Whether the parameter with this index is identifiable."""
+        """Whether the parameter with this index is identifiable.
+
+        Args:
+            place: index of the parameter.
+        """
         return all(place not in members for members in self.not_identifiable)
 
 

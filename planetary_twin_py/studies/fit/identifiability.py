@@ -26,7 +26,11 @@ class LinearAnalysis:
     """Indices of the parameters of each direction that is not identifiable."""
 
     def identifiable(self, place: int) -> bool:
-        """Whether the parameter with this index is in none of the groups."""
+        """Whether the parameter with this index is in none of the groups.
+
+        Args:
+            place: index of the parameter.
+        """
         return all(place not in members for members in self.groups)
 
 
@@ -54,7 +58,12 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
 
 
 def magnitudes(minimum: Minimum, parameters: Sequence[Parameter]) -> Array:
-    """Magnitudes (p,) that scale changes of the parameters."""
+    """Magnitudes (p,) that scale changes of the parameters.
+
+    Args:
+        minimum: of the sum of squares.
+        parameters: the p free parameters.
+    """
     return np.maximum(np.abs(minimum.values), [0.1 * p.scale for p in parameters])
 
 
@@ -101,7 +110,11 @@ def _towards(centre: float, bound: float, step: float) -> list[float]:
 
 
 def correlation(linear: LinearAnalysis) -> Array:
-    """Correlation of the estimates (p, p); NaN for parameters that are not identifiable."""
+    """Correlation of the estimates (p, p); NaN for parameters that are not identifiable.
+
+    Args:
+        linear: from `split`.
+    """
     deviation = np.sqrt(np.diag(linear.covariance))
     deviation[[not linear.identifiable(k) for k in range(len(deviation))]] = math.nan
     return np.asarray(linear.covariance / np.outer(deviation, deviation))

@@ -128,7 +128,13 @@ def with_initial_magnitudes(
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
-    """Local minimum of the sum of squares from `start` (p,)."""
+    """Local minimum of the sum of squares from `start` (p,).
+
+    Args:
+        residuals: see `Residuals`.
+        parameters: the p free parameters.
+        start: values in SI, (p,).
+    """
     from scipy.optimize import least_squares
 
     scale = np.array([p.scale for p in parameters])
@@ -179,7 +185,11 @@ def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values:
 
 
 def bounds_of(parameters: Sequence[Parameter]) -> tuple[Array, Array]:
-    """Lower and upper bounds, (p,) each."""
+    """Lower and upper bounds, (p,) each.
+
+    Args:
+        parameters: the p free parameters.
+    """
     return np.array([p.low for p in parameters]), np.array([p.high for p in parameters])
 
 

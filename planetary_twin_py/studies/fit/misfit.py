@@ -59,7 +59,11 @@ class WeightedReadings:
         )
 
     def residuals(self, readings: Sequence[Readings]) -> Array:
-        """Simulated minus recorded means, divided by their noise, as a vector."""
+        """Simulated minus recorded means, divided by their noise, as a vector.
+
+        Args:
+            readings: simulated, one entry for each observable.
+        """
         return np.concatenate(
             [
                 ((means_of(s) - means_of(r)) / noise.mean).ravel()

@@ -74,7 +74,13 @@ class Model:
 def read_all(
     names: Sequence[str], intervals: Sequence[IntervalReadings], excerpt: Excerpt
 ) -> tuple[Readings, ...]:
-    """Readings of every observable `names` over these intervals."""
+    """Readings of every observable `names` over these intervals.
+
+    Args:
+        names: of the observables, see `readings.OBSERVABLES`.
+        intervals: recorded or simulated.
+        excerpt: of which the intervals are a part.
+    """
     return tuple(read(name, intervals, excerpt) for name in names)
 
 

@@ -51,7 +51,11 @@ class IntervalReadings(NamedTuple):
 
 
 def check_observables(names: Sequence[str]) -> None:
-    """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice."""
+    """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice.
+
+    Args:
+        names: of the observables.
+    """
     if not names:
         raise ValueError("no observable: name at least one, e.g. dte_rms")
     for name in names:

@@ -165,7 +165,7 @@ def test_a_file_that_grows_while_it_is_read_is_still_being_written(tmp_path):
     found = Damages(file)
     file.write_bytes(MAGIC + bytes(10))
     grown = file.stat().st_size
-    found.lose(Lost(grown, grown, 0, EndOfFile()))
+    found.add_lost(Lost(grown, grown, 0, EndOfFile()))
     assert found.remarks() == [
         "growing.mcap: has no end record: the recorder is still writing, or was killed; "
         "everything before is intact"

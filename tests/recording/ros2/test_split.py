@@ -214,7 +214,7 @@ def test_a_snapshot_contains_the_last_seconds_and_latched_messages(tmp_path):
             ring.write(numbers, payload(value), time, time, value)
     assert ring.size == 100 * len(payload(0))
     bag = BagWriter(tmp_path / "bag")
-    ring.pour(bag)
+    ring.write_to(bag)
     bag.close()
     assert read_numbers(bag.file) == [v for v in range(899, 1000) if v != 950]
     assert read_numbers(bag.file, "/settings") == [2]

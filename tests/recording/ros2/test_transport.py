@@ -11,7 +11,7 @@ FAR = 10**18  # [ns] of a next message that is never reached
 
 def running(rate_factor=1.0, position=0):
     transport = Transport(position, rate_factor)
-    transport.go(100.0)
+    transport.resume(100.0)
     return transport
 
 
@@ -24,17 +24,17 @@ def test_it_runs_at_its_rate(rate_factor):
 
 def test_on_hold_the_position_is_constant_and_nothing_is_due():
     transport = running()
-    transport.hold(101.0, FAR)
+    transport.pause(101.0, FAR)
     assert transport.position(500.0, FAR) == 10**9
     assert transport.remaining(0, 500.0) == math.inf
-    transport.hold(600.0, FAR)
-    transport.go(700.0)
+    transport.pause(600.0, FAR)
+    transport.resume(700.0)
     assert transport.position(700.5, FAR) == 1_500_000_000
 
 
 def test_resuming_while_it_runs_changes_nothing():
     transport = running()
-    transport.go(101.0)
+    transport.resume(101.0)
     assert transport.position(102.0, FAR) == 2 * 10**9
 
 
@@ -63,7 +63,7 @@ def test_a_seek_while_on_hold_keeps_the_hold():
     transport = Transport(0, 1.0)
     transport.place(50, 10.0)
     assert transport.position(99.0, FAR) == 50
-    transport.go(99.0)
+    transport.resume(99.0)
     assert transport.position(99.0, FAR) == 50
 
 

@@ -220,24 +220,24 @@ class LiveFollower:
                 continue
             self._audience.jumped(back)
             if self._options.reset_on_time_jump:
-                self._feed(arrived[begin:n])
+                self._process(arrived[begin:n])
                 self._begin()
                 begin = n
-        self._feed(arrived[begin:])
+        self._process(arrived[begin:])
         now = time.monotonic()
         self._advanced = min(self._advanced + now - started, now)  # computing is no silence
         if not self._stale and now > self._advanced + self._options.sensor_timeout:
             self._stale = True
             self._report(self._follower.estimate(now=math.inf))
 
-    def _feed(self, arrived: Sequence[Arrived]) -> None:
-        def feed() -> None:
+    def _process(self, arrived: Sequence[Arrived]) -> None:
+        def process() -> None:
             for portion in self._portions.divide(arrived):
                 for block in self._reader.read(portion):
                     self._follower.add(block)
                 self._report_what_is_new()
 
-        self._checked(feed)
+        self._checked(process)
 
     def _checked(self, step: Callable[[], None]) -> None:
         """Run `step`; readings of another unit, sign or shaft end the following."""

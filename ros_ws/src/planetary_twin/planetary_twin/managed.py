@@ -23,7 +23,7 @@ from .parameter_node import ParameterNode
 from .parameters import brief, declare_at_start
 from .signals import SIGNALS
 from .stamps import STEADY
-from .standard_error import never_waiting
+from .standard_error import nonblocking_stderr
 
 NAMESPACE = "planetary_twin"
 _SOON = 1e-3  # [s]
@@ -197,7 +197,7 @@ def run_nodes(
     node runs in this thread. `args` are command-line arguments, by default those of the process.
     The reason of a failure is printed in one line after the node's key. Returns the exit code.
     """
-    with never_waiting():
+    with nonblocking_stderr():
         failures = _run_to_end(makes, args)
     for name, failure in failures.items():
         print(f"{name}: {failure}", file=sys.stderr)

@@ -119,13 +119,13 @@ class Player:
                 self._listener.begin()
                 self._go_to(self._excerpt.begin)
             if not self._paused:
-                self._transport.go(time.monotonic())
+                self._transport.resume(time.monotonic())
             if self._play():
                 self._listener.ended()
         except Exception as defect:
             self._listener.stopped(defect)
         finally:
-            self._transport.hold(time.monotonic(), self._upcoming)
+            self._transport.pause(time.monotonic(), self._upcoming)
             self._commands.refuse("the replay has stopped")
 
     def _play(self) -> bool:
@@ -187,10 +187,10 @@ class Player:
         now = time.monotonic()
         instant = self._transport.position(now, self._upcoming)
         if paused:
-            self._transport.hold(now, instant)
+            self._transport.pause(now, instant)
             self._play_through(instant)
         else:
-            self._transport.go(now)
+            self._transport.resume(now)
         return instant * 1e-9
 
     def _step(self, duration: float) -> float:

@@ -121,7 +121,7 @@ class Recorder:
             raise RecorderError("no message has been received yet")
         bag = self._bag(another=True)
         try:
-            ring.pour(bag)
+            ring.write_to(bag)
             bag.close()
         except OSError as reason:
             bag.abandon()

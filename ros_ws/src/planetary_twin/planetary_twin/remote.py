@@ -79,7 +79,7 @@ class Remote(Client):
         request = SetParametersAtomically.Request(
             parameters=[ParameterMessage(name=name, value=_message(in_si(name, typed)))]
         )
-        answer = self._ask(SetParametersAtomically, "set_parameters_atomically", request)
+        answer = self._call(SetParametersAtomically, "set_parameters_atomically", request)
         if not answer.result.successful:
             raise ValueError(answer.result.reason)
 
@@ -94,18 +94,18 @@ class Remote(Client):
                 raise ValueError(_unknown(f"{name}: no such quantity", name, TUNABLES))
         values = [in_si(name, value) for name, value in typed.items()]
         request = SetOperatingPoint.Request(names=list(typed), values=values, ramp=ramp)
-        answer = self._ask(SetOperatingPoint, "set_operating_point", request)
+        answer = self._call(SetOperatingPoint, "set_operating_point", request)
         if not answer.success:
             raise ValueError(answer.message)
         return float(answer.simulated_time)
 
     def _names(self) -> list[str]:
-        listed = self._ask(ListParameters, "list_parameters", ListParameters.Request())
+        listed = self._call(ListParameters, "list_parameters", ListParameters.Request())
         return sorted(listed.result.names)
 
     def _described(self, names: list[str]) -> list[Setting]:
-        got = self._ask(GetParameters, "get_parameters", GetParameters.Request(names=names))
-        described = self._ask(
+        got = self._call(GetParameters, "get_parameters", GetParameters.Request(names=names))
+        described = self._call(
             DescribeParameters, "describe_parameters", DescribeParameters.Request(names=names)
         )
         return [
@@ -129,7 +129,7 @@ class Remote(Client):
             return f"there is one in {', '.join(elsewhere)}: choose with --namespace"
         return "start one with `planetary-twin run`"
 
-    def _ask(self, kind: type, service: str, request: Any) -> Any:
+    def _call(self, kind: type, service: str, request: Any) -> Any:
         client: Service = self.node.create_client(kind, f"{NODE}/{service}")
         try:
             if not self.wait(client.service_is_ready, _DISCOVERY):

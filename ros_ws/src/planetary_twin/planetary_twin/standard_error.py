@@ -12,7 +12,7 @@ _PATH = "/proc/self/fd/2"
 
 
 @contextlib.contextmanager
-def never_waiting() -> Iterator[None]:
+def nonblocking_stderr() -> Iterator[None]:
     """
     In the block, log lines are lost while the terminal is stopped or a pipe is full.
 

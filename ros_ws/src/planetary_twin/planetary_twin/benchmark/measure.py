@@ -117,7 +117,7 @@ class Bench:
             meter = stack.enter_context(Meter(self._namespace, simulation))
             meter.begin()
             self._run(SETTLING, f"{rate:g} Hz: settles", simulation)
-            meter.forget()
+            meter.restart()
             before = int(meter.figures["overruns"])
             self._run(self._duration, f"{rate:g} Hz: jitter", simulation)
             sent, came = meter.jitter(1.0 / rate)
@@ -170,7 +170,7 @@ class Bench:
             while (now := time.monotonic() - begin) < duration or len(times) < 3:
                 times.append(now / 3600.0)
                 sizes.append(resident_memory(simulation.pid))
-                meter.forget()
+                meter.restart()
                 self._run(_PERIOD, f"memory: {now:.0f} of {duration:g} s", simulation)
         return Memory(duration, sizes[0], sizes[-1], Slope.of(times, sizes))
 

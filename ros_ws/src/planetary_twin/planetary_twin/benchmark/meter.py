@@ -43,9 +43,9 @@ class Meter(Client):
         """Wait for the twin, and discard the messages so far."""
         if not self.wait(lambda: self._sent and self._set.service_is_ready(), _START):
             raise RunError("simulation: publishes nothing")
-        self.forget()
+        self.restart()
 
-    def forget(self) -> None:
+    def restart(self) -> None:
         """Start a new measurement."""
         for kept in (self._sent, self._received, self._numbers):
             kept.clear()

@@ -27,7 +27,7 @@ def alone(namespace: str) -> Iterator[None]:
     path = os.path.join(tempfile.gettempdir(), name)
     lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600)
     try:
-        _take(lock)
+        _lock(lock)
         yield
     finally:
         os.close(lock)
@@ -37,7 +37,7 @@ def _domain() -> str:
     return os.environ.get("ROS_DOMAIN_ID", "0")
 
 
-def _take(lock: int) -> None:
+def _lock(lock: int) -> None:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -1,0 +1,143 @@
+"""`planetary-twin fit` of the operating points of a recording."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ..terminal.messages import remark
+from ._fitted import Fitted, Part
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from rich.console import Console
+
+    from ..studies.fit.identify import Identified, Search
+    from ..studies.fit.report import Report
+
+
+def fit_points(
+    console: Console, file: Path, namespace: str | None, search: Search, part: Part
+) -> Fitted:
+    """Fit a scene to the operating points of a recording, and print the estimates.
+
+    Args:
+        console: console to print on.
+        file: path of the recording.
+        namespace: of the gearbox, if the recording has several.
+        search: free fields, observed quantities and noise.
+        part: of the recording.
+
+    Returns:
+        The results.
+
+    Raises:
+        ValueError: a name or value is invalid, or the recording has no such part.
+        ArithmeticError: the part cannot be simulated.
+        OSError: the file cannot be read.
+    """
+    from ..studies.fit.identify import identify
+    from ..studies.fit.remarks import remarks
+
+    with console.status("simulating") as status:
+        found = identify(
+            file, search, namespace, part.begin, part.end,
+            report=lambda count: status.update(f"{count} simulations"),
+            hold_out=part.hold_out,
+        )  # fmt: skip
+    warnings = list(remarks(found))
+    _print(console, found)
+    for line in warnings:
+        remark(f"warning: {line}")
+
+    def report() -> Report:
+        from ..studies.fit.report import report_of_points
+
+        return report_of_points(found)
+
+    return Fitted(_figures(found) | {"remarks": warnings}, report)
+
+
+def _print(console: Console, found: Identified) -> None:
+    from rich.table import Table
+
+    excerpt, estimate = found.excerpt, found.estimate
+    table = Table(title=f"{excerpt.scene.name}, {excerpt.start:g} to {excerpt.end:g} s")
+    for heading in (
+        "field",
+        "estimate",
+        f"{100.0 * found.confidence:g} % interval",
+        "unit",
+        "from",
+    ):
+        table.add_column(heading, justify="right")
+    for k, parameter in enumerate(found.parameters):
+        low, high, profiled = estimate.intervals[k]
+        identifiable = estimate.identifiable(k)
+        source = ("profile" if profiled else "curvature") if identifiable else "search range"
+        value = f"{estimate.values[k]:.6g}" if identifiable else "not identifiable"
+        span = f"{low:.6g} to {high:.6g}"
+        if math.isnan(low):
+            span, source = "-", "combination only"
+        table.add_row(parameter.name, value, span, parameter.unit, source)
+    console.print(table)
+    for one in found.predictions:
+        console.print(
+            f"held out: {one.name} at {len(one.measured)} operating points: rms error "
+            f"{100.0 * one.rms:.3g} %, {100.0 * one.inside:.3g} % within their "
+            f"{100.0 * found.confidence:g} % intervals",
+            highlight=False,
+        )
+    console.print(f"{found.simulations} simulations in {found.wall_time:.1f} s", highlight=False)
+
+
+def _figures(found: Identified) -> dict[str, Any]:
+    """Results for `--json`; "told" and "untold" are deprecated names, kept for compatibility."""
+    estimate = found.estimate
+    parameters = {
+        p.name: {
+            "estimate": float(estimate.values[k]) if estimate.identifiable(k) else None,
+            "low": _finite(estimate.intervals[k].low),
+            "high": _finite(estimate.intervals[k].high),
+            "unit": p.unit,
+            "identifiable": estimate.identifiable(k),
+            "told": estimate.identifiable(k),
+            "at_bound": estimate.at_bound[k],
+            "profiled": estimate.intervals[k].profiled,
+        }
+        for k, p in enumerate(found.parameters)
+    }
+    groups = [[found.parameters[k].name for k in group] for group in estimate.not_identifiable]
+    return {
+        "parameters": parameters,
+        "confidence": found.confidence,
+        "correlation": [[_finite(value) for value in row] for row in estimate.correlation],
+        "not_identifiable": groups,
+        "untold": groups,
+        "excess": estimate.excess,
+        "noise": {
+            readings.name: _finite(float(noise.reading.max()))
+            for readings, noise in zip(found.weighted.recorded, found.weighted.noise, strict=True)
+        },
+        "predictions": {
+            one.name: {
+                "measured": one.measured.tolist(),
+                "predicted": one.predicted.tolist(),
+                "reach": one.reach.tolist(),
+                "rms": _finite(one.rms),
+                "inside": one.inside,
+            }
+            for one in found.predictions
+        },
+        "contact_fraction": found.contact_fraction,
+        "from_s": found.excerpt.start,
+        "to_s": found.excerpt.end,
+        "simulations": found.simulations,
+        "wall_time_s": found.wall_time,
+    }
+
+
+def _finite(value: float) -> float | None:
+    """`value`, or None in place of an infinity or NaN, which JSON lacks."""
+    return float(value) if math.isfinite(value) else None
