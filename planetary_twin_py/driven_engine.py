@@ -39,7 +39,7 @@ class DrivenEngine(Engine):
 
         Args:
             scene: scene of the run, with other ports.
-            point: operating point of the run.
+            point: operating point from `time` on.
             time: end of the last window [s].
 
         Raises:
