@@ -122,7 +122,7 @@ def _ports(commands: Commands) -> dict[str, str]:
 def _values(scene: Scene, branch: Branch) -> tuple[dict[str, Any], Scene]:
     """Operating point and ports after the branch as far as it sets them, and the run's scene."""
     required = {} if branch.commands is None else _ports(branch.commands)
-    settings = required | branch.settings
+    settings = {**required, **branch.settings}
     changed = scene.replace(**settings)
     others = [name for name in settings if name not in LIVE]
     if others and branch.start > 0.0:

@@ -225,18 +225,25 @@ class _Collector:
 
     def _share_commands(self, runs: list[RecordedRun]) -> None:
         """Assign commands to runs by their stamps, which are those of the intervals."""
-        begins = [run.origin.begins for run in runs]
         for stamp, message in self._commands:
-            if place := bisect_right(begins, stamp):
-                run = runs[place - 1]
+            if run := self._run_at(stamp, runs):
                 run.given[stamp] = values_of(message, joint_names(run.origin.scene))
+
+    def _run_at(self, stamp: int, runs: list[RecordedRun]) -> RecordedRun | None:
+        """The run in progress at `stamp` [ns]; None after an origin that another one replaced.
+
+        A twin that is paused at time zero publishes its origin again when it goes on.
+        """
+        begins = sorted(self._origins)
+        place = bisect_right(begins, stamp)
+        found = (run for run in runs if place and run.origin.begins == begins[place - 1])
+        return next(found, None)
 
     def _share_changes(self, runs: list[RecordedRun], remarks: list[str]) -> None:
         """Assign the changes to runs by their stamps, which never decrease."""
-        begins = [run.origin.begins for run in runs]
         for change in self._changes:
-            if place := bisect_right(begins, change.stamp):
-                runs[place - 1].changes.append(change)
+            if run := self._run_at(change.stamp, runs):
+                run.changes.append(change)
         for before, after in pairwise(self._changes):
             if after.number != before.number + 1:
                 remarks.append(
