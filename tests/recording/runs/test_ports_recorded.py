@@ -45,7 +45,7 @@ def written(run, folder, define=lambda text: text):
     """The run as written by a version whose definition of OperatingPoint is altered."""
     bag = BagWriter(folder)
     topics = [
-        topic._replace(definition=define(topic.definition)) if topic.name.endswith(POINT) else topic
+        replace(topic, definition=define(topic.definition)) if topic.name.endswith(POINT) else topic
         for topic in topics_of(NAMESPACE, driven=True)
     ]
     for _ in write_run(Composer(bag, topics, NAMESPACE), run):
@@ -70,7 +70,11 @@ def run():
 def ports_of(file):
     (run,) = read_runs(file, NAMESPACE, [])
     return [
-        (change.time, change.values["drive.input.port"], change.values["drive.output.port"])
+        (
+            round(change.time, 9),
+            change.values["drive.input.port"],
+            change.values["drive.output.port"],
+        )
         for change in run.changes
         if "drive.input.port" in change.values
     ]
@@ -81,7 +85,7 @@ CHANGED = [(0.06, "motion", "torque"), (0.12, "torque", "torque")]
 
 def test_changes_of_ports_are_recorded_listed_and_verified(run, tmp_path):
     file = written(run, tmp_path / "bag")
-    assert ports_of(file) == pytest.approx([(0.0, "torque", "torque"), *CHANGED])
+    assert ports_of(file) == [(0.0, "torque", "torque"), *CHANGED]
     assert verify(file, NAMESPACE).identical
     listed = [change.values for change in read_info(file).changes[1:]]
     assert listed == [{"drive.input.port": "motion"}, {"drive.input.port": "torque"}]
@@ -90,8 +94,8 @@ def test_changes_of_ports_are_recorded_listed_and_verified(run, tmp_path):
 def test_ports_that_were_not_recorded_follow_from_the_commands(run, tmp_path):
     """An earlier version recorded a brake only by what was given."""
     file = written(run, tmp_path / "bag", without_ports)
-    assert ports_of(file) == pytest.approx(CHANGED)
+    assert ports_of(file) == CHANGED
     assert verify(file, NAMESPACE).identical
     made = resimulate(file, NAMESPACE, Branch({"backlash": 4e-7}, 0.08), tmp_path / "branch")
-    assert ports_of(made.file)[-1] == pytest.approx(CHANGED[-1])
+    assert ports_of(made.file)[-1] == CHANGED[-1]
     assert verify(made.file, NAMESPACE).identical
