@@ -12,6 +12,12 @@ from planetary_twin_py.integrators.clock import TICKS
 
 PAIRS = list(itertools.product(CAUSALITIES, repeat=2))
 LENGTH = 2e-3  # [s] of a window
+UNDAMPED = {
+    "mesh.double_pair_ratio": 1.0,
+    "mesh.damping.loss_factor": 0.0,
+    "drive.input.coupling_damping": 0.0,
+    "drive.output.coupling_damping": 0.0,
+}
 
 
 def names(ports):
@@ -59,12 +65,12 @@ def test_angles_and_speeds_of_the_shafts_are_continuous(before):
 def test_energy_balances_across_changes_of_ports():
     """Work at the ports = losses + what the train stores, and the motors that join or leave it.
 
-    The stored energy is that of the state at the begin and at the end, not of the windows. Teeth
-    of one stiffness, or else its changes do work.
+    The stored energy is that of the state at the begin and at the end, not of the windows. Nothing
+    damps, which is not counted as a loss, and teeth have one stiffness, whose changes do no work.
     """
-    twin = pt.Twin(PAPER.replace(**{"mesh.double_pair_ratio": 1.0}), tolerance=1e-5)
+    twin = pt.Twin(PAPER.replace(**UNDAMPED), tolerance=1e-5)
     twin.advance(0.01)
-    begin, came, work, turned = stored(twin), 0.0, 0.0, 0.0
+    begin, came, work, lost = stored(twin), 0.0, 0.0, 0.0
     rng = np.random.default_rng(7)
     for after in PAIRS[1:] + PAIRS[:1]:
         before = twin.ports
@@ -80,10 +86,9 @@ def test_energy_balances_across_changes_of_ports():
         for n in range(10):
             window = twin.advance(LENGTH, **(given if n == 0 else {}))
             work += LENGTH * (window.input_power - window.output_power - window.power_loss)
-            turned += LENGTH * abs(window.input_power)
-    assert abs(came) > 0.0 or twin.ports == ("machine", "machine")
+            lost += LENGTH * window.power_loss
     gained = stored(twin) - begin
-    assert gained == pytest.approx(came + work, abs=1e-6 * turned)
+    assert gained == pytest.approx(came + work, abs=2e-3 * lost)
 
 
 def test_ports_and_operating_point_change_together_or_not_at_all():
