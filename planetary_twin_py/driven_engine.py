@@ -10,7 +10,8 @@ from .dynamics.speed_loop import SpeedLoopCheck
 from .dynamics.start import LoadBuilder, begin_given
 from .dynamics.train import build_train, held_axes
 from .engine import Engine
-from .integrators.clock import TICKS, instant, instant_of_ticks
+from .integrators.clock import NEVER, TICKS, instant, instant_of_ticks, sampling
+from .integrators.interpolant import new_samples
 from .scene import OperatingPoint, Scene
 
 
@@ -30,6 +31,7 @@ class DrivenEngine(Engine):
         super().__init__(scene, tolerance, method)
         self.port_ranges = port_ranges(scene, self.train)
         self._linear = scene.drive.interpolation == "linear"
+        self._ports_set = -1  # [ticks] time of the last change of ports
 
     def set_ports(self, scene: Scene, point: OperatingPoint, time: Fraction) -> None:
         """Continue with the ports of `scene` from `time` [s], the end of the last window.
@@ -39,7 +41,7 @@ class DrivenEngine(Engine):
 
         Args:
             scene: scene of the run, with other ports.
-            point: operating point of the run.
+            point: operating point from `time` on.
             time: end of the last window [s].
 
         Raises:
@@ -53,6 +55,7 @@ class DrivenEngine(Engine):
         speed_loop.check(point)
         ticks = int(time * TICKS)
         self.apply_command(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
+        self._ports_set = ticks
         shown = self.port_states(ticks)
         self._end_step(time)
         self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
@@ -74,7 +77,12 @@ class DrivenEngine(Engine):
             Angles, speeds and torques of both shafts.
         """
         shown: PortStates = self._core.PortStates()
-        self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
+        march = self.march
+        if ticks == self._ports_set:  # the last step had other ports: read from a next one
+            march, sample = self.march.copy(), new_samples(self.train, 1)
+            after = instant_of_ticks(ticks + 1)
+            self._core.advance(self.model, march, after, NEVER, sampling(1, 1.0), sample)
+        self._core.read_ports(self.model, march, instant_of_ticks(ticks), shown)
         return shown
 
     def apply_command(self, begin: int, end: int, command: Command) -> None:

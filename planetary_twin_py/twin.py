@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ._core import PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
@@ -14,8 +14,9 @@ from .dynamics.library import library
 from .integrators.clock import TICKS
 from .integrators.interpolant import bearings_of, new_waves, tilts
 from .run import start
-from .scene import TUNABLES, OperatingPoint, Scene, SceneError
+from .scene import OperatingPoint, Scene, SceneError
 from .scene.drive import Causality, Ports
+from .scene.live import PORT_FIELDS, live_values, split_live
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
 from .window_jobs import WindowJobs, run_alone
@@ -38,6 +39,11 @@ class Change(NamedTuple):
     """Sample rate of the waveform [Hz]; it does not affect the motion."""
     ports: Ports = Ports()
     """What acts on the shafts of input and output."""
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Operating point and ports, by the arguments of `Twin.set`."""
+        return live_values(self.point, self.ports)
 
 
 class Twin:
@@ -142,23 +148,27 @@ class Twin:
         """
         return self._driven().port_states(self._ticks)
 
-    def set(self, **changes: float) -> float:
-        """Change fields of the operating point at the current time.
+    def set(self, **changes: Any) -> float:
+        """Change fields of the operating point, and ports, at the current time.
+
+        Newly given torques and motions keep their present values until a command changes them. A
+        machine that starts to control the speed begins with the present speed as set-point, and
+        approaches the set-point of the operating point at the slew rate of the drive.
 
         Args:
-            changes: values in SI by field name.
+            changes: values in SI by field name; of the ports "machine", "torque" or "motion"
+                (``**{"drive.input.port": "torque"}``).
 
         Returns:
             The simulated time from which they apply [s].
 
         Raises:
-            ValueError: a name is unknown, or a value is out of range; no field is changed.
+            ValueError: a name is unknown, a value is out of range, or the scene does not allow a
+                port; no field is changed.
         """
-        for name in changes:
-            if name not in TUNABLES:
-                raise SceneError(f"{name}: no such field")
-        point = self.scene.point_with(self.operating_point, changes)
-        return self._change(point, self.tolerance)
+        tuned, causalities = split_live(changes)
+        point = self.scene.point_with(self.operating_point, tuned)
+        return self._change(point=point, ports=self.ports._replace(**causalities))
 
     def set_tolerance(self, tolerance: float) -> float:
         """Change the tolerance at the current time.
@@ -173,7 +183,7 @@ class Twin:
             ValueError: the value is out of range; it is not changed.
         """
         check_tolerance(tolerance)
-        return self._change(self.operating_point, tolerance)
+        return self._change(tolerance=tolerance)
 
     def set_sample_rate(self, sample_rate: float) -> float:
         """Change the sample rate of the waveform at the current time; the motion is not affected.
@@ -194,10 +204,7 @@ class Twin:
         return self.time
 
     def set_ports(self, input: Causality | None = None, output: Causality | None = None) -> float:
-        """Change what acts on the shafts of input and output at the current time.
-
-        Newly given torques and motions keep their present values until a command changes them. A
-        machine that starts to control the speed begins with the present speed as set-point.
+        """Change what acts on the shafts of input and output at the current time, as `set` does.
 
         Args:
             input: "machine", "torque" or "motion", see `drive.input.port`; None: no change.
@@ -209,18 +216,7 @@ class Twin:
         Raises:
             ValueError: the scene does not allow this port; nothing is changed.
         """
-        ports = Ports(input or self.ports.input, output or self.ports.output)
-        if ports == self.ports:
-            return self.time
-        scene = self.scene.replace(
-            **{"drive.input.port": ports.input, "drive.output.port": ports.output}
-        )
-        self._end_steps()
-        self._driven().set_ports(scene, self.operating_point, Fraction(self._ticks, TICKS))
-        self.scene, self._given = scene, ports.given
-        self._begin_window()
-        self.log.append(self.log[-1]._replace(time=self.time, ports=ports))
-        return self.time
+        return self._change(ports=Ports(input or self.ports.input, output or self.ports.output))
 
     def step(
         self,
@@ -351,15 +347,28 @@ class Twin:
             plan.end, plan.first, self.sample_rate, self._report, plan.waves, self._ends[1]
         )
 
-    def _change(self, point: OperatingPoint, tolerance: float) -> float:
-        change = Change(self.time, point, tolerance, self.sample_rate, self.ports)
-        if change[1:] != self.log[-1][1:]:
+    def _change(self, **inputs: Any) -> float:
+        """Continue with other inputs, fields of `Change`; returns the present time [s]."""
+        before, change = self.log[-1], self.log[-1]._replace(time=self.time, **inputs)
+        if change[1:] == before[1:]:
+            return self.time
+        if change.ports != before.ports:
+            self._set_ports(change)
+        else:
             self._end_steps()
-            self._engine.change(point, tolerance, Fraction(self._ticks, TICKS))
-            self._begin_window()  # a change of backlash is not work of this window
-            self._settling = self._forgetting.rate(point)
-            self.log.append(change)
+            self._engine.change(change.point, change.tolerance, Fraction(self._ticks, TICKS))
+        self._begin_window()  # a change of backlash is not work of this window
+        self._settling = self._forgetting.rate(change.point)
+        self.log.append(change)
         return self.time
+
+    def _set_ports(self, change: Change) -> None:
+        """Continue with the ports and the operating point of `change`."""
+        ports = {name: getattr(change.ports, side) for name, side in PORT_FIELDS.items()}
+        scene = self.scene.replace(**ports)
+        self._end_steps()
+        self._driven().set_ports(scene, change.point, Fraction(self._ticks, TICKS))
+        self.scene, self._given = scene, change.ports.given
 
     def _begin_window(self) -> None:
         """Begin a window at the present time."""

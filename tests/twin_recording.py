@@ -63,7 +63,7 @@ class TwinRecording:
 
     def point(self, twin: pt.Twin) -> None:
         """Write the operating point in force."""
-        self._composer.point(twin.operating_point, twin.time, self._stamp(twin.time))
+        self._composer.point(twin.log[-1].values, twin.time, self._stamp(twin.time))
 
     def advance(self, twin: pt.Twin, duration: float) -> None:
         """Advance the twin and write its messages."""

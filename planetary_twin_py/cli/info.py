@@ -108,12 +108,17 @@ def _described(ramp: Ramp) -> str:
     if not ramp.last:
         return "no change"
     if steps == 1:
-        return ", ".join(f"{k} = {value:.6g} {_unit(k)}".rstrip() for k, value in ramp.last.items())
+        return ", ".join(f"{name} = {_shown(name, value)}" for name, value in ramp.last.items())
     ways = ", ".join(
         f"{k} from {ramp.first[k]:.6g} to {value:.6g} {_unit(k)}".rstrip()
         for k, value in ramp.last.items()
     )
     return f"{ways} in {steps} steps over {ramp.duration:.6g} s"
+
+
+def _shown(name: str, value: float | str) -> str:
+    """A value with its unit."""
+    return value if isinstance(value, str) else f"{value:.6g} {_unit(name)}".rstrip()
 
 
 def _unit(name: str) -> str:

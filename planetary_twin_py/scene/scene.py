@@ -14,6 +14,7 @@ from .drive import Drive
 from .errors import PER_PLANET, Errors
 from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import FIELDS_ALONE, Gearset
+from .live import live_values
 from .losses import Losses
 from .lubrication import Lubrication
 from .mesh import Mesh, TipReliefs
@@ -249,6 +250,11 @@ class Scene(Section):
             name: tunable.within(getattr(self.drive, _LIMITS[name])) if name in _LIMITS else tunable
             for name, tunable in TUNABLES.items()
         }
+
+    @property
+    def live_values(self) -> dict[str, Any]:
+        """Values that may change while this scene runs, by the arguments of `Twin.set`."""
+        return live_values(self.operating_point, self.drive.ports)
 
     @property
     def field_names(self) -> Iterator[str]:

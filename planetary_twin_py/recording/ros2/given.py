@@ -51,5 +51,5 @@ def fields_of(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str,
 
 
 def causality(values: Mapping[str, float]) -> dict[str, Causality]:
-    """Ports at which values are given, as arguments of `Twin.set_ports`."""
+    """Ports at which values are given, by the fields of `Ports`."""
     return {side: CAUSALITIES[quantity] for side, quantity in (name.split("_") for name in values)}

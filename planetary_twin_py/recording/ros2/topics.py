@@ -7,7 +7,7 @@ AXES_WAVEFORM = "axes_waveform"  # likewise
 JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"
-GIVEN = "applied_commands"  # only of a twin whose ports are given
+GIVEN = "applied_commands"  # not of a quasi-static twin
 DESCRIPTION = "robot_description"
 REAL_TIME = "simulation: real time"  # a report in /diagnostics
 

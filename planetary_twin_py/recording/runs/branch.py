@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from ...commands import CAUSALITIES, Commands
 from ...integrators.clock import TICKS
-from ...scene import TUNABLES, Scene, SceneError
+from ...scene import Scene, SceneError
+from ...scene.live import LIVE, PORT_FIELDS
 from .origin import Origin, makers_here
 from .schedule import Change, Interval, RecordedRun, nanoseconds
 
 LONGEST = 3600.0  # [s] of a run that is longer than the recording
+NO_COMMANDS = Commands(np.empty(0))
 
 
 @dataclass(frozen=True)
@@ -22,8 +26,9 @@ class Branch:
     """Changes to a recorded run.
 
     `settings` apply from `start` [s] to the end and override recorded changes of the same names;
-    changes of other names apply as recorded. Names are those of `Scene.replace`; names outside the
-    operating point require a start of 0. The run has the length of the recorded one unless it has a
+    changes of other names apply as recorded. Names are those of `Scene.replace`; names other than
+    those of the operating point and the ports require a start of 0. Recorded commands at a shaft
+    whose port is set have no effect. The run has the length of the recorded one unless it has a
     `duration` [s]; after the recorded end nothing changes.
     """
 
@@ -35,7 +40,8 @@ class Branch:
     commands: Commands | None = None
     """Commands at the ports, in place of all recorded ones of the same shafts.
 
-    A command acts from the start of the first interval at or after its time.
+    A command acts from the start of the first interval at or after its time. The ports are those
+    that the commands require, from the start of the branch on.
     """
 
 
@@ -57,38 +63,41 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     if not 0.0 <= branch.start <= last:
         raise ValueError(f"from = {branch.start:g} s: must be within 0 and {last:g} s")
     begins = next(i.begin for i in intervals if i.begin >= round(branch.start * TICKS)) / TICKS
-    values, scene = _values(_with_ports(run.origin.scene, branch), branch)
+    values, scene = _values(run.origin.scene, branch)
     before = [change for change in run.changes if change.time < begins]
     after = [change for change in run.changes if change.time >= begins]
     if not after or after[0].time > begins:
-        in_force = before[-1].values if before else scene.operating_point.model_dump()
+        in_force = before[-1].values if before else scene.live_values
         after.insert(0, Change(0, _stamp_at(run, intervals, begins), begins, in_force))
     after = [change._replace(values=change.values | values) for change in after]
     after = after[:1] + [now for last, now in pairwise(after) if now.values != last.values]
     for change in after:
         scene.replace(**change.values)
     origin = Origin(scene, run.origin.begins, makers_here())
-    given = run.given
-    if branch.commands is not None:
-        later = [interval for interval in intervals if interval.begin / TICKS >= begins]
-        given = given | commanded(given, later, branch.commands)
+    later = [interval for interval in intervals if interval.begin / TICKS >= begins]
+    sides = {PORT_FIELDS[name] for name in values if name in PORT_FIELDS}
+    given = run.given | commanded(run.given, later, sides, branch.commands or NO_COMMANDS)
+    given = {stamp: each for stamp, each in given.items() if each}
     return begins, RecordedRun(origin, intervals, before + after, given)
 
 
 def commanded(
-    recorded: Mapping[int, Mapping[str, float]], intervals: list[Interval], commands: Commands
+    recorded: Mapping[int, Mapping[str, float]],
+    intervals: list[Interval],
+    replaced: Set[str],
+    commands: Commands,
 ) -> dict[int, dict[str, float]]:
-    """Commands of intervals, where a course replaces those of its shafts.
+    """Commands of intervals, where a course replaces those of some shafts.
 
     Args:
         recorded: recorded commands, by the stamps of their intervals [ns].
         intervals: intervals in which the course acts.
+        replaced: the shafts, "input" and "output".
         commands: the course.
 
     Returns:
         Commands by stamp [ns].
     """
-    replaced = {name.split("_")[0] for name in commands.names}
     waiting, given = deque(commands), dict[int, dict[str, float]]()
     for interval in intervals:
         kept = recorded.get(interval.stamp, {}).items()
@@ -99,38 +108,29 @@ def commanded(
     return given
 
 
-def _with_ports(scene: Scene, branch: Branch) -> Scene:
-    """The scene with the ports that the commands of a branch require."""
-    if branch.commands is None:
-        return scene
+def _ports(commands: Commands) -> dict[str, str]:
+    """The ports that commands require."""
     ports = dict[str, str]()
-    for name in branch.commands.names:
+    for name in commands.names:
         side, quantity = name.split("_")
-        port = ports.setdefault(side, CAUSALITIES[quantity])
+        port = ports.setdefault(f"drive.{side}.port", CAUSALITIES[quantity])
         if port != CAUSALITIES[quantity]:
             raise ValueError(f"commands: {name}: torque and motion cannot both be given at {side}")
-    changes = {
-        f"drive.{side}.port": port
-        for side, port in ports.items()
-        if getattr(scene.drive.ports, side) != port
-    }
-    if changes and branch.start > 0.0:
-        name, port = next(iter(changes.items()))
-        raise SceneError(f"{name} = {port!r}, which the commands require, requires from = 0")
-    return scene.replace(**changes)
+    return ports
 
 
-def _values(scene: Scene, branch: Branch) -> tuple[dict[str, float], Scene]:
-    """Values of the operating point after the branch, and the scene of the run."""
-    changed = scene.replace(**branch.settings)
-    tuned = [name for name in branch.settings if name in TUNABLES]
-    others = [name for name in branch.settings if name not in TUNABLES]
+def _values(scene: Scene, branch: Branch) -> tuple[dict[str, Any], Scene]:
+    """Operating point and ports after the branch as far as it sets them, and the run's scene."""
+    required = {} if branch.commands is None else _ports(branch.commands)
+    settings = {**required, **branch.settings}
+    changed = scene.replace(**settings)
+    others = [name for name in settings if name not in LIVE]
     if others and branch.start > 0.0:
         raise SceneError(
             f"{others[0]}: changes the model, which requires from = 0; a later change is possible "
-            f"for {', '.join(TUNABLES)}"
+            f"for {', '.join(LIVE)}"
         )
-    values = {name: getattr(changed.operating_point, name) for name in tuned}
+    values = {name: value for name, value in changed.live_values.items() if name in settings}
     return values, changed if branch.start == 0.0 else scene
 
 

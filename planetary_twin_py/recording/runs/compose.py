@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from ...robot import robot_description
-from ...scene import TUNABLES, OperatingPoint
 from ...window import Window
 from ..container.records import RecordingError
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
@@ -18,6 +17,7 @@ from ..ros2.definitions import KINDS
 from ..ros2.fields import joint_fields, state_fields, waveform_fields
 from ..ros2.given import FIELDS, fields_of
 from ..ros2.metadata import Topic
+from ..ros2.point import point_fields
 from ..ros2.topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -57,7 +57,7 @@ class Composer:
             if topic.name in known:
                 self._add(known[topic.name], topic)
         self._counts = dict.fromkeys(self._kinds, 0)
-        self._last: OperatingPoint | None = None
+        self._last: Mapping[str, Any] | None = None
 
     def begin(self, origin: Origin) -> None:
         """Write the origin and the robot description at the start of a run."""
@@ -66,11 +66,16 @@ class Composer:
             text = robot_description(origin.scene.gearset, self._frame)
             self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
 
-    def point(self, point: OperatingPoint, time: float, stamp: int) -> None:
-        """Write an operating point that applies from `time` [s], ROS time `stamp` [ns]."""
-        last, self._last = self._last, point
-        changed = [n for n in TUNABLES if last is None or getattr(point, n) != getattr(last, n)]
-        row = {"simulated_time": time, "changed": ",".join(changed), **point.model_dump()}
+    def point(self, values: Mapping[str, Any], time: float, stamp: int) -> None:
+        """Write operating point and ports.
+
+        Args:
+            values: all that may change, by the arguments of `Twin.set`.
+            time: simulated time from which they apply [s].
+            stamp: the same in ROS time [ns].
+        """
+        row = {"simulated_time": time, **point_fields(values, self._last)}
+        self._last = values
         self.write(POINT, row, stamp, stamp)
 
     def window(self, window: Window, stamp: int, first: int) -> None:

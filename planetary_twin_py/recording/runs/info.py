@@ -14,15 +14,14 @@ import numpy as np
 from mcap.records import Channel, Message, Metadata, Schema
 from numpy.typing import NDArray
 
-from ...scene import TUNABLES
 from ..container.message_index import UNSOUND, Index
 from ..container.records import files_of
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
 from ..ros2.no_run import no_run_yet
+from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import POINT, REAL_TIME, STATE, is_status
-from ..ros2.typestore import is_recorded
 from .schedule import stamp_of
 
 REPORT = "/diagnostics"
@@ -64,11 +63,11 @@ class TopicInfo:
 
 
 class Changed(NamedTuple):
-    """Changed values of an operating point, and their simulated time [s]."""
+    """Changed values of operating point and ports, and their simulated time [s]."""
 
     time: float
     namespace: str
-    values: Mapping[str, float]
+    values: Mapping[str, Any]
 
 
 @dataclass
@@ -139,7 +138,7 @@ class _Collector:
 
     def __init__(self, info: Info) -> None:
         self.info = info
-        self._points: dict[str, dict[str, float]] = {}
+        self._points: dict[str, dict[str, Any]] = {}
         self._states: dict[str, Any] = {}
         self._missing: Counter[str] = Counter()
         self._repeats = Repeats()
@@ -245,8 +244,7 @@ class _Collector:
             self.info.report |= _figures(message)
         else:
             last = self._points.get(topic)
-            known = [name for name in TUNABLES if is_recorded(message, name)]
-            values = {name: getattr(message, name) for name in known}
+            values = values_of_point(message)
             new = {k: v for k, v in values.items() if last is None or v != last[k]}
             self._points[topic] = values
             namespace = topic.removesuffix(f"/{POINT}")

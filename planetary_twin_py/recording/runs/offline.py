@@ -75,6 +75,5 @@ def _run(plan: Plan) -> RecordedRun:
         Interval(n + 1, begins + nanoseconds(to), n * length, to, plan.tolerance, plan.sample_rate)
         for n, to in enumerate(ends)
     ]
-    point = plan.scene.operating_point.model_dump()
-    change = Change(1, begins, 0.0, point)
+    change = Change(1, begins, 0.0, plan.scene.live_values)
     return RecordedRun(Origin(plan.scene, begins, makers_here()), intervals, [change])

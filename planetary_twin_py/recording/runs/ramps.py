@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
+from ...scene.live import PORT_FIELDS
 from .info import Changed
 
 LONGEST_STEP = 0.11  # [s] of simulated time between two steps; intervals are up to a tenth
@@ -18,9 +20,9 @@ class Ramp:
 
     times: list[float]
     """Times of the changes [s]."""
-    first: Mapping[str, float]
+    first: Mapping[str, Any]
     """Values of the changed fields before the ramp, as far as they are known."""
-    last: Mapping[str, float]
+    last: Mapping[str, Any]
 
     @property
     def duration(self) -> float:
@@ -43,10 +45,10 @@ class Ramp:
         before = self.times[-1] - self.times[-2] if len(self.times) > 1 else gap
         return 0.0 < gap < LONGEST_STEP and math.isclose(gap, before, abs_tol=_ROUNDING)
 
-    def _continues(self, values: Mapping[str, float]) -> bool:
-        """Whether `values` continue in the direction of the previous changes."""
+    def _continues(self, values: Mapping[str, Any]) -> bool:
+        """Whether `values` are numbers that continue in the direction of the previous changes."""
         last = self.last
-        return all(
+        return not PORT_FIELDS.keys() & values.keys() and all(
             (values[k] - last[k]) * (last[k] - first) > 0.0 for k, first in self.first.items()
         )
 
@@ -55,7 +57,7 @@ def ramps(changes: Iterable[Changed]) -> list[Ramp]:
     """Group `changes`, in order, into ramps."""
     found: list[Ramp] = []
     newest: dict[str, Ramp] = {}
-    values: dict[str, dict[str, float]] = {}
+    values: dict[str, dict[str, Any]] = {}
     for change in changes:
         known = values.setdefault(change.namespace, {})
         under_way = newest.get(change.namespace)

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 from ...integrators.clock import TICKS
 from ...twin import Twin
 from ...window import Window
-from ..ros2.given import causality
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
 from .schedule import Change, Interval, RecordedRun, stamp_of, without_gaps
 
@@ -72,17 +71,15 @@ def steps(run: RecordedRun) -> Iterator[Step]:
     """Simulate the intervals of a run in order."""
     first = run.intervals[0]
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
-    waiting, of_scene = deque(run.changes), run.origin.scene.drive.ports._asdict()
+    waiting = deque(run.changes)
     for interval in run.intervals:
         changes = []
         while waiting and waiting[0].time <= twin.time:
             changes.append(waiting.popleft())
             twin.set(**changes[-1].values)
-        given = run.given.get(interval.stamp, {})
-        if given:  # a brake changes the ports; in the order of the nodes
-            twin.set_ports(**(of_scene | causality(given)))
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
+        given = run.given.get(interval.stamp, {})
         window = twin.advance((interval.end - interval.begin) / TICKS, **given)
         yield Step(interval, changes, window)
 

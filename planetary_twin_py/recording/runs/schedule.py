@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -12,11 +13,12 @@ from typing import Any, NamedTuple
 
 from ...integrators.clock import TICKS
 from ...printable import one_line
-from ...scene import TUNABLES
+from ...scene.live import PORT_FIELDS
 from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
-from ..ros2.given import joint_names, values_of
+from ..ros2.given import causality, joint_names, values_of
 from ..ros2.no_run import no_run_yet
+from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
@@ -41,12 +43,12 @@ class Interval(NamedTuple):
 
 
 class Change(NamedTuple):
-    """An operating point, and the simulated time [s] from which it applies."""
+    """Operating point and ports, and the simulated time [s] from which they apply."""
 
     number: int  # of its message
     stamp: int  # [ns]
     time: float
-    values: dict[str, float]
+    values: dict[str, Any]  # by the arguments of `Twin.set`
 
 
 @dataclass
@@ -161,7 +163,7 @@ class _Collector:
 
     def change(self, message: Any) -> None:
         # What was no parameter of the version that recorded stayed as its scene has it.
-        values = {name: getattr(message, name) for name in TUNABLES if is_recorded(message, name)}
+        values = values_of_point(message)
         change = Change(message.sequence, stamp_of(message), message.simulated_time, values)
         self._changes.append(change)
 
@@ -193,6 +195,8 @@ class _Collector:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
         self._share_changes(runs, remarks)
         self._share_commands(runs)
+        for run in runs:
+            run.changes = _with_ports(run)
         runs = [run for run in runs if run.intervals]
         if not runs:
             found = {ORIGIN: len(self._origins), STATE: len(self._intervals)}
@@ -224,18 +228,25 @@ class _Collector:
 
     def _share_commands(self, runs: list[RecordedRun]) -> None:
         """Assign commands to runs by their stamps, which are those of the intervals."""
-        begins = [run.origin.begins for run in runs]
         for stamp, message in self._commands:
-            if place := bisect_right(begins, stamp):
-                run = runs[place - 1]
+            if run := self._run_at(stamp, runs):
                 run.given[stamp] = values_of(message, joint_names(run.origin.scene))
+
+    def _run_at(self, stamp: int, runs: list[RecordedRun]) -> RecordedRun | None:
+        """The run in progress at `stamp` [ns]; None after an origin that another one replaced.
+
+        A twin that is paused at time zero publishes its origin again when it goes on.
+        """
+        begins = sorted(self._origins)
+        place = bisect_right(begins, stamp)
+        found = (run for run in runs if place and run.origin.begins == begins[place - 1])
+        return next(found, None)
 
     def _share_changes(self, runs: list[RecordedRun], remarks: list[str]) -> None:
         """Assign the changes to runs by their stamps, which never decrease."""
-        begins = [run.origin.begins for run in runs]
         for change in self._changes:
-            if place := bisect_right(begins, change.stamp):
-                runs[place - 1].changes.append(change)
+            if run := self._run_at(change.stamp, runs):
+                run.changes.append(change)
         for before, after in pairwise(self._changes):
             if after.number != before.number + 1:
                 remarks.append(
@@ -243,6 +254,30 @@ class _Collector:
                     f"after {before.time:g} s, that run cannot be simulated again"
                 )
                 _cut(runs, before, after)
+
+
+def _with_ports(run: RecordedRun) -> list[Change]:
+    """Changes of a run, with those of its ports.
+
+    Earlier versions did not record ports. Only a brake changed them, and an interval from which on
+    they differed has commands at all given ports.
+    """
+    if not run.given or any(PORT_FIELDS.keys() & change.values.keys() for change in run.changes):
+        return run.changes
+    waiting, found = deque(run.changes), list[Change]()
+    before = of_scene = run.origin.scene.drive.ports
+    stamp = run.origin.begins
+    for interval in run.intervals:
+        begin = interval.begin / TICKS
+        while waiting and waiting[0].time <= begin:
+            found.append(waiting.popleft())
+        given = run.given.get(interval.stamp)
+        ports = of_scene._replace(**causality(given)) if given else before
+        if ports != before:
+            values = {name: getattr(ports, side) for name, side in PORT_FIELDS.items()}
+            found.append(Change(0, stamp, begin, (found[-1].values if found else {}) | values))
+        before, stamp = ports, interval.stamp
+    return [*found, *waiting]
 
 
 def _or(value: float, default: float) -> float:

@@ -14,7 +14,7 @@ from ..ros2.bag import BagWriter
 from ..ros2.definitions import OF_AXES, OF_PORTS, topics_of
 from ..ros2.metadata import Topic
 from ..ros2.tape import Tape
-from ..ros2.topics import STATE
+from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
 from .compose import Composer
 from .origin import Measured
@@ -88,14 +88,17 @@ def resimulate(
 
 
 def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:
-    """Topics of a recording, and those that a changed scene or commands have beside them."""
+    """Topics of a recording, and those that a changed scene or commands have beside them.
+
+    The operating point is written as this version does: earlier ones did not record ports.
+    """
     recorded = Tape(path).topics
     moving, driven = run.origin.scene.moving_axes, bool(run.given)
+    own = {topic.name: topic for topic in topics_of(namespace, moving, driven)}
     kinds = (OF_AXES if moving else {}) | (OF_PORTS if driven else {})
-    names = {f"{namespace}/{name}" for name in kinds}
-    topics = topics_of(namespace, moving, driven)
-    added = {topic.name: topic for topic in topics if topic.name in names}
-    return list((added | recorded).values())
+    added = {name: own[name] for name in (f"{namespace}/{kind}" for kind in kinds)}
+    point = f"{namespace}/{POINT}"
+    return list((added | recorded | {point: own[point]}).values())
 
 
 def _chosen(runs: list[RecordedRun], number: int | None, remarks: list[str]) -> RecordedRun:

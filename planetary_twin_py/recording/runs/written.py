@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...integrators.clock import TICKS
-from ...scene import OperatingPoint
 from .compose import Composer
 from .resimulation import steps
 from .schedule import Interval, RecordedRun, nanoseconds
@@ -26,10 +25,11 @@ def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
     """
     composer.begin(run.origin)
     stamp = run.origin.begins
-    scene = run.origin.scene.operating_point.model_dump()
+    values = run.origin.scene.live_values
     for interval, changes, window in steps(run):
         for change in changes:
-            composer.point(OperatingPoint(**scene | change.values), change.time, change.stamp)
+            values = values | change.values
+            composer.point(values, change.time, change.stamp)
         first = _stamp_within(interval, stamp, window.waveform.time)
         composer.window(window, interval.stamp, first)
         stamp = interval.stamp

@@ -106,7 +106,7 @@ def _compose(
     for part in points:
         begin = part.first * length
         stamp = origin.begins + nanoseconds(begin)
-        composer.point(part.scene.operating_point, begin / TICKS, stamp)
+        composer.point(part.scene.live_values, begin / TICKS, stamp)
         for k in range(part.first, part.last):
             end = (k + 1) * length
             stamp = origin.begins + nanoseconds(end)

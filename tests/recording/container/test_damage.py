@@ -41,7 +41,7 @@ def sound(tmp_path_factory):
     twin = pt.Twin(pt.load_scene("paper"), 10_000.0, 1e-2)
     bag.attach("scene.yaml", SCENE.encode(), "application/yaml")
     composer.begin(Origin(twin.scene, START_NS, makers_here()))
-    composer.point(twin.operating_point, 0.0, START_NS)
+    composer.point(twin.log[-1].values, 0.0, START_NS)
     for number in range(1, 11):
         window = twin.advance(0.01)
         composer.window(window, START_NS + round(window.end * 1e9), 0)

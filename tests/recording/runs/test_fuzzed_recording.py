@@ -47,7 +47,7 @@ def sound(tmp_path_factory):
     twin = pt.Twin(pt.load_scene("paper"), 1000.0, 1e-2)
     bag.attach("scene.yaml", b"base: paper\n", "application/yaml")
     composer.begin(Origin(twin.scene, START_NS, makers_here()))
-    composer.point(twin.operating_point, 0.0, START_NS)
+    composer.point(twin.log[-1].values, 0.0, START_NS)
     for number in range(1, 5):
         window = twin.advance(0.01)
         first = START_NS + round(window.waveform.time[0] * 1e9)

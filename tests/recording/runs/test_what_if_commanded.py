@@ -91,12 +91,31 @@ def test_a_shaft_may_follow_positions_where_its_torque_was_recorded(driven, tmp_
     assert verify(made.file.parent, NAMESPACE).identical
 
 
+def test_a_port_changes_within_the_run_and_commands_for_the_one_before_have_no_effect(
+    driven, tmp_path
+):
+    course = pt.Commands(np.array([0.1, 0.15]), output_speed=[-44.88, -44.0])
+    branch = Branch({"drive.input.port": "machine", "input_speed": 100.0}, 0.1, commands=course)
+    made = resimulate(driven, NAMESPACE, branch, tmp_path / "bag")
+    recording, before = read_recording(made.file), read_recording(driven)
+    assert recording.state["ring_speed"][-4:] == pytest.approx(-44.0, rel=0.02)
+    assert np.array_equal(recording.state["power_loss"][:10], before.state["power_loss"][:10])
+    assert list(recording.operating_point["output_port"]) == ["torque", "motion"]
+    assert list(recording.operating_point["input_port"]) == ["torque", "machine"]
+    assert all("input_torque" not in each for each in commands_of(made.file.parent)[10:])
+    assert verify(made.file.parent, NAMESPACE).identical
+
+
 @pytest.mark.parametrize(
     ("branch", "message"),
     [
         (
-            Branch({}, 0.05, commands=pt.Commands(np.zeros(1), output_speed=np.zeros(1))),
-            "drive.output.port = 'motion', which the commands require, requires from = 0",
+            Branch({"drive.output.port": "pedal"}, 0.05),
+            "drive.output.port = 'pedal': must be 'machine', 'torque' or 'motion'",
+        ),
+        (
+            Branch({"drive.output.inertia": 1.0}, 0.05),
+            "drive.output.inertia: changes the model, which requires from = 0",
         ),
         (
             Branch({}, commands=pt.Commands(np.zeros(1), np.zeros(1), None, np.zeros(1))),

@@ -22,11 +22,11 @@ class CommandQueue:
     applies values and returns the instant [s].
     """
 
-    def __init__(self, change: Callable[[Mapping[str, float]], float]) -> None:
+    def __init__(self, change: Callable[[Mapping[str, Any]], float]) -> None:
         self._change = change
         self._queue: queue.SimpleQueue[tuple[Command, Future[float]]] = queue.SimpleQueue()
         self._lock = threading.Lock()
-        self._gathering: tuple[dict[str, float], Future[float]] | None = None
+        self._gathering: tuple[dict[str, Any], Future[float]] | None = None
 
     def put(self, command: Command) -> Future[float]:
         """Append `command` to the queue."""
@@ -34,11 +34,11 @@ class CommandQueue:
             self._gathering = None
             return self._append(command)
 
-    def change(self, values: Mapping[str, float]) -> Future[float]:
+    def change(self, values: Mapping[str, Any]) -> Future[float]:
         """Append a change to `values`, or merge it with the change that was appended last."""
         with self._lock:
             if self._gathering is None:
-                gathered: dict[str, float] = {}
+                gathered: dict[str, Any] = {}
                 self._gathering = gathered, self._append(lambda: self._set(gathered))
             self._gathering[0].update(values)
             return self._gathering[1]
@@ -80,7 +80,7 @@ class CommandQueue:
         self._queue.put((command, future))
         return future
 
-    def _set(self, gathered: dict[str, float]) -> float:
+    def _set(self, gathered: dict[str, Any]) -> float:
         with self._lock:
             if self._gathering is not None and self._gathering[0] is gathered:
                 self._gathering = None

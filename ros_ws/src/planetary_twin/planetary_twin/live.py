@@ -7,14 +7,17 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from typing import Any
 
 from planetary_twin_py import Twin
 from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.runaway import RunawayError
+from planetary_twin_py.scene.live import PORT_FIELDS
+from planetary_twin_py.twin import Change
 
 from .command_queue import CommandQueue
 from .hold import Hold
-from .live_interface import Given, Listener, Progress, State, nothing_given
+from .live_interface import Listener, PortCommands, Progress, State
 from .pacing import Pace
 from .ramps import Ramps
 
@@ -31,8 +34,7 @@ class LiveTwin:
     `quality` chooses tolerance and sample rate; any thread may replace it at any time. Commands
     are executed between two intervals; their futures return the simulated instant [s].
 
-    `given` returns the commands at the ports for the next interval [s] of a twin, as arguments of
-    `Twin.advance`; for a step of a paused twin, the interval is 0.
+    `port_commands` are asked for the commands at the ports before each interval.
 
     Above real time and in steps, the twin waits for its recorder. At real time or below, it does
     not.
@@ -45,10 +47,10 @@ class LiveTwin:
         rate_factor: float,
         quality: QualityControl,
         listener: Listener,
-        given: Given = nothing_given,
+        port_commands: PortCommands,
     ) -> None:
         self._twin = twin
-        self._given = given
+        self._port_commands = port_commands
         self._interval = interval
         self._stop = threading.Event()
         self._pace = Pace(interval / rate_factor if rate_factor else 0.0, self._stop.wait)
@@ -60,7 +62,9 @@ class LiveTwin:
         self._paused = False
         self._failure = ""  # why the twin is stopped until a restart
         self._halted = True  # as of the last interval
-        self._unannounced = True  # the operating point in force has not been published
+        self._begin = twin.time
+        self._first = self._read = len(twin.log) - 1  # in the log: first and next to be published
+        self._due: list[Change] = []  # read, but not published
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
         self._ran = self._lasted = 0.0  # see `Progress`
@@ -78,8 +82,8 @@ class LiveTwin:
         self._stop.set()
         self._thread.join()
 
-    def submit(self, values: Mapping[str, float]) -> Future[float]:
-        """Set `values` of the operating point."""
+    def submit(self, values: Mapping[str, Any]) -> Future[float]:
+        """Set `values` of the operating point and the ports, by the arguments of `Twin.set`."""
         return self._commands.change(values)
 
     def ramp(self, values: Mapping[str, float], duration: float) -> Future[float]:
@@ -114,7 +118,7 @@ class LiveTwin:
                 answers = self._commands.execute(self._patience())
                 was_halted, self._halted = self._halted, self._must_halt()
                 if was_halted and not self._halted:
-                    self._listener.resumed(self._twin)
+                    self._resume()
                     self._pace.start()
                     self._mark = time.monotonic()
                 running = not (self._halted or self._hold.active)
@@ -135,18 +139,38 @@ class LiveTwin:
         finally:
             self._commands.refuse("the simulation has stopped")
 
+    def _resume(self) -> None:
+        """Let time go on; at time zero, the run has a new origin, which all changes follow."""
+        self._listener.resumed(self._twin)
+        if self._twin.time == 0.0:
+            self._first = self._read = 0
+            self._due.clear()
+
     def _announce(self) -> None:
-        """Publish the operating point once for each instant at which it changes."""
-        if self._unannounced and self._listener.ready():
-            self._unannounced = False
-            if self._halted:
-                self._listener.resumed(self._twin)
-            self._listener.changed(self._twin.operating_point, self._twin.time)
+        """Publish the changes of operating point and ports that the log of the twin has."""
+        self._read_log()
+        if not self._due or not self._listener.ready():
+            return
+        if self._halted:
+            self._resume()
+            self._read_log()
+        for change in self._due:
+            self._listener.changed(change._replace(time=max(change.time, self._begin)))
+        self._due.clear()
+
+    def _read_log(self) -> None:
+        """Read new changes, but those of tolerance and sample rate, which each state has."""
+        log = self._twin.log
+        for place in range(self._read, len(log)):
+            if place == self._first or log[place].values != log[place - 1].values:
+                self._due.append(log[place])
+        self._read = len(log)
 
     def _run_on(self) -> bool:
         """Advance by an interval under the newest commands, or without them if it refuses them."""
         try:
-            given = self._given(self._twin, self._interval)
+            given = self._port_commands.given(self._twin, self._interval)
+            self._announce()  # a brake changes the ports
             return self._advance(self._interval, self._pace.wait, given)
         except ValueError as refusal:
             self._listener.refused(f"a command has no effect: {refusal}")
@@ -189,15 +213,16 @@ class LiveTwin:
             instant = twin.set_sample_rate(setting.sample_rate)
             self._listener.retuned(instant, before, quality)
 
-    def _set(self, values: Mapping[str, float]) -> float:
+    def _set(self, values: Mapping[str, Any]) -> float:
         self._ramps.leave(values)
         return self._change(values)
 
-    def _change(self, values: Mapping[str, float]) -> float:
+    def _change(self, values: Mapping[str, Any]) -> float:
         self._refuse_after_failure()
+        if PORT_FIELDS.keys() & values.keys():  # what changes are the ports without a brake
+            self._port_commands.release(self._twin)
         instant = self._twin.set(**values)
         self.quality.relearn()
-        self._unannounced = True
         return instant
 
     def _ramp(self, values: Mapping[str, float], duration: float) -> float:
@@ -245,8 +270,8 @@ class LiveTwin:
                 f"commands: {len(commands)} steps of {duration:g} s: must be at most "
                 f"{LONGEST_STEP:g} s in total"
             )
-        self._listener.resumed(self._twin)
-        received = self._given(self._twin, 0.0)
+        self._resume()
+        received = self._port_commands.given(self._twin, 0.0)
         for n, command in enumerate(commands):
             try:
                 self._step(duration, command if n else {**received, **command})
@@ -280,7 +305,9 @@ class LiveTwin:
         twin.set_sample_rate(self._twin.sample_rate)
         self._twin = twin
         self._failure = ""
-        self._halted = self._unannounced = True
+        self._halted = True
+        self._begin, self._first, self._read = twin.time, 0, 0
+        self._due.clear()
         self.progress = self._present()
         return twin.time
 

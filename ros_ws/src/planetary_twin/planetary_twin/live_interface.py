@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
 from typing import NamedTuple, Protocol
 
-from planetary_twin_py import OperatingPoint, Twin, Window
+from planetary_twin_py import Twin, Window
 from planetary_twin_py.quality_control import QualityControl, Setting
+from planetary_twin_py.twin import Change
 
 
 class Listener(Protocol):
@@ -19,8 +19,8 @@ class Listener(Protocol):
     def publish(self) -> None:
         """Publish the prepared interval; its end is at the present wall time."""
 
-    def changed(self, point: OperatingPoint, instant: float) -> None:
-        """Receive the operating point that applies from simulated time `instant` [s]."""
+    def changed(self, change: Change) -> None:
+        """Receive operating point and ports, and the time from which they apply."""
 
     def refused(self, reason: str) -> None:
         """Receive the reason why a ramp ended early, or why a command had no effect."""
@@ -65,9 +65,15 @@ class Progress(NamedTuple):
     held: float = 0.0  # [s] wall time for which the twin has waited for its recorder
 
 
-Given = Callable[[Twin, float], dict[str, float]]
+class PortCommands(Protocol):
+    """Commands at the ports of a twin, called in its thread."""
 
+    def given(self, twin: Twin, interval: float) -> dict[str, float]:
+        """
+        Return the commands for the next `interval` [s], as arguments of `Twin.advance`.
 
-def nothing_given(twin: Twin, interval: float) -> dict[str, float]:
-    """Return no commands."""
-    return {}
+        For a step of a paused twin, the interval is 0.
+        """
+
+    def release(self, twin: Twin) -> None:
+        """End a brake, which has changed the ports."""

@@ -7,6 +7,8 @@ Stamps are set when a message is sent.
 from __future__ import annotations
 
 from array import array
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from builtin_interfaces.msg import Time
@@ -14,9 +16,11 @@ from numpy.typing import NDArray
 from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
-from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
+from planetary_twin_py import Scene, Window
 from planetary_twin_py.quantities import TRAIN
 from planetary_twin_py.recording.ros2.fields import MEMBERS, TURN, WAVES, mesh_field
+from planetary_twin_py.recording.ros2.point import point_fields
+from planetary_twin_py.twin import Change
 
 from .whole_turns import WholeTurns
 
@@ -138,19 +142,14 @@ class OperatingPointMessage:
     def __init__(self, frame: str) -> None:
         self.message = msg.OperatingPoint()
         self.message.header.frame_id = frame
-        self._last: OperatingPoint | None = None
+        self._last: Mapping[str, Any] | None = None
 
-    def fill(self, point: OperatingPoint, instant: float) -> msg.OperatingPoint:
-        """Return the message for `point`, which applies from simulated time `instant` [s]."""
-        message, last = self.message, self._last
+    def fill(self, change: Change) -> msg.OperatingPoint:
+        """Return the message for operating point and ports after `change`."""
+        message, values = self.message, change.values
         message.sequence += 1
-        message.simulated_time = instant
-        message.changed = ",".join(
-            name
-            for name in TUNABLES
-            if last is None or getattr(point, name) != getattr(last, name)
-        )
-        for name in TUNABLES:
-            setattr(message, name, float(getattr(point, name)))
-        self._last = point
+        message.simulated_time = change.time
+        for name, value in point_fields(values, self._last).items():
+            setattr(message, name, value)
+        self._last = values
         return message

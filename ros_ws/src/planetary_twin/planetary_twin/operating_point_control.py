@@ -14,7 +14,7 @@ import planetary_twin_py as pt
 from .live import LiveTwin
 from .parameters import brief
 from .ramps import LONGEST_RAMP
-from .simulation_parameters import TOLERANCE, tunables
+from .simulation_parameters import TOLERANCE, changing
 
 
 class RunningSimulation(Protocol):
@@ -55,7 +55,7 @@ class OperatingPointControl:
             return
         if any(p.name == TOLERANCE.name for p in parameters):
             self._simulation.renew_quality()
-        values = tunables(parameters)
+        values = changing(parameters)
         if not values:
             return
         before = self._submitted

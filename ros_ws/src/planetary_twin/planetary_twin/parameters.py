@@ -200,6 +200,16 @@ def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: st
     return _declare_number(node, tunable.name, default, descriptor)
 
 
+def declare_port(node: Declaring, name: str, side: str, default: str) -> None:
+    """Declare what acts on the shaft of `side`, which may change while the twin runs."""
+    descriptor = ParameterDescriptor(
+        description=f"what acts on the {side} shaft: machine, torque or motion",
+        additional_constraints="takes effect between two published intervals; operating_point "
+        "gives the instant",
+    )
+    _declare(node, name, default, descriptor)
+
+
 def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
     """
     Declare every field of a section of the scene as a read-only parameter below `prefix`.

@@ -16,6 +16,7 @@ from sensor_msgs.msg import JointState
 from planetary_twin_py import Scene, Twin
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
 from planetary_twin_py.recording.ros2.topics import status_name
+from planetary_twin_py.scene.drive import Causality, Ports
 
 COMMANDS = "simulation: commands"
 SILENCE = ("hold", "zero", "brake")
@@ -146,18 +147,28 @@ class ShaftCommands:
         """
         with self._lock:
             received, self._values = self._values, {}
+            self._watch(self._brake.ports(twin))
             silent = self._silent() if interval else {}
         if silent and self._silence == "brake":
             return self._brake.slow(twin, interval)
-        if not received and not silent:
-            return {}
-        released = self._brake.release(twin)
+        if received:
+            self._brake.release(twin)
         values = {name: value for own in received.values() for name, value in own.items()}
         given = self._taken(values, twin)
         if silent and self._silence == "zero":
             names = (f"{side}_{quantity}" for side in silent for quantity in ("torque", "speed"))
             given |= for_ports(dict.fromkeys(names, 0.0), twin)
-        return given | _present(twin, given) if released else given
+        return given
+
+    def release(self, twin: Twin) -> None:
+        """End a brake: restore the ports of `twin`."""
+        self._brake.release(twin)
+
+    def _watch(self, ports: Ports) -> None:
+        """Let no command be missing at a machine; a new port is watched from its first one on."""
+        for side, port in zip(SIDES, ports, strict=True):
+            if port == "machine":
+                self._received.pop(side, None)
 
     def _taken(self, values: dict[str, float], twin: Twin) -> dict[str, float]:
         """Return those `values` that the ports accept; count joints without an accepted value."""
@@ -170,42 +181,33 @@ class ShaftCommands:
         return taken if self._continuous else nearest_turn(taken, twin)
 
 
-def _present(twin: Twin, given: dict[str, float]) -> dict[str, float]:
-    """Return the present values at ports without a `given` value, so that they are recorded."""
-    left = [side for side in SIDES if not any(name.startswith(side) for name in given)]
-    shown = twin.port_states
-    names = (f"{side}_{quantity}" for side in left for quantity in ("torque", "speed"))
-    return for_ports({name: getattr(shown, name) for name in names}, twin)
-
-
 class _Brake:
     """Brings the input shaft to rest at the slew rate of the drive, and holds it."""
 
     def __init__(self) -> None:
-        self._before: tuple[str, str] | None = None  # ports without the brake
+        self._before: tuple[Twin, Ports] | None = None  # braked twin, its ports without the brake
+
+    def ports(self, twin: Twin) -> Ports:
+        """Return the ports of `twin` without the brake."""
+        braked, ports = self._before or (None, None)
+        return ports if ports is not None and braked is twin else twin.ports
 
     def slow(self, twin: Twin, interval: float) -> dict[str, float]:
         """Return the speed that the input shaft has in the next `interval` [s]."""
-        if not twin.ports.given:
-            return {}
-        braked = ("motion", _braked(twin.ports.output))
-        if twin.ports != braked:  # also after a reset
-            self._before = twin.ports
-            twin.set_ports(*braked)
+        before = self.ports(twin)
+        twin.set_ports("motion", _braked(before.output))
+        self._before = twin, before
         speed = twin.port_states.input_speed
         less = twin.scene.drive.speed_control.slew_rate * interval
         slower = math.copysign(max(abs(speed) - less, 0.0), speed)
         return for_ports({"input_speed": slower, "output_torque": 0.0}, twin)
 
-    def release(self, twin: Twin) -> bool:
-        """Restore the ports from before the brake; return whether they change."""
-        before, self._before = self._before, None
-        if before is None or before == twin.ports:
-            return False
-        twin.set_ports(*before)
-        return True
+    def release(self, twin: Twin) -> None:
+        """Restore the ports from before the brake."""
+        twin.set_ports(*self.ports(twin))
+        self._before = None
 
 
-def _braked(port: str) -> str:
+def _braked(port: Causality) -> Causality:
     """Return the port of the output while the input is braked: a torque, which is zero."""
     return "torque" if port == "motion" else port

@@ -20,6 +20,7 @@ from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.recording.ros2.given import joint_names, values_of
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.runaway import RunawayError
+from planetary_twin_py.twin import Change
 
 from . import simulation_services
 from .accuracy_report import AccuracyReport
@@ -95,13 +96,14 @@ class Simulation(ManagedNode):
         """Run from the twin's present time, with the present parameters."""
         twin = self._running_twin()
         try:
-            twin.set(**self._given.point())
+            self._commands.release(twin)
+            twin.set(**self._given.live_values())
         except RunawayError as reason:
             raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
         given, quality = self._given, self._given.quality(twin)
         self._audience.begin()
         self._live = LiveTwin(
-            twin, 1.0 / given.rate, given.rate_factor, quality, self, self._commands.given
+            twin, 1.0 / given.rate, given.rate_factor, quality, self, self._commands
         )
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
@@ -144,9 +146,9 @@ class Simulation(ManagedNode):
         """Publish these messages at that time."""
         self._telemetry.publish()
 
-    def changed(self, point: pt.OperatingPoint, instant: float) -> None:
-        """Publish a new operating point."""
-        self._telemetry.announce(point, instant)
+    def changed(self, change: Change) -> None:
+        """Publish operating point and ports."""
+        self._telemetry.announce(change)
 
     def ready(self) -> bool:
         """Return whether ROS time is available and the node `wait_for` has subscribed."""
@@ -160,7 +162,7 @@ class Simulation(ManagedNode):
         """Map the twin's present time to the present ROS time."""
         self._telemetry.begin(twin.time)
         if twin.time == 0.0:
-            self._telemetry.originate(twin.scene)
+            self._telemetry.originate(twin.scene.replace(**twin.log[0].values))
 
     def refused(self, reason: str) -> None:
         """Warn of a ramp that ended before its final values, or of a command without effect."""
@@ -264,7 +266,7 @@ class Simulation(ManagedNode):
                 message.status.append(
                     dynamics_status(self._given.choice, point, self.get_namespace())
                 )
-            if self._given.scene.drive.ports.given:
+            if self._running_twin().ports.given:
                 message.status.append(self._commands.status(self.get_namespace()))
             return message
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
@@ -9,6 +11,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.dynamics_choice import AUTO
 from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 from planetary_twin_py.run import check_point
+from planetary_twin_py.scene.live import LIVE, PORT_FIELDS
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 from .audience import PATIENCE
@@ -18,6 +21,7 @@ from .parameters import (
     declare_bounded,
     declare_fixed,
     declare_geometry,
+    declare_port,
     declare_rate_factor,
     declare_tunable,
     number,
@@ -31,7 +35,8 @@ TOLERANCE = pt.Tunable(
     AUTOMATIC,
     TOLERANCES[1],
 )
-_SPEEDS = ("input_speed", "second_input_speed")
+# Changes after which the speed loop may not be stable.
+_CONTROLLED = ("input_speed", "second_input_speed", *PORT_FIELDS)
 _GEARSET = "gearset"
 _SETTINGS = (
     "frame_id",
@@ -59,8 +64,10 @@ class SimulationParameters:
     def __init__(self, node: ParameterNode) -> None:
         self._node = node
         given = node.given
-        self._chosen = {name: number(name, given[name]) for name in pt.TUNABLES if name in given}
-        """Quantities that have been set; they keep their values if the scene changes."""
+        self._chosen: dict[str, Any] = {
+            name: number(name, given[name]) for name in pt.TUNABLES if name in given
+        } | {name: given[name] for name in PORT_FIELDS if name in given}
+        """Quantities and ports that have been set; they keep their values if the scene changes."""
         name = declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
         self.scene = pt.load_scene(name)
         """The scene as loaded, at the operating point given at the start."""
@@ -103,13 +110,13 @@ class SimulationParameters:
         """Wall time of an interval [s]; its simulated time if the rate factor is 0."""
         return 1.0 / (self.rate * (self.rate_factor or 1.0))
 
-    def point(self) -> dict[str, float]:
-        """Return the operating point of the parameters."""
-        return {name: self._node.get_parameter(name).value for name in pt.TUNABLES}
+    def live_values(self) -> dict[str, Any]:
+        """Return operating point and ports of the parameters, by the arguments of `Twin.set`."""
+        return {name: self._node.get_parameter(name).value for name in LIVE}
 
     def scene_now(self) -> pt.Scene:
-        """Return the scene at that operating point."""
-        return self.scene.replace(**self.point())
+        """Return the scene at that operating point, with those ports."""
+        return self.scene.replace(**self.live_values())
 
     def pick_dynamics(self) -> None:
         """Pick the dynamics at the present operating point, if the scene leaves them open."""
@@ -130,19 +137,21 @@ class SimulationParameters:
         return QualityControl(settings, self._compute_share, self.period, begin)
 
     def _declare_scene(self) -> None:
-        """Declare the operating point of the scene and its geometry."""
+        """Declare operating point, ports and geometry of the scene."""
         for tunable in self.scene.tunables.values():
             own = getattr(self.scene.operating_point, tunable.name)
             declare_tunable(self._node, tunable, own, "operating_point")
+        for name, side in PORT_FIELDS.items():
+            declare_port(self._node, name, side, getattr(self.scene.drive.ports, side))
         declare_geometry(self._node, _GEARSET, self.scene.gearset)
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         values = {p.name: p.value for p in parameters}
         try:
             scene = pt.load_scene(values["scene"]) if "scene" in values else self.scene
-            changed = scene.replace(**self._chosen | tunables(parameters))
-            if "scene" in values or any(name in _SPEEDS for name in values):
-                check_point(scene, changed.operating_point)
+            changed = scene.replace(**self._chosen | changing(parameters))
+            if "scene" in values or any(name in _CONTROLLED for name in values):
+                check_point(changed, changed.operating_point)
             if TOLERANCE.name in values:
                 ladder_of(values[TOLERANCE.name])
             if "rate_factor" in values:
@@ -154,7 +163,7 @@ class SimulationParameters:
 
     def _follow(self, parameters: list[Parameter]) -> None:
         """Keep the values that were set, and change the scene if it was set."""
-        self._chosen |= tunables(parameters)
+        self._chosen |= changing(parameters)
         if any(p.name == "scene" for p in parameters):
             self._change_scene(self._wanted)
 
@@ -163,7 +172,7 @@ class SimulationParameters:
         node = self._node
         node.remove_on_set_parameters_callback(self._validate)  # the point is incomplete meanwhile
         geometry = [f"{_GEARSET}.{name}" for name in node.get_parameters_by_prefix(_GEARSET)]
-        for name in (*geometry, *pt.TUNABLES):
+        for name in (*geometry, *LIVE):
             node.undeclare_parameter(name)
         self.scene = scene.replace(**self._chosen)
         self._open = scene.dynamics == AUTO
@@ -218,6 +227,6 @@ def _declare_settings(node: ParameterNode) -> None:
     )
 
 
-def tunables(parameters: list[Parameter]) -> dict[str, float]:
-    """Return the values in `parameters` that belong to the operating point, by name."""
-    return {p.name: p.value for p in parameters if p.name in pt.TUNABLES}
+def changing(parameters: list[Parameter]) -> dict[str, Any]:
+    """Return the values in `parameters` of operating point and ports, as for `Twin.set`."""
+    return {p.name: p.value for p in parameters if p.name in LIVE}

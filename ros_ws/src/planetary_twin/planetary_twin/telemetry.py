@@ -15,11 +15,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from planetary_twin_py import OperatingPoint, Scene, Window
+from planetary_twin_py import Scene, Window
 from planetary_twin_py.recording.ros2.given import fields_of, joint_names
 from planetary_twin_py.recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN
 from planetary_twin_py.recording.runs.origin import Origin, makers_here
 from planetary_twin_py.robot import frames
+from planetary_twin_py.twin import Change
 
 from .axes_messages import AxesStateMessage, AxesWaveformMessage
 from .messages import (
@@ -97,8 +98,8 @@ class Telemetry:
         moving = given.scene.moving_axes
         self._axes = create(msg.AxesState, AXES_STATE, kept) if moving else None
         self._axes_waveform = create(msg.AxesWaveform, AXES_WAVEFORM, kept) if moving else None
-        driven = given.scene.drive.ports.given
-        self._given = create(JointState, GIVEN, kept) if driven else None
+        drivable = not given.scene.quasi_static  # ports may be given later
+        self._given = create(JointState, GIVEN, kept) if drivable else None
         self._shafts = joint_names(given.scene)
         publishers = (
             self._state,
@@ -219,10 +220,10 @@ class Telemetry:
                 set_stamp(time, stamp)
             self._send(publisher, message)
 
-    def announce(self, point: OperatingPoint, instant: float) -> None:
-        """Publish the operating point that applies from simulated time `instant` [s]."""
-        message = self._point_message.fill(point, instant)
-        set_stamp(message.header.stamp, self.stamp(instant))
+    def announce(self, change: Change) -> None:
+        """Publish operating point and ports after `change`."""
+        message = self._point_message.fill(change)
+        set_stamp(message.header.stamp, self.stamp(change.time))
         self._send(self._point, message)
 
     def diagnose(self, report: Callable[[Mapping[str, int]], DiagnosticArray]) -> DiagnosticArray:

@@ -1,0 +1,101 @@
+"""Changes of ports are recorded; those of versions that did not record them are recognised."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from rosbags.typesys import get_types_from_msg
+from twin_recording import NAMESPACE
+
+import planetary_twin_py as pt
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.definitions import topics_of
+from planetary_twin_py.recording.ros2.topics import POINT
+from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.compose import Composer
+from planetary_twin_py.recording.runs.info import read_info
+from planetary_twin_py.recording.runs.offline import Plan, _run
+from planetary_twin_py.recording.runs.schedule import Change, read_runs
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.recording.runs.what_if import resimulate
+from planetary_twin_py.recording.runs.written import write_run
+
+DRIVEN = {"drive.input.port": "torque", "drive.output.port": "torque"}
+BRAKED = {"drive.input.port": "motion"}
+BRAKE = range(6, 12)  # intervals with the brake
+
+
+def braked_run():
+    """A run whose torques are given, with a brake of the input in between."""
+    run = _run(Plan(pt.load_scene("paper").replace(**DRIVEN), 0.16, 10_000.0, 1e-3))
+    given, changes = {}, list(run.changes)
+    for n, interval in enumerate(run.intervals):
+        values = {"input_torque": 63.0 + n, "output_torque": 147.0 - n}
+        if n in BRAKE:
+            values = {"input_speed": 104.7 - 5.0 * (n - BRAKE[0]), "output_torque": 0.0}
+        given[interval.stamp] = values
+    for number, ports in ((BRAKE[0], DRIVEN | BRAKED), (BRAKE[-1] + 1, DRIVEN)):
+        begin, stamp = run.intervals[number].begin, run.intervals[number - 1].stamp
+        values = run.changes[0].values | ports
+        changes.append(Change(0, stamp, begin * 1e-12, values))
+    return replace(run, changes=changes, given=given)
+
+
+def written(run, folder, define=lambda text: text):
+    """The run as written by a version whose definition of OperatingPoint is altered."""
+    bag = BagWriter(folder)
+    topics = [
+        replace(topic, definition=define(topic.definition)) if topic.name.endswith(POINT) else topic
+        for topic in topics_of(NAMESPACE, driven=True)
+    ]
+    for _ in write_run(Composer(bag, topics, NAMESPACE), run):
+        pass
+    bag.close()
+    return bag.file
+
+
+def without_ports(text):
+    old = re.sub(r"^string +(input|output)_port .*\n", "", text, flags=re.MULTILINE)
+    kind = "planetary_twin_msgs/msg/OperatingPoint"
+    fields = [name for name, _ in get_types_from_msg(old, kind)[kind][1]]
+    assert fields[-1] == "torque_ripple"
+    return old
+
+
+@pytest.fixture(scope="module")
+def run():
+    return braked_run()
+
+
+def ports_of(file):
+    (run,) = read_runs(file, NAMESPACE, [])
+    return [
+        (
+            round(change.time, 9),
+            change.values["drive.input.port"],
+            change.values["drive.output.port"],
+        )
+        for change in run.changes
+        if "drive.input.port" in change.values
+    ]
+
+
+CHANGED = [(0.06, "motion", "torque"), (0.12, "torque", "torque")]
+
+
+def test_changes_of_ports_are_recorded_listed_and_verified(run, tmp_path):
+    file = written(run, tmp_path / "bag")
+    assert ports_of(file) == [(0.0, "torque", "torque"), *CHANGED]
+    assert verify(file, NAMESPACE).identical
+    listed = [change.values for change in read_info(file).changes[1:]]
+    assert listed == [{"drive.input.port": "motion"}, {"drive.input.port": "torque"}]
+
+
+def test_ports_that_were_not_recorded_follow_from_the_commands(run, tmp_path):
+    """An earlier version recorded a brake only by what was given."""
+    file = written(run, tmp_path / "bag", without_ports)
+    assert ports_of(file) == CHANGED
+    assert verify(file, NAMESPACE).identical
+    made = resimulate(file, NAMESPACE, Branch({"backlash": 4e-7}, 0.08), tmp_path / "branch")
+    assert ports_of(made.file)[-1] == CHANGED[-1]
+    assert verify(made.file, NAMESPACE).identical
