@@ -1,4 +1,4 @@
-"""A recording that was cut off before its run began says so, and what to do, in every command."""
+"""A recording that was cut off before its run says so, and what to do, in every command."""
 
 import random
 import struct
@@ -67,16 +67,16 @@ def says(command, file, *options):
 
 
 @pytest.fixture(scope="module")
-def unbegun():
+def whole():
     """Places at which the sample is cut before its run, and the first place after."""
     data = SAMPLE.read_bytes()
     return data, cuts(data, 20)
 
 
 @pytest.mark.slow
-def test_every_command_says_that_there_is_no_run_and_what_to_do(unbegun, tmp_path, monkeypatch):
+def test_every_command_says_that_there_is_no_run_and_what_to_do(whole, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    data, places = unbegun
+    data, places = whole
     file, tried = tmp_path / "cut.mcap", 0
     for place in places:
         file.write_bytes(data[:place])
@@ -105,8 +105,8 @@ def test_every_command_says_that_there_is_no_run_and_what_to_do(unbegun, tmp_pat
     assert tried > 20
 
 
-def test_a_recording_that_has_begun_says_nothing_of_it(unbegun, tmp_path):
-    data, places = unbegun
+def test_a_recording_with_its_run_says_nothing_of_it(whole, tmp_path):
+    data, places = whole
     file, tried = tmp_path / "cut.mcap", 0
     for place in places:
         file.write_bytes(data[:place])
