@@ -139,6 +139,7 @@ def test_ports_that_change_before_the_first_step_are_part_of_the_run(
         [shown.input_torque, shown.output_torque], rel=1e-9
     )
     assert peer.set(NODE, **{INPUT: "machine"}).successful
+    peer.until(lambda: points[-1].simulated_time > 0.0)
     assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05)).success
     logger.send_signal(signal.SIGINT)
     logger.communicate(timeout=20.0)
