@@ -45,7 +45,7 @@ def test_every_parameter_has_a_description_and_constraints(
             descriptor.name == name and descriptor.description and descriptor.additional_constraints
         ), name
     settable = {name for name, descriptor in own.items() if not descriptor.read_only}
-    assert settable == {*pt.TUNABLES, "tolerance"}
+    assert settable == {*pt.TUNABLES, "drive.input.port", "drive.output.port", "tolerance"}
     for name, tunable in pt.load_scene("paper").tunables.items():
         (limits,) = own[name].floating_point_range
         assert (limits.from_value, limits.to_value) == (tunable.minimum, tunable.maximum)

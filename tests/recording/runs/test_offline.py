@@ -30,7 +30,8 @@ def test_a_run_is_written_as_file_or_folder(tmp_path, name):
     assert [path.name for path in tmp_path.iterdir()] == [name]
     recording = read_recording(tmp_path / name)
     assert np.array_equal(recording.state.time, [0.01, 0.02, 0.03, 0.04, 0.045])
-    assert np.array_equal(recording.operating_point["changed"], [",".join(pt.TUNABLES)])
+    changed = ",".join([*pt.TUNABLES, "input_port", "output_port"])
+    assert np.array_equal(recording.operating_point["changed"], [changed])
     wave = pt.simulate(pt.load_scene("paper"), 0.045)
     assert np.array_equal(recording.waveform.dte, wave.dte.astype(np.float32))
     verdict = verify(tmp_path / name, NAMESPACE)
