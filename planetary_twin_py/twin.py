@@ -69,7 +69,10 @@ class Twin:
         keep_commands: bool = False,
     ) -> None:
         check_sample_rate(sample_rate)
+        self.start = scene
+        """Scene at the start of the run."""
         self.scene = scene
+        """Scene with the present ports."""
         self._names, self._mesh_names = body_names(scene), mesh_names(scene)
         self._core = library(scene)
         self._report = build_report(self._core, self._names, self._mesh_names)

@@ -13,7 +13,6 @@ from planetary_twin_py import Twin
 from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.runaway import RunawayError
 from planetary_twin_py.scene.live import PORT_FIELDS
-from planetary_twin_py.twin import Change
 
 from .command_queue import CommandQueue
 from .hold import Hold
@@ -62,9 +61,10 @@ class LiveTwin:
         self._paused = False
         self._failure = ""  # why the twin is stopped until a restart
         self._halted = True  # as of the last interval
-        self._begin = twin.time
-        self._first = self._read = len(twin.log) - 1  # in the log: first and next to be published
-        self._due: list[Change] = []  # read, but not published
+        # The last entry of the log; the report of real time drops those before it.
+        self._noted = twin.log[-1]._replace(time=twin.time)
+        self._due = [self._noted]  # changes that have not been published
+        self._at_zero = [self._noted]  # those at time zero, published again with each origin
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
         self._ran = self._lasted = 0.0  # see `Progress`
@@ -143,34 +143,38 @@ class LiveTwin:
         """Let time go on; at time zero, the run has a new origin, which all changes follow."""
         self._listener.resumed(self._twin)
         if self._twin.time == 0.0:
-            self._first = self._read = 0
-            self._due.clear()
+            self._due = list(self._at_zero)
 
     def _announce(self) -> None:
-        """Publish the changes of operating point and ports that the log of the twin has."""
-        self._read_log()
+        """Publish the changes of operating point and ports."""
         if not self._due or not self._listener.ready():
             return
         if self._halted:
             self._resume()
-            self._read_log()
         for change in self._due:
-            self._listener.changed(change._replace(time=max(change.time, self._begin)))
+            self._listener.changed(change)
         self._due.clear()
 
-    def _read_log(self) -> None:
-        """Read new changes, but those of tolerance and sample rate, which each state has."""
-        log = self._twin.log
-        for place in range(self._read, len(log)):
-            if place == self._first or log[place].values != log[place - 1].values:
-                self._due.append(log[place])
-        self._read = len(log)
+    def _note(self) -> None:
+        """Note the last change, but one of tolerance or sample rate, which each state has."""
+        before, self._noted = self._noted, self._twin.log[-1]
+        if self._noted is before or self._noted.values == before.values:
+            return
+        self._due.append(self._noted)
+        if self._twin.time == 0.0:
+            self._at_zero.append(self._noted)
+
+    def _given(self, interval: float) -> dict[str, float]:
+        """Return the commands for the next `interval` [s]; a brake changes the ports."""
+        given = self._port_commands.given(self._twin, interval)
+        self._note()
+        return given
 
     def _run_on(self) -> bool:
         """Advance by an interval under the newest commands, or without them if it refuses them."""
         try:
-            given = self._port_commands.given(self._twin, self._interval)
-            self._announce()  # a brake changes the ports
+            given = self._given(self._interval)
+            self._announce()
             return self._advance(self._interval, self._pace.wait, given)
         except ValueError as refusal:
             self._listener.refused(f"a command has no effect: {refusal}")
@@ -221,7 +225,9 @@ class LiveTwin:
         self._refuse_after_failure()
         if PORT_FIELDS.keys() & values.keys():  # what changes are the ports without a brake
             self._port_commands.release(self._twin)
+            self._note()
         instant = self._twin.set(**values)
+        self._note()
         self.quality.relearn()
         return instant
 
@@ -271,7 +277,7 @@ class LiveTwin:
                 f"{LONGEST_STEP:g} s in total"
             )
         self._resume()
-        received = self._port_commands.given(self._twin, 0.0)
+        received = self._given(0.0)
         for n, command in enumerate(commands):
             try:
                 self._step(duration, command if n else {**received, **command})
@@ -306,8 +312,8 @@ class LiveTwin:
         self._twin = twin
         self._failure = ""
         self._halted = True
-        self._begin, self._first, self._read = twin.time, 0, 0
-        self._due.clear()
+        self._noted = twin.log[-1]
+        self._due, self._at_zero = [self._noted], [self._noted]
         self.progress = self._present()
         return twin.time
 

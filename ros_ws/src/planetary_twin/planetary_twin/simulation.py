@@ -162,7 +162,7 @@ class Simulation(ManagedNode):
         """Map the twin's present time to the present ROS time."""
         self._telemetry.begin(twin.time)
         if twin.time == 0.0:
-            self._telemetry.originate(twin.scene.replace(**twin.log[0].values))
+            self._telemetry.originate(twin.start)
 
     def refused(self, reason: str) -> None:
         """Warn of a ramp that ended before its final values, or of a command without effect."""
