@@ -21,6 +21,7 @@ TOPICS = {
     "/tf",
     *(f"{TWIN}/{name}" for name in ("gearbox_state", "joint_states", "mesh_waveform")),
     *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")),
+    f"{TWIN}/applied_commands",
 }
 
 
