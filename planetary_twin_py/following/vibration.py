@@ -237,11 +237,18 @@ class VibrationFollower:
             time: stamps [s], (n,).
             values: samples in the units of the channels, (n, channels).
         """
-        while sum(len(part) for part, _ in self._waiting) > self._most:  # readings have ended
+        while self._waits_too_long():
             self.counters.late += len(self._waiting.pop(0)[0])
         there = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
         self.counters.late += int(np.sum(~there))
         self._waiting.append((time[there], values[there]))
+
+    def _waits_too_long(self) -> bool:
+        """Whether readings have ended, or not begun, long before the newest samples."""
+        if sum(len(part) for part, _ in self._waiting) <= self._most:
+            return False
+        times = self._waiting[0][0]
+        return not (len(times) and times.max() <= self._until)
 
     def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
         """Judge the hunting periods that end by a time.
