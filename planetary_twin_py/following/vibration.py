@@ -244,7 +244,7 @@ class VibrationFollower:
         self._waiting.append((time[there], values[there]))
 
     def _waits_too_long(self) -> bool:
-        """Whether readings have ended, or not begun, long before the newest samples."""
+        """Whether there are no readings, or their end is long before the newest samples."""
         if sum(len(part) for part, _ in self._waiting) <= self._most:
             return False
         times = self._waiting[0][0]
