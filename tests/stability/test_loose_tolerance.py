@@ -77,7 +77,7 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
     assert not error < 1.0  # as large as the motion itself
 
 
-STARTS = (0.02, 0.021, 0.022, 0.023)
+STARTS = (0.03, 0.035, 0.038, 0.04)  # [s] at which the runs begin
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +89,7 @@ def dop853_at_1e4():
 def test_dop853_returns_garbage_at_a_tight_tolerance_too(dop853_at_1e4):
     """From which start it does so depends on the last digits."""
     assert all(success for success, _ in dop853_at_1e4)
-    assert not max(error for _, error in dop853_at_1e4) < 0.5  # of the motion itself
+    assert not max(error for _, error in dop853_at_1e4) < 1.0
 
 
 @pytest.mark.exhaustive
