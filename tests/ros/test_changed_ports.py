@@ -160,11 +160,11 @@ def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
 
 def test_no_change_is_lost_where_the_log_of_the_twin_is_cut() -> None:
     """The report of real time keeps only its last entry; a new origin is followed by all."""
-    changed, received = twin(), list[tuple[float, str]]()
+    changed, published = twin(), list[tuple[float, str]]()
     listener = SimpleNamespace(
         ready=lambda: True,
         resumed=lambda twin: None,
-        changed=lambda change: received.append((change.point.backlash, change.ports.input)),
+        changed=lambda change: published.append((change.point.backlash, change.ports.input)),
     )
     quality = SimpleNamespace(relearn=lambda: None)
     live = LiveTwin(changed, 0.01, 1.0, cast(Any, quality), cast(Any, listener), received())
@@ -172,11 +172,11 @@ def test_no_change_is_lost_where_the_log_of_the_twin_is_cut() -> None:
         live._change(values)
         del changed.log[:-1]
     live._announce()
-    assert received == [(2e-7, "machine"), (4e-7, "machine"), (4e-7, "torque")]
+    assert published == [(2e-7, "machine"), (4e-7, "machine"), (4e-7, "torque")]
     changed.advance(0.01)
     live._change({INPUT: "machine"})
     live._announce()
-    assert received[3:] == [(4e-7, "machine")]
+    assert published[3:] == [(4e-7, "machine")]
 
 
 def test_a_command_for_the_port_before_has_no_effect_and_is_counted() -> None:
