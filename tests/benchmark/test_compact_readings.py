@@ -22,5 +22,6 @@ def test_the_mesh_line_is_the_highest_and_at_the_number_of_ring_teeth(rig):
     assert line.height > 2.0 * rig.highest_between()
 
 
+@pytest.mark.exhaustive
 def test_a_place_without_a_line_is_near_the_median(rig):
     assert 1.0 < rig.highest_between() < 2.0

@@ -63,9 +63,9 @@ def check_refused(done, usual):
 
 
 def first_of(names):
-    """The first three; the others belong to the exhaustive tests."""
-    others = [pytest.param(name, marks=pytest.mark.exhaustive) for name in [*names][3:]]
-    return [*names][:3] + others
+    """The first; the others belong to the exhaustive tests."""
+    first, *others = names
+    return [first, *(pytest.param(name, marks=EXHAUSTIVE) for name in others)]
 
 
 @pytest.fixture(scope="module")

@@ -47,6 +47,7 @@ def printed(code, **environment):
     return done.stdout.splitlines()
 
 
+@pytest.mark.exhaustive
 def test_samples_have_the_same_bits_with_other_variants_of_the_c_librarys_functions():
     if printed(LIBRARY) == printed(LIBRARY, **OLDER):
         pytest.skip("the C library of this machine has no other variants")

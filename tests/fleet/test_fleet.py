@@ -20,7 +20,11 @@ def followed(played, rows, change=None):
     return fleet
 
 
-@pytest.mark.parametrize("changes", [{}, OTHER], ids=["same law", "with bearings"])
+@pytest.mark.parametrize(
+    "changes",
+    [pytest.param({}, marks=pytest.mark.exhaustive), OTHER],
+    ids=["same law", "with bearings"],
+)
 def test_intervals_contain_the_true_friction_level(changes):
     played = Played(300, 1, paper(**changes))
     fleet = followed(played, 600)
@@ -39,7 +43,7 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
 
 
-@pytest.mark.parametrize("gain", [-0.1, 0.1])
+@pytest.mark.parametrize("gain", [-0.1, pytest.param(0.1, marks=pytest.mark.exhaustive)])
 def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(gain):
     played = Played(20, 1)
     played.gain[1][:5] += gain
@@ -50,6 +54,7 @@ def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(g
     assert np.isnan(level.value[:5]).all() and np.isfinite(level.value[5:]).all()
 
 
+@pytest.mark.exhaustive
 def test_slow_readings_show_a_step_too():
     played = Played(100, 3, period=10.0)
     fleet = followed(played, 1080, 360)

@@ -56,6 +56,7 @@ def followed(follower, begin, end, chance, measured=True):
         follower.estimate()
 
 
+@pytest.mark.exhaustive
 def test_the_state_of_a_steady_run_does_not_grow():
     follower = Follower(SCENE, Sensors(learning=8), EncoderFormat((N, N), 1.0 / RATE))
     chance = np.random.default_rng(0)

@@ -30,6 +30,7 @@ def test_its_size_is_stated_with_an_interval_that_contains_it(cracked):
     assert tooth.candidates == ("sun tooth 7",)
 
 
+@pytest.mark.exhaustive
 def test_from_its_detection_on_no_stated_interval_misses_the_size_or_the_start():
     at = LEARNED + 0.4  # within a hunting period
     changes = ({"at": at, "faults": [crack("planet", 3, 0.012, planet=2)]},)
@@ -65,6 +66,7 @@ def test_a_change_of_load_identifies_wear():
     assert event.what == "sun tooth 7 changed" and event.causes == ("wear",)
 
 
+@pytest.mark.exhaustive
 def test_two_teeth_are_distinguished():
     faults = [crack("sun", 20, 0.02), crack("ring", 5, 0.03)]
     _, follower = toothed({}, ({"at": LEARNED, "faults": faults},), 28.0)

@@ -63,6 +63,7 @@ def test_a_mirrored_set_shares_its_static_load_in_the_mirror(flow, weight):
         assert seen == pytest.approx(straight * FLIP, abs=1e-4 * np.abs(straight).max())
 
 
+@pytest.mark.exhaustive
 @FIRST_SET
 def test_a_mirrored_set_moves_in_the_mirror(flow, weight):
     scene = uneven(flow, weight)

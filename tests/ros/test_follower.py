@@ -147,6 +147,7 @@ def tooth_friction() -> float:
     return float(run.energy.friction / (run.duration * scene.operating_point.input_speed))
 
 
+@pytest.mark.exhaustive
 def test_a_healthy_gearbox_raises_nothing(healthy: Played) -> None:
     messages = healthy.messages
     assert "event" not in messages

@@ -63,9 +63,8 @@ def flood(clients: int, batch: int) -> list[subprocess.Popen[str]]:
     return floods
 
 
-@pytest.mark.parametrize(
-    ("clients", "batch"), [(1, 1), pytest.param(3, 50, marks=pytest.mark.exhaustive)]
-)
+@pytest.mark.exhaustive
+@pytest.mark.parametrize(("clients", "batch"), [(1, 1), (3, 50)])
 def test_a_flood_of_changes_neither_stops_the_twin_nor_falsifies_its_reports(
     peer: Peer, received: Received, clients: int, batch: int
 ) -> None:

@@ -180,6 +180,7 @@ def test_another_recorder_receives_all_if_its_queue_is_long_enough(
     peer.until(lambda: received and json.loads(received[-1].data) == expected)
 
 
+@pytest.mark.exhaustive
 def test_a_twin_waits_for_its_recorder_and_for_no_other_subscriber(
     peer: Peer, start: Start, other: Program
 ) -> None:

@@ -55,6 +55,7 @@ def test_memory_of_messages_that_waited_is_returned(
     assert not any(status[-1].lost)
 
 
+@pytest.mark.exhaustive
 def test_changes_of_parameters_leave_no_memory(peer: Peer, growths: tuple[Growth, Growth]) -> None:
     of_simulation, of_logger = growths
     for n in range(CHANGES):

@@ -10,7 +10,7 @@ import planetary_twin_py as pt
 
 ROOT = Path(__file__).parents[2]
 TOLERANCE = 1e-4
-FEW, SOME, MANY = 2, 10, 75  # scenes of a seed
+FEW, SOME, MANY = 1, 10, 75  # scenes of a seed
 
 
 def _benchmark():

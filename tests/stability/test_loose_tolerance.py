@@ -97,6 +97,7 @@ def test_dop853_is_off_by_a_thousand_tolerances_from_every_start(dop853_at_1e4):
     assert not min(error for _, error in dop853_at_1e4) < 1000.0 * 1e-4
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("method", ["RK45", "LSODA", "BDF"])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_others_report_success_and_are_wrong_a_hundred_times_the_tolerance(

@@ -103,6 +103,7 @@ def test_without_samples_there_is_nothing_to_show(recording):
     assert frames(recording) is None
 
 
+@pytest.mark.exhaustive
 def test_long_recordings_have_no_more_windows_than_half_a_minute_and_take_few_seconds(
     recording, tmp_path
 ):

@@ -125,7 +125,11 @@ def played(file):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "read", [values, counted, pytest.param(recovered, marks=pytest.mark.exhaustive), played]
+    "read",
+    [
+        values,
+        *(pytest.param(one, marks=pytest.mark.exhaustive) for one in (counted, recovered, played)),
+    ],
 )
 def test_data_is_read_as_written_or_the_damage_is_reported(sound, tmp_path, monkeypatch, read):
     monkeypatch.setattr(os, "fsync", lambda file: None)  # called too often

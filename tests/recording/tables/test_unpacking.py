@@ -81,7 +81,11 @@ def of_npz(path, number):
 @pytest.mark.parametrize(
     ("name", "write"),
     [
-        ("doubles.mat", lambda path: of_mat(path, "f8", MOST_ADDED // 8 + 2**20)),
+        pytest.param(
+            "doubles.mat",
+            lambda path: of_mat(path, "f8", MOST_ADDED // 8 + 2**20),
+            marks=pytest.mark.exhaustive,
+        ),
         ("bytes.mat", lambda path: of_mat(path, "u1", MOST_ADDED // 8 + 2**20)),
         pytest.param(
             "runs.parquet",
