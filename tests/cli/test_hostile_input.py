@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import pytest
 from hostile import MESSAGES, READ, REFUSED, SCENES, many_channels, messages_of, rewritten
+from tiers import first
 from twin_recording import record
 
 SLOWER = 2.0  # than `verify` of a sound recording; both take longer on a busy machine
 MEGABYTES = 300.0
-EXHAUSTIVE = pytest.mark.exhaustive
 
 # A child's own peak: the kernel's figure for it starts with that of the process from which it
 # is forked.
@@ -62,12 +62,6 @@ def check_refused(done, usual):
     assert done.errors.startswith("planetary-twin: ") and done.errors.count("\n") == 1
 
 
-def first_of(names):
-    """The first; the others belong to the exhaustive tests."""
-    first, *others = names
-    return [first, *(pytest.param(name, marks=EXHAUSTIVE) for name in others)]
-
-
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
     return record(tmp_path_factory.mktemp("sound") / "bag")
@@ -82,7 +76,7 @@ def usual(sound, tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", first_of(SCENES))
+@pytest.mark.parametrize("name", first(1, SCENES))
 def test_a_hostile_scene_is_refused_in_one_line(usual, tmp_path, name):
     scene = tmp_path / "scene.yaml"
     scene.write_bytes(SCENES[name])
@@ -91,14 +85,17 @@ def test_a_hostile_scene_is_refused_in_one_line(usual, tmp_path, name):
 
 @pytest.mark.parametrize(
     "command",
-    [
-        ["explain"],
-        ["info"],
-        ["import", "--out", "x.mcap"],
-        ["plant", "paper", "--out", "x.csv", "--hidden"],
-        pytest.param(["follow", "paper", "--from", "x.csv", "--sensors"], marks=EXHAUSTIVE),
-        pytest.param(["fleet", "paper", "--from", "x.csv", "--sensors"], marks=EXHAUSTIVE),
-    ],
+    first(
+        2,
+        [
+            ["explain"],
+            ["info"],
+            ["import", "--out", "x.mcap"],
+            ["plant", "paper", "--out", "x.csv", "--hidden"],
+            ["follow", "paper", "--from", "x.csv", "--sensors"],
+            ["fleet", "paper", "--from", "x.csv", "--sensors"],
+        ],
+    ),
 )
 def test_a_pipe_is_refused_without_waiting(usual, tmp_path, command):
     os.mkfifo(pipe := tmp_path / "pipe.csv")
@@ -106,7 +103,7 @@ def test_a_pipe_is_refused_without_waiting(usual, tmp_path, command):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", first_of(REFUSED))
+@pytest.mark.parametrize("name", first(1, REFUSED))
 def test_a_recording_with_a_hostile_definition_is_refused_in_one_line(usual, sound, tmp_path, name):
     file = rewritten(sound, tmp_path / "hostile.mcap", REFUSED[name])
     done = run("info", file, folder=tmp_path)
@@ -115,7 +112,7 @@ def test_a_recording_with_a_hostile_definition_is_refused_in_one_line(usual, sou
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", first_of(READ))
+@pytest.mark.parametrize("name", first(1, READ))
 def test_the_valid_parts_of_a_hostile_recording_are_read(usual, sound, tmp_path, name):
     file = rewritten(sound, tmp_path / "hostile.mcap", READ[name])
     done = run("info", file, folder=tmp_path)
@@ -124,7 +121,7 @@ def test_the_valid_parts_of_a_hostile_recording_are_read(usual, sound, tmp_path,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", first_of(MESSAGES))
+@pytest.mark.parametrize("name", first(1, MESSAGES))
 def test_a_hostile_message_is_reported_with_its_file_and_topic(usual, sound, tmp_path, name):
     topic, data = MESSAGES[name]
     file = rewritten(sound, tmp_path / "hostile.mcap", messages_of(topic, data))

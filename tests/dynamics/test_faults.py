@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from tiers import first
 
 import planetary_twin_py as pt
 
@@ -56,7 +57,7 @@ def assert_passes(found, first, period):
 
 
 @pytest.mark.parametrize("planet", [0, 1, 2])
-@pytest.mark.parametrize("tooth", [0, 7])
+@pytest.mark.parametrize("tooth", first(1, [7, 0]))
 def test_a_tooth_of_the_sun_meets_each_planet_as_the_sun_turns(planet, tooth):
     time, change = disturbances(CRACK | {"gear": "sun", "tooth": tooth})
     found = passages(time, change[:, planet])

@@ -3,19 +3,13 @@
 import numpy as np
 import pytest
 from following.plants import LAWS, balance_of, friction_level, paper, played
+from tiers import first
 
 from planetary_twin_py.following.balance import BalanceFollower
 from planetary_twin_py.following.balance_filter import CAUSES
 from planetary_twin_py.following.checks import InputError
 
 DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found
-
-
-def first_of(names, count):
-    """The first `count`; the others belong to the exhaustive tests."""
-    names = [*names]
-    others = (pytest.param(name, marks=pytest.mark.exhaustive) for name in names[count:])
-    return [*names[:count], *others]
 
 
 def named(follower):
@@ -49,7 +43,7 @@ def test_a_moved_zero_is_distinguished_from_friction_where_the_torque_reverses()
     assert "friction" not in follower.events[0].causes
 
 
-@pytest.mark.parametrize("law", first_of(reversed(LAWS), 1))
+@pytest.mark.parametrize("law", first(1, reversed(LAWS)))
 def test_a_reversing_duty_determines_friction_to_some_percent(law):
     plant, follower = balance_of("reversing", LAWS[law], 60.0, 5)
     friction = named(follower)["friction_level"]
@@ -114,7 +108,7 @@ WRONG = {  # sensors far out of their stated accuracy, and a true cause
 
 
 @pytest.mark.parametrize("kind", DELAYS)
-@pytest.mark.parametrize("wrong", first_of(WRONG, 2))
+@pytest.mark.parametrize("wrong", first(2, WRONG))
 def test_a_sensor_that_is_wrong_from_the_start_is_one_finding_with_its_cause(kind, wrong):
     sensors, cause = WRONG[wrong]
     plant, time, columns = played(kind, {}, 60.0, 1, sensors=sensors)
@@ -130,7 +124,7 @@ def test_a_sensor_that_is_wrong_from_the_start_is_one_finding_with_its_cause(kin
         assert friction.status == "NOT_IDENTIFIABLE"
 
 
-@pytest.mark.parametrize("kind", DELAYS)
+@pytest.mark.parametrize("kind", first(1, DELAYS))
 def test_a_gain_that_changes_during_the_run_is_one_event(kind):
     _, time, columns = played(kind, {}, 90.0, 4)
     columns["input_torque"] = np.where(time > 30.0, 1.1, 1.0) * columns["input_torque"]
@@ -141,7 +135,7 @@ def test_a_gain_that_changes_during_the_run_is_one_event(kind):
     assert "gain of a torque sensor" in event.causes
 
 
-@pytest.mark.parametrize("kind", first_of(["varied", "reversing"], 1))
+@pytest.mark.parametrize("kind", first(1, ["varied", "reversing"]))
 def test_a_dead_torque_sensor_gives_three_events_at_most(kind):
     _, time, columns = played(kind, {}, 120.0, 4)
     columns["input_torque"] = np.where(time > 30.0, 0.0, columns["input_torque"])

@@ -75,6 +75,7 @@ def test_a_loaded_baseline_finds_a_tooth_that_cracked_before_the_start(played, f
     assert alone.estimate().events == ()  # without the file there is nothing to compare with
 
 
+@pytest.mark.exhaustive
 def test_a_baseline_of_another_position_is_not_used(played, file):
     follower = Follower(SCENE, SENSORS)
     follower.load_baseline(file)
@@ -83,6 +84,7 @@ def test_a_baseline_of_another_position_is_not_used(played, file):
     assert found.events == () and found.every_z == ()
 
 
+@pytest.mark.exhaustive
 def test_a_baseline_learned_again_contains_the_changed_tooth(played, file):
     follower = Follower(SCENE, SENSORS)
     follower.load_baseline(file)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from planar.moving_scenes import evenly, planar
 from power_flows import FLOWS
+from tiers import first
 
 from planetary_twin_py import natural_modes
 from planetary_twin_py._core import axes
@@ -102,7 +103,7 @@ def swing(scene, mode, size):
     return values[place].imag / (2.0 * math.pi), shape.real[:n], shape.real[n:]
 
 
-@pytest.mark.parametrize("mode", [0, 3, 9])
+@pytest.mark.parametrize("mode", first(1, [9, 0, 3]))
 @pytest.mark.parametrize("flow, speed", [(FLOWS[0], 100.0), (FLOWS[2], 600.0)])
 def test_a_run_rings_at_the_frequency_of_its_mode(flow, speed, mode):
     scene = ringing(flow, 3, speed)

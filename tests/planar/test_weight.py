@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, evenly, planar
 from power_flows import DIFFERENTIALS, FLOWS, flow_name
+from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py import simulate
@@ -53,7 +54,7 @@ def test_the_housing_bears_the_weight_of_everything(flow):
 
 
 @pytest.mark.parametrize("flow", FLOWS + DIFFERENTIALS, ids=flow_name)
-@pytest.mark.parametrize("uneven", [False, True])
+@pytest.mark.parametrize("uneven", first(1, [True, False]))
 def test_energy_balances_with_weight(flow, uneven):
     angles = {"gearset.planet_angles": evenly(5)[:3]} if uneven else {}
     scene = planar(flow, {"sun": 0.0 if uneven else 1e8}, **HEAVY, **angles)

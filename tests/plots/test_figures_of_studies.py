@@ -3,6 +3,7 @@
 import numpy as np
 import pyarrow as pa
 import pytest
+from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py.plots.style import save
@@ -56,7 +57,7 @@ def test_meshes_can_be_chosen(diagram):
     assert labels == ["DTE of planet-ring mesh 2 [µm]", "DTE of sun-planet mesh 1 [µm]"]
 
 
-@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+@pytest.mark.parametrize("suffix", first(1, ["png", "svg", "pdf"]))
 def test_the_same_figure_is_the_same_file(tmp_path, diagram, suffix):
     for name in ("a", "b"):
         save(pt.plot_study(diagram), str(tmp_path / f"{name}.{suffix}"))

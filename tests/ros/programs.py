@@ -80,10 +80,19 @@ class Executed(subprocess.Popen[str]):
         self.stdout.close()
 
 
+# With tolerance 0, the default, a simulation spends spare time of the processor on accuracy, here
+# time that other tests need.
+_FRUGAL = {"planetary_twin.simulation": ("--ros-args", "-p", "tolerance:=0.001")}
+
+
 class Forked:
-    """The `main` of a module in a process forked from a warm one; used as `Executed`."""
+    """The `main` of a module in a process forked from a warm one; used as `Executed`.
+
+    A simulation has a fixed tolerance unless `arguments` give another.
+    """
 
     def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
+        arguments = *_FRUGAL.get(module, ()), *arguments
         _warm_up()
         output, its_output = _WARM.Pipe(duplex=False)
         errors, its_errors = _WARM.Pipe(duplex=False)

@@ -123,7 +123,7 @@ def test_ports_that_change_before_the_first_step_are_part_of_the_run(
 ) -> None:
     """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=lockstep")
-    options = ("wait_for:=logger", "rate_factor:=0.0")
+    options = ("wait_for:=logger", "rate_factor:=0.0", "tolerance:=0.0")
     given = [part for option in options for part in ("-p", option)]
     start("planetary_twin.simulation", "--ros-args", *given)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)

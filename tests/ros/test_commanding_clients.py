@@ -96,7 +96,7 @@ def test_a_storm_of_commands_acts_and_leaves_the_twin_in_real_time(
 def test_several_steps_in_one_call_have_the_bits_of_single_ones(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    running(peer, start, tmp_path, "rate_factor:=0.0")
+    running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))

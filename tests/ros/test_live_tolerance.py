@@ -19,8 +19,9 @@ SAMPLE_RATE = 5000
 @pytest.fixture
 def simulation(start: Start) -> subprocess.Popen[str]:
     """A simulation that waits for activation, so that a peer receives its first message."""
-    options = ("-p", "autostart:=false", "-p", f"sample_rate:={SAMPLE_RATE}")
-    return start("planetary_twin.simulation", "--ros-args", *options)
+    options = ("autostart:=false", f"sample_rate:={SAMPLE_RATE}", "tolerance:=0.0")
+    given = [part for option in options for part in ("-p", option)]
+    return start("planetary_twin.simulation", "--ros-args", *given)
 
 
 def test_published_waveforms_are_reproduced_bit_for_bit_from_the_reports(

@@ -57,7 +57,7 @@ def slow_machine(pid: int, run: float = 0.002, stop: float = 0.398) -> Iterator[
 def test_an_overloaded_twin_degrades_in_order_and_its_reports_reproduce_it(
     peer: Peer, start: Start
 ) -> None:
-    options = ("autostart:=false", "rate_factor:=100", "publish_rate:=10")
+    options = ("autostart:=false", "rate_factor:=100", "publish_rate:=10", "tolerance:=0.0")
     arguments = itertools.chain.from_iterable(("-p", option) for option in options)
     process = start("planetary_twin.simulation", "--ros-args", *arguments)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -106,7 +106,7 @@ def test_the_waveform_is_full_again_once_the_machine_is_fast_again(
     scene = tmp_path / "rattle.yaml"
     scene.write_text(RATTLE)
     # At a quarter of real time the windows need 4 % of a processor: there on a busy machine, too.
-    options = ("rate_factor:=0.25", f"scene:={scene}")
+    options = ("rate_factor:=0.25", f"scene:={scene}", "tolerance:=0.0")
     arguments = itertools.chain.from_iterable(("-p", option) for option in options)
     process = start("planetary_twin.simulation", "--ros-args", *arguments)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)

@@ -76,7 +76,7 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Pause, reset, then commands in and states out, one call a step."""
-    joints = running(peer, start, tmp_path, "rate_factor:=0.0")
+    joints = running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
@@ -118,7 +118,7 @@ def reports_on_commands(arrays: list[DiagnosticArray]) -> set[str]:
 def test_steps_with_a_command_that_no_port_takes_are_refused(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    running(peer, start, tmp_path, "rate_factor:=0.0")
+    running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     for request, reason in (
         (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),

@@ -5,6 +5,7 @@ import pytest
 from planar.moving_scenes import planar
 from power_flows import FLOWS
 from rerun.chunk import RrdReader
+from tiers import first
 from view.entity_rows import rows
 
 from planetary_twin_py.recording.container.records import records_of
@@ -110,7 +111,7 @@ def test_a_torsional_recording_has_nothing_of_axes(tmp_path):
     assert scales(held.gearset, recording.axes_state) is None
 
 
-@pytest.mark.parametrize("batch", [1, 50])
+@pytest.mark.parametrize("batch", first(1, [1, 50]))
 def test_a_live_view_draws_load_shares_and_arrows_of_the_recording(file, drawn, tmp_path, batch):
     rrd = tmp_path / "live.rrd"
     view = LiveView(NAMESPACE, lambda: to_file(rrd))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mcap.records import Message
 from rerun.chunk import RrdReader
+from tiers import first
 from twin_recording import record
 
 from planetary_twin_py.recording.container.records import records_of
@@ -52,9 +53,7 @@ def columns(rrd, component):
     return found
 
 
-@pytest.mark.parametrize(
-    "batch", [1, *(pytest.param(n, marks=pytest.mark.exhaustive) for n in (7, 10_000))]
-)
+@pytest.mark.parametrize("batch", first(1, [1, 7, 10_000]))
 def test_batches_of_any_size_draw_the_curves_of_the_recording(file, tmp_path, batch):
     runs = drawn(file, tmp_path, batch)
     assert len(runs) == 2
@@ -70,7 +69,7 @@ def test_batches_of_any_size_draw_the_curves_of_the_recording(file, tmp_path, ba
                 np.testing.assert_array_equal(shown[1], recorded[1], path)
 
 
-@pytest.mark.parametrize("batch", [1, pytest.param(7, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("batch", first(1, [1, 7]))
 def test_gears_turn_and_changes_are_logged_once(file, tmp_path, batch):
     first, second = drawn(file, tmp_path, batch)
     for rrd, seconds in ((first, 0.3001), (second, 0.1)):
