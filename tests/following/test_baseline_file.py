@@ -96,6 +96,7 @@ def test_a_baseline_learned_again_contains_the_changed_tooth(played, file):
     assert found.events  # what was found stays found
 
 
+@pytest.mark.exhaustive
 def test_the_same_baseline_is_saved_again(file, played, tmp_path):
     follower = Follower(SCENE, SENSORS, FORMAT)
     follower.load_baseline(file)
@@ -105,6 +106,7 @@ def test_the_same_baseline_is_saved_again(file, played, tmp_path):
     assert all(np.array_equal(one[name], other[name]) for name in one.files)
 
 
+@pytest.mark.exhaustive
 def test_invalid_files_are_refused(file, tmp_path):
     with pytest.raises(ValueError, match="no baseline has been learned yet"):
         Follower(SCENE).save_baseline(tmp_path / "none.npz")

@@ -31,15 +31,17 @@ from std_srvs.srv import SetBool
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
 
+from .conftest import Start
 from .peer import LONG, TWIN, Peer
 from .processes import holding
+from .programs import Program
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
 LATCHED_TOPICS = {
     f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")
 }
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-Play = Callable[..., "subprocess.Popen[str]"]
+Play = Callable[..., Program]
 
 
 @pytest.fixture(scope="module")
@@ -54,19 +56,13 @@ def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def play(domain: int, tmp_path: Path) -> Play:
+def play(start: Start) -> Play:
     """Start `planetary-twin replay` with arguments."""
 
-    def start(*arguments: str | Path) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            [COMMAND, "replay", *map(str, arguments)],
-            cwd=tmp_path,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+    def replay(*arguments: str | Path) -> Program:
+        return start("planetary_twin_py.cli", "replay", *map(str, arguments))
 
-    return start
+    return replay
 
 
 def _recorded(file: Path) -> dict[str, list[tuple[int, bytes]]]:
@@ -113,7 +109,7 @@ def _receive(peer: Peer, bag: Path) -> dict[str, list[tuple[int, bytes]]]:
     return received
 
 
-def _end(process: subprocess.Popen[str], peer: Peer) -> tuple[str, str]:
+def _end(process: Program | subprocess.Popen[str], peer: Peer) -> tuple[str, str]:
     """Its output; the peer continues to receive while it ends."""
     peer.until(lambda: process.poll() is not None)
     output, errors = process.communicate()
@@ -131,7 +127,7 @@ def _resume(peer: Peer) -> None:
     assert answer.success, answer.message
 
 
-def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
+def _refused(process: Program, *reasons: str) -> None:
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
@@ -217,9 +213,11 @@ def test_a_loop_runs_until_a_signal_ends_it(peer: Peer, play: Play, bag: Path) -
     "seconds", [0.0, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.5, 1.5))]
 )
 def test_a_signal_ends_it_cleanly_at_any_moment(
-    peer: Peer, play: Play, bag: Path, number: int, seconds: float
+    peer: Peer, domain: int, bag: Path, number: int, seconds: float
 ) -> None:
-    process = play(bag, "--rate-factor", "0.1")
+    words = [COMMAND, "replay", bag, "--rate-factor", "0.1"]
+    pipe = subprocess.PIPE
+    process = subprocess.Popen(words, stdout=pipe, stderr=pipe, text=True)
     # Earlier, Python has not read the command yet.
     peer.until(lambda: holding(process.pid, "_rclpy"))
     time.sleep(seconds)  # the subject of the test: an arbitrary moment

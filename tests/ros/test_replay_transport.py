@@ -7,7 +7,7 @@ import math
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +27,7 @@ from planetary_twin_py.recording.ros2.schema import message_definition
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer
+from .programs import Program
 from .recordings import read_all
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
@@ -37,7 +38,7 @@ STAMPED = 1_000_000_000_000  # its stamp, from another clock
 LENGTH = 2000  # states, in two files
 POINTS = 500  # states between two operating points
 DEPTH = 200  # states kept for a subscriber that a busy machine delays
-Play = Callable[..., "subprocess.Popen[str]"]
+Play = Callable[..., Program]
 
 
 @pytest.fixture(scope="module")
@@ -77,21 +78,13 @@ def _topic(name: str, kind: str, qos: QoSProfile) -> Topic:
 
 
 @pytest.fixture
-def play(domain: int, tmp_path: Path) -> Iterator[Play]:
-    """Start `planetary-twin replay` with arguments; a running process is killed at the end."""
-    started: list[subprocess.Popen[str]] = []
+def play(start: Start) -> Play:
+    """Start `planetary-twin replay` with arguments."""
 
-    def run(*arguments: str | Path) -> subprocess.Popen[str]:
-        command = [COMMAND, "replay", *map(str, arguments)]
-        pipe = subprocess.PIPE
-        started.append(subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True))
-        return started[-1]
+    def replay(*arguments: str | Path) -> Program:
+        return start("planetary_twin_py.cli", "replay", *map(str, arguments))
 
-    yield run
-    for process in started:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
+    return replay
 
 
 def pause(peer: Peer, paused: bool) -> str:
@@ -277,7 +270,7 @@ def test_invalid_names_of_topics_end_in_one_line(play: Play, split: Path) -> Non
     _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW", code=2)
 
 
-def _refused(process: subprocess.Popen[str], *reasons: str, code: int = 1) -> None:
+def _refused(process: Program, *reasons: str, code: int = 1) -> None:
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == code
     assert len(errors.strip().splitlines()) == 1, errors

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import os
-import subprocess
-import sys
+from collections.abc import Callable
+from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 from planetary_twin.monitor import FIGURES, sparkline
@@ -15,27 +15,26 @@ from typer.main import get_command
 from planetary_twin_py.cli import build_app
 
 from .peer import Peer
+from .programs import Forked
 
-COMMANDS = (
-    "import typer; from planetary_twin import steering; app = typer.Typer();"
-    " app.add_typer(steering.param, name='param'); app.command()(steering.op);"
-    " app.command()(steering.monitor); app()"
-)
+Command = Callable[..., CompletedProcess[str]]
 
 
-def command(*arguments: str) -> subprocess.CompletedProcess[str]:
-    """The result of a command, which must not take long."""
-    return subprocess.run(
-        [sys.executable, "-c", COMMANDS, *arguments],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        env={name: value for name, value in os.environ.items() if name != "COLUMNS"},
-    )
+@pytest.fixture
+def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Command:
+    """The result of `planetary-twin` with arguments, which must not take long."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+    def run(*arguments: str) -> CompletedProcess[str]:
+        process = Forked("planetary_twin_py.cli", *arguments, cwd=tmp_path)
+        output, errors = process.communicate(60.0)
+        return CompletedProcess(arguments, process.wait(), output, errors)
+
+    return run
 
 
 def test_values_may_have_units_and_the_result_is_printed(
-    user: Peer, points: list[OperatingPoint]
+    command: Command, user: Peer, points: list[OperatingPoint]
 ) -> None:
     answer = command("param", "set", "backlash", "0.3 um")
     assert (answer.returncode, answer.stdout.strip()) == (
@@ -54,28 +53,34 @@ def test_values_may_have_units_and_the_result_is_printed(
     assert answer.stderr.strip() == "planetary-twin: input_speed = 100 rad/s (954.9 rpm)"
 
 
-def test_without_a_twin_in_the_namespace_others_are_named(points: list[OperatingPoint]) -> None:
+def test_without_a_twin_in_the_namespace_others_are_named(
+    command: Command, points: list[OperatingPoint]
+) -> None:
     assert points
     answer = command("param", "get", "backlash", "--namespace", "/elsewhere")
     assert answer.returncode != 0 and answer.stderr.count("\n") == 1
     assert "there is one in /planetary_twin: choose with --namespace" in answer.stderr
 
 
-def test_a_mistyped_name_is_refused_with_a_similar_one(points: list[OperatingPoint]) -> None:
+def test_a_mistyped_name_is_refused_with_a_similar_one(
+    command: Command, points: list[OperatingPoint]
+) -> None:
     assert points
     answer = command("param", "set", "backlas", "1")
     assert answer.returncode != 0 and answer.stderr.count("\n") == 1
     assert "backlas: no such parameter; did you mean backlash?" in answer.stderr
 
 
-def test_values_may_be_negative(points: list[OperatingPoint]) -> None:
+def test_values_may_be_negative(command: Command, points: list[OperatingPoint]) -> None:
     for typed in ("-104 rad/s", "-104", "-1e2"):
         answer = command("param", "set", "input_speed", typed)
         assert answer.returncode == 0, answer.stderr
     assert answer.stdout == "input_speed = -100 rad/s (-954.9 rpm)\n"
 
 
-def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) -> None:
+def test_every_parameter_is_listed_with_its_range(
+    command: Command, points: list[OperatingPoint]
+) -> None:
     listed = command("param", "list").stdout
     for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
         assert words in listed
@@ -88,7 +93,7 @@ def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) 
     assert "0 to 0.001" in line and line.rstrip().endswith("[m]")
 
 
-def test_invalid_arguments_end_in_one_line(points: list[OperatingPoint]) -> None:
+def test_invalid_arguments_end_in_one_line(command: Command, points: list[OperatingPoint]) -> None:
     for arguments, reason in (
         (("param", "set", "backlash", "3"), "backlash"),
         (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
@@ -105,13 +110,13 @@ def test_invalid_arguments_end_in_one_line(points: list[OperatingPoint]) -> None
     assert len(points) == 1
 
 
-def test_a_command_reports_that_no_twin_runs(domain: int) -> None:
+def test_a_command_reports_that_no_twin_runs(command: Command, domain: int) -> None:
     for arguments in (("param", "list"), ("monitor",)):
         answer = command(*arguments)
         assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
 
 
-def test_the_monitor_shows_every_figure(points: list[OperatingPoint]) -> None:
+def test_the_monitor_shows_every_figure(command: Command, points: list[OperatingPoint]) -> None:
     answer = command("monitor", "--duration", "2.5")
     assert answer.returncode == 0, answer.stderr
     for figure in FIGURES:
