@@ -28,7 +28,7 @@ def test_a_running_twin_is_drawn_and_its_absence_is_reported_in_one_line(
 ) -> None:
     states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
     shown, nobody = (
-        _view("--during", ":4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
+        _view("--during", ":2", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
         for name in ("planetary_twin", "nobody")
     )
     user.until(lambda: shown.poll() is not None and nobody.poll() is not None)
