@@ -69,6 +69,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
         twin = Forked("planetary_twin.simulation", "--ros-args", *given, cwd=place)
         with Monitor(TWIN) as monitor:
             user.until(lambda: len(states) >= STATES and monitor.axes is not None, 120.0)
+            user.until(lambda: gearbox and gearbox[-1].simulated_time >= states[-1].simulated_time)
             shown = [
                 [str(cell) for cell in column.cells] for column in monitor.table(120).columns[:2]
             ]
