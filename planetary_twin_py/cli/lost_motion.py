@@ -84,7 +84,7 @@ def _print(console: Console, found: LostMotion, largest: float) -> None:
     for name, value in (
         ("largest torque on the output [N m]", largest),
         (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),
-        ("hysteresis at zero torque [deg]", math.degrees(found.hysteresis)),
+        (f"hysteresis at {100 * found.share:g} % of it [deg]", math.degrees(found.hysteresis)),
         ("torsional stiffness, half to full torque [N m/rad]", found.stiffness),
         ("the same, motor to load with couplings [N m/rad]", found.stiffness_with_couplings),
     ):

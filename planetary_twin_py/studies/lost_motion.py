@@ -56,22 +56,24 @@ class LostMotion:
         falling = self.torque[: turn + 1][::-1], self.twist[: turn + 1][::-1]
         return falling, (self.torque[turn:], self.twist[turn:])
 
-    def _at(self, torque: float) -> tuple[float, float]:
-        """Twist of both branches at a torque [rad]."""
-        falling, rising = (float(np.interp(torque, *branch)) for branch in self._branches())
-        return falling, rising
+    def _at_small_torque(self) -> np.ndarray:
+        """Twist of both branches, (2,), at `share` of the torque and at its opposite, (2, 2)."""
+        small = self.share * float(self.torque.max())
+        return np.array([[_at(t, *branch) for branch in self._branches()] for t in (small, -small)])
 
     @property
     def lost_motion(self) -> float:
         """Twist between both senses of `share` of the torque, means of both branches [rad]."""
-        small = self.share * float(self.torque.max())
-        return float(np.mean(self._at(small)) - np.mean(self._at(-small)))
+        forward, backward = self._at_small_torque().mean(axis=1)
+        return float(forward - backward)
 
     @property
     def hysteresis(self) -> float:
-        """Distance of both branches at zero torque [rad], by friction."""
-        falling, rising = self._at(0.0)
-        return abs(falling - rising)
+        """Distance of both branches at `share` of the torque, mean of both senses [rad].
+
+        It is due to friction alone; at zero torque it would include the backlash.
+        """
+        return float(np.abs(np.diff(self._at_small_torque(), axis=1)).mean())
 
     @property
     def stiffness(self) -> float:
@@ -88,6 +90,19 @@ class LostMotion:
     def stiffness_with_couplings(self) -> float:
         """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
         return 1.0 / (1.0 / self.stiffness + self.couplings)
+
+
+def _at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
+    """Twist at a torque `value`, on the line through the nearest points of its sense [rad].
+
+    Friction changes the torque on the output, so no point is exactly at `value`. Points of both
+    senses have the backlash between them.
+    """
+    of_its_sense = torque * value > 0.0
+    torque, twist = torque[of_its_sense], twist[of_its_sense]
+    k = min(max(int(np.searchsorted(torque, value)), 1), len(torque) - 1)
+    slope = (twist[k] - twist[k - 1]) / (torque[k] - torque[k - 1])
+    return float(twist[k] + slope * (value - torque[k]))
 
 
 def _between(

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from tiers import first
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
@@ -76,6 +77,27 @@ def test_more_play_is_more_lost_motion_by_as_much():
         lost_motion(SMOOTH.replace(backlash=play), TORQUE, levels=10) for play in (PLAY, 3 * PLAY)
     )
     assert large.lost_motion - small.lost_motion == pytest.approx(2.0 * FREE_PLAY, rel=2e-3)
+
+
+def with_oil_and(play, share):
+    oil = {"lubrication.friction": True, "lubrication.boundary": "load_sharing"}
+    return lost_motion(SMOOTH.replace(**oil, backlash=play), TORQUE, share, levels=10)
+
+
+@pytest.mark.parametrize("share", first(1, [0.03, 0.01, 0.1]))
+def test_with_friction_too_lost_motion_is_backlash_and_elastic_twist(share):
+    elastic = 2.0 * share * TORQUE / STIFFNESS
+    tight, loose = (with_oil_and(play, share).lost_motion for play in (0.0, PLAY))
+    assert tight == pytest.approx(elastic, rel=0.02)
+    assert loose == pytest.approx(FREE_PLAY + elastic, rel=1e-3)
+
+
+@pytest.mark.exhaustive
+def test_hysteresis_is_due_to_friction_and_does_not_contain_the_backlash():
+    smooth = lost_motion(SMOOTH, TORQUE, 0.1, levels=10).hysteresis
+    tight, loose = (with_oil_and(play, 0.1).hysteresis for play in (0.0, PLAY))
+    assert tight > 10.0 * smooth
+    assert loose == pytest.approx(tight, rel=0.2) and loose < 1e-3 * FREE_PLAY
 
 
 @pytest.mark.parametrize("held, output", [("carrier", "ring"), ("sun", "carrier")])
