@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -170,7 +169,6 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
 def _read_csv(stream: BinaryIO) -> pa.Table:
     """Read CSV separated by commas, semicolons or tabs; decimal commas unless commas separate."""
     text = stream.read().decode()
-    stream.seek(0)
     heading, body = re.split(r"[\r\n]|$", text, maxsplit=1)
     separator = max(";\t,", key=heading.count)
     names = heading.split(separator)
@@ -179,16 +177,18 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
         raise ValueError("row 1: must have the headings of the columns, such as time [s]")
     commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
     decimal = "," if commas else "."
+    # By name: threads of Arrow that hold an object of Python may abort the interpreter at its end.
     return csv.read_csv(
-        stream,
+        stream.name,
         parse_options=csv.ParseOptions(delimiter=separator),
         convert_options=csv.ConvertOptions(decimal_point=decimal),
     )
 
 
 def _read_parquet(stream: BinaryIO) -> pa.Table:
-    file = parquet.ParquetFile(stream)
-    stated, packed = file.metadata, stream.seek(0, os.SEEK_END)
+    source = pa.OSFile(stream.name)  # not `stream`: see `_read_csv`
+    file = parquet.ParquetFile(source)
+    stated, packed = file.metadata, source.size()
     _check_columns(stated.num_columns)
     # Each page states its size again, and each column its number of values: Arrow believes them.
     check_unpacked(packed, unpacked_size(stream, stated))
@@ -203,7 +203,7 @@ def _read_parquet(stream: BinaryIO) -> pa.Table:
         if pa.types.is_fixed_size_binary(field.type):
             raise ValueError(f"column {field.name!r}: must be numbers, not {field.type}")
     texts = [f.name for f in file.schema_arrow if any(kind(f.type) for kind in _TEXTS)]
-    return parquet.ParquetFile(stream, read_dictionary=texts).read()
+    return parquet.ParquetFile(source, read_dictionary=texts).read()
 
 
 def _check_columns(number: int) -> None:
