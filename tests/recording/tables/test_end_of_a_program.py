@@ -27,5 +27,5 @@ def test_threads_that_read_a_table_never_abort_the_interpreter_at_its_end(tmp_pa
             pa.table({name: [1.0, 2.0] for name in ("time", "a", "b")}), path
         )
     command = [sys.executable, "-c", PROGRAM, path]
-    ends = [subprocess.run(command, capture_output=True).returncode for _ in range(60)]
+    ends = [subprocess.run(command, capture_output=True).returncode for _ in range(30)]
     assert set(ends) == {3}  # columns
