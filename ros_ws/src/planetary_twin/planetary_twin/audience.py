@@ -1,4 +1,4 @@
-"""Waits until a node has subscribed, so that it receives a twin's first message."""
+"""Waits for the subscriptions of a node, so that it receives the first message of a twin."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ class _Polled(CallbackGroup):  # type: ignore[misc]
     """Excludes a subscription from the executor: `Backlog` polls it."""
 
     def can_execute(self, entity: object) -> bool:
-        """Return False: the executor may itself be waiting for a twin that is held."""
+        """Return False: the executor may be waiting for a twin that waits for its recorder."""
         return False
 
 

@@ -54,7 +54,7 @@ class Audience(Protocol):
         """Report readings that contradict the scene."""
 
     def jumped(self, seconds: float) -> None:
-        """Report stamps that have gone back by so many seconds."""
+        """Report stamps that have jumped back by `seconds`."""
 
     def broke(self, defect: Exception) -> None:
         """Report that following has ended."""
@@ -109,8 +109,8 @@ class LiveFollower:
     Passes the messages of `source` to a follower and its estimates to `audience`.
 
     The estimates depend on the messages only: not on when the thread runs, and not on how many
-    messages it processes at once. On a slow computer the same estimates come later. Only silence
-    is measured by the clock.
+    messages it processes at once. On a slow computer the same estimates are published later. Only
+    the time without readings is measured by the clock.
     """
 
     def __init__(self, options: FollowerOptions, source: Source, audience: Audience) -> None:
@@ -182,7 +182,7 @@ class LiveFollower:
         self._due = -math.inf  # stamp of the next one to report [s]
         self._jumps = JumpWatch()
         self._refusal = ""
-        self._stale = True  # there is no estimate that could become stale
+        self._stale = True  # there is no estimate yet
 
     def _run(self) -> None:
         try:
@@ -225,7 +225,9 @@ class LiveFollower:
                 begin = n
         self._process(arrived[begin:])
         now = time.monotonic()
-        self._advanced = min(self._advanced + now - started, now)  # computing is no silence
+        self._advanced = min(
+            self._advanced + now - started, now
+        )  # the time for computing does not count as silence
         if not self._stale and now > self._advanced + self._options.sensor_timeout:
             self._stale = True
             self._report(self._follower.estimate(now=math.inf))
@@ -240,7 +242,7 @@ class LiveFollower:
         self._checked(process)
 
     def _checked(self, step: Callable[[], None]) -> None:
-        """Run `step`; readings of another unit, sign or shaft end the following."""
+        """Run `step`; readings with a wrong unit, sign or shaft end the following."""
         try:
             step()
         except InputError as fault:

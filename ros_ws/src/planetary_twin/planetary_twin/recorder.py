@@ -101,7 +101,7 @@ class Recorder:
         return file
 
     def split(self) -> str:
-        """Continue in the next file; returns a message with both files."""
+        """Continue in the next file; returns a message that names both files."""
         bag = self._bag_in_progress()
         file = bag.file
         try:

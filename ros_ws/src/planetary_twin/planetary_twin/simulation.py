@@ -41,13 +41,13 @@ from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
-# Time after which a waiting thread may take the interpreter lock from a busy one. Python's 5 ms
-# are half an interval: clients that send many requests would delay the twin.
+# Time after which a waiting thread may take the interpreter lock from a busy one. Python's default
+# of 5 ms is half an interval: clients that send many requests would delay the twin.
 _SWITCH_INTERVAL = 2e-4  # [s]
 
 
 class Simulation(ManagedNode):
-    """Runs a scene in real time: configure builds it, activate runs it, deactivate pauses it."""
+    """Runs a scene: `configure` builds the model, `activate` runs it, `deactivate` pauses it."""
 
     def __init__(self, given: Mapping[str, Any] | None = None) -> None:
         super().__init__("simulation", given)
@@ -171,7 +171,7 @@ class Simulation(ManagedNode):
     def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
         """Log the setting in force and its reason."""
         now, load = quality.setting, quality.load
-        why = "as set" if math.isnan(load) else f"an interval cost {load:.0%} of its time"
+        why = "as set" if math.isnan(load) else f"computing takes {load:.0%} of the available time"
         text = (
             f"tolerance {now.tolerance:g}, waveform at {now.sample_rate:g} Hz "
             f"from {instant:g} s: {why}"

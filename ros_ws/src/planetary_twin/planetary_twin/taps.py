@@ -22,8 +22,8 @@ _STRING = "std_msgs/msg/String"
 _NOTHING: tuple[bytes, ...] = ()
 _REPORTED = 400  # messages between two calls of `progressed`
 _UNMATCHED = 3.0  # [s] after which a subscription without a publisher is created again
-_BATCH = 200  # messages of one topic before other topics have their turn
-_QUEUE = 5000  # messages of one topic that wait at most
+_BATCH = 200  # messages of one topic that are written before those of other topics
+_QUEUE = 5000  # largest number of queued messages of one topic
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
 
@@ -59,7 +59,7 @@ class Tap:
     ) -> None:
         self.account = TopicAccount(latched)
         self.subscription: Subscription | None = None
-        self._matched = 0.0  # [s] when it last had a publisher, or was created
+        self._matched = 0.0  # [s] time at which it last had a publisher, or was created
         self._sink = sink
         self._own = own
         self._failed = failed
@@ -105,12 +105,12 @@ class Tap:
             self._failed(reason)
 
     def drain(self) -> None:
-        """Write the messages that wait; raises `OSError` if the sink cannot write."""
+        """Write the queued messages; raises `OSError` if the sink cannot write."""
         for waiting in self._waiting(_QUEUE):
             self._write(*waiting)
 
     def _waiting(self, most: int) -> Iterator[tuple[bytes, dict[str, Any]]]:
-        """Take at most `most` messages that wait."""
+        """Take at most `most` queued messages."""
         subscription = self.subscription
         if subscription is None:
             return
@@ -187,7 +187,7 @@ class Taps:
 
     def drain(self) -> None:
         """
-        Write what waits, at the end of a recording; raises `OSError` if the sink cannot write.
+        Write the queued messages at the end; raises `OSError` if the sink cannot write.
 
         A twin publishes each interval in the order of the topics' names: first its commands, then
         its state. In the reverse order, no state is written without its commands.

@@ -21,7 +21,7 @@ from .process import processor_time, resident_memory
 RATES = (100.0, 1000.0)  # [Hz]
 AUDIENCES = (0, 1, 4, 16)
 SETS = 200  # parameter changes for the latency
-SETTLING = 5.0  # [s] after which a twin has settled its tolerance and runs steadily
+SETTLING = 5.0  # [s] after which the tolerance of a twin is constant and its motion is steady
 _PERIOD = 0.5  # [s] between two samples of the memory
 _VALUES = (1.5, 2.0)  # of the lambda ratio, in turn
 CASES = [("paper", AUTOMATIC, n) for n in AUDIENCES] + [
