@@ -7,7 +7,7 @@ import pytest
 from power_flows import DIFFERENTIALS, flow_name, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import DITHER, first_guess, frame_cycle_rate, settle, turn_to
+from planetary_twin_py._core import NEGLIGIBLE_FORCE, first_guess, frame_cycle_rate, settle, turn_to
 from planetary_twin_py.dynamics.bodies import SECOND_MOTOR, base_radii
 from planetary_twin_py.quasi_static.engine import QuasiStaticEngine
 
@@ -61,7 +61,9 @@ def torques(flow, stiffness, backwards):
 @FLOWS
 def test_from_the_least_stiffness_on_the_equilibrium_is_one_and_well_below_it_is_not(flow):
     least = least_stiffness(flow)
-    exact = 3 * DITHER * base_radii(scene_of(flow))["ring"]  # friction of three planets' meshes
+    exact = (
+        3 * NEGLIGIBLE_FORCE * base_radii(scene_of(flow))["ring"]
+    )  # friction of three planets' meshes
     there, back = (torques(flow, least, backwards) for backwards in (False, True))
     assert there == pytest.approx(back, abs=exact)
     there, back = (torques(flow, least / 5.0, backwards) for backwards in (False, True))

@@ -5,7 +5,7 @@
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/unlocked.hpp"
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 
@@ -13,7 +13,7 @@ namespace {
 
 nb::tuple py_initial_state(const Model& model, const ConstArray& speed, double force) {
     check_size("speed", speed.size(), AXES);
-    Beginning found;
+    InitialState found;
     {
         Unlocked release;
         found = initial_state(model, speed.data(), force);

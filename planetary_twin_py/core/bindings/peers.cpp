@@ -50,15 +50,15 @@ double py_show(Problem& problem, const ConstArray& times, const ConstArray& stat
     return lost / static_cast<double>(count);
 }
 
-template <FixedStep march>
+template <FixedStep method>
 void py_fixed_step(Problem& problem, const ConstArray& times, std::int64_t steps, const Array& y,
                    const Array& samples) {
     std::size_t size = size_of(problem);
     check_size("y", y.size(), size);
     check_size("times", times.size(), samples.size() / size + 1);
     Unlocked release;
-    march(problem, times.data(), steps, y.data(), samples.data(),
-          static_cast<std::int64_t>(samples.size() / size));
+    method(problem, times.data(), steps, y.data(), samples.data(),
+           static_cast<std::int64_t>(samples.size() / size));
 }
 
 // What CVODE calls, and where it finds its problem.
@@ -70,12 +70,13 @@ public:
 
     std::uintptr_t data() const { return reinterpret_cast<std::uintptr_t>(own_.get()); }
 
-    int march(std::uintptr_t memory, std::uintptr_t vector, const ConstArray& times,
-              const Array& samples) const {
+    int integrate(std::uintptr_t memory, std::uintptr_t vector, const ConstArray& times,
+                  const Array& samples) const {
         check_size("samples", samples.size(), times.size() * size_of(*own_->problem));
         Unlocked release;
-        return cvode_march(*own_, reinterpret_cast<void*>(memory), reinterpret_cast<void*>(vector),
-                           times.data(), samples.data(), static_cast<std::int64_t>(times.size()));
+        return cvode_integrate(*own_, reinterpret_cast<void*>(memory),
+                               reinterpret_cast<void*>(vector), times.data(), samples.data(),
+                               static_cast<std::int64_t>(times.size()));
     }
 
 private:
@@ -96,8 +97,8 @@ void bind_foreign(nb::module_& m) {
             "function", [](nb::handle) { return address<&cvode_function>(); },
             "Address of a CVRhsFn.")
         .def_prop_ro("data", &CvodeProblem::data, "Address of its user data.")
-        .def("march", &CvodeProblem::march, nb::arg("memory"), nb::arg("vector"), nb::arg("times"),
-             nb::arg("samples"),
+        .def("integrate", &CvodeProblem::integrate, nb::arg("memory"), nb::arg("vector"),
+             nb::arg("times"), nb::arg("samples"),
              "Fill samples (times, size) up to the last of the times; 0, or what CVODE returned.");
     m.def("cyrk_function", &address<&cyrk_function>,
           "Address of the right-hand side as CyRK calls it.");

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "bindings/unlocked.hpp"
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 

@@ -28,11 +28,11 @@ inline void bristle_damping(const Train& train, const ToothPairs& pairs, double 
 
 // Shares of friction at a stage, from those at the start and the stages before.
 inline void advance_bristles(ToothPairs& pairs, const double* share, const double* weights,
-                             const double (*bend)[ROOM], int stage) {
-    if (!pairs.held) return;
-    for (int k = 0; k < ROOM; ++k) {
+                             const double (*bristle_stage)[PAIR_CAPACITY], int stage) {
+    if (!pairs.has_bristles) return;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) {
         double value = share[k];
-        for (int s = 0; s < stage; ++s) value += weights[s] * bend[s][k];
+        for (int s = 0; s < stage; ++s) value += weights[s] * bristle_stage[s][k];
         pairs.bristle[k] = value;
     }
 }
@@ -46,13 +46,13 @@ inline void add_bristle_forces(const Train& train, const ToothPairs& start, cons
     for (std::int64_t k = 0; k < start.count; ++k) {
         std::int64_t i = k % train.meshes;
         double rate = pairs.bristle_rate[k];
-        for (int s = 0; s < stage; ++s) rate += weights[s] * work.bend[s][k] / h;
-        work.bend[stage][k] = rate;
+        for (int s = 0; s < stage; ++s) rate += weights[s] * work.bristle_stage[s][k] / h;
+        work.bristle_stage[stage][k] = rate;
         sliding_row(train, start, k, work.row);
         double decay = start.bristle_decay[k];
-        double pull = train.copies[i] * start.full[k] * rate / (1.0 / step + decay);
-        pull *= 1.0 - RELAXATION * decay;
-        for (int j = 0; j < IN_PLANE; ++j) right[train.body[i][j]] -= pull * work.row[j];
+        double force = train.copies[i] * start.full[k] * rate / (1.0 / step + decay);
+        force *= 1.0 - RELAXATION * decay;
+        for (int j = 0; j < IN_PLANE; ++j) right[train.body[i][j]] -= force * work.row[j];
     }
 }
 
@@ -64,8 +64,8 @@ inline void solve_bristles(const Train& train, const ToothPairs& start, double s
         sliding_row(train, start, k, work.row);
         double sliding = 0.0;
         for (int j = 0; j < IN_PLANE; ++j) sliding += work.row[j] * right[train.body[i][j]];
-        double rate = work.bend[stage][k] + start.bristle_gain[k] * sliding;
-        work.bend[stage][k] = rate / (1.0 / step + start.bristle_decay[k]);
+        double rate = work.bristle_stage[stage][k] + start.bristle_gain[k] * sliding;
+        work.bristle_stage[stage][k] = rate / (1.0 / step + start.bristle_decay[k]);
     }
 }
 

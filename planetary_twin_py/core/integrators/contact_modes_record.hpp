@@ -6,13 +6,13 @@
 #include <unordered_map>
 #include <vector>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {
 
-inline constexpr int MOST_NODES = 5;  // points of collocation in a step
-inline constexpr int KEPT_STEPS = 3;  // in a contact state, of which is kept what returns
+inline constexpr int MOST_NODES = 5;    // points of collocation in a step
+inline constexpr int STORED_STEPS = 3;  // in a contact state, of which is kept what returns
 
 // Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open. That
 // of the sun begins with the shafts whose motion is given. Where each flank has an entry, those of
@@ -43,7 +43,7 @@ struct HashOfContacts {
 };
 
 // Free waves at the nodes of a step, and what they were computed for.
-struct alignas(64) KeptWaves {
+struct alignas(64) StoredWaves {
     double step;         // its length, 0: none yet [s]
     std::int64_t nodes;  // and their number
     alignas(64) double cosine[MOST_NODES][BODIES];
@@ -51,11 +51,11 @@ struct alignas(64) KeptWaves {
 };
 
 // How rest and friction grew over a step: at its nodes, and in the last row at its start.
-struct alignas(64) KeptGrowth {
+struct alignas(64) StoredIncrement {
     double step = 0.0;  // its length, 0: none yet [s]
     bool predictable;   // whether friction came to rest in one sweep
-    alignas(64) double rest[MOST_NODES + 1][BODIES];
-    alignas(64) double rubbing[MOST_NODES + 1][BODIES];  // [N]
+    alignas(64) double remainder[MOST_NODES + 1][BODIES];
+    alignas(64) double friction_force[MOST_NODES + 1][BODIES];  // [N]
 };
 
 // Bounds on a free wave and tau times its rate, together, per motion and per rate at its start.
@@ -81,17 +81,17 @@ public:
     }
 
     // What mode m does to the bodies, and what body j does to the modes [1/sqrt(kg)].
-    MatrixRows form() const { return {at(0), of_modes, used_modes}; }
-    MatrixRows share() const { return {at(of_modes * of_modes), of_modes, used_modes}; }
+    MatrixRows shapes() const { return {at(0), of_modes, used_modes}; }
+    MatrixRows shapes_transposed() const { return {at(of_modes * of_modes), of_modes, used_modes}; }
     // What mode m does to the meshes, and its magnitude.
     MatrixRows motion() const { return {across(0), of_meshes, used_modes}; }
-    MatrixRows reach() const { return {across(1), of_meshes, used_modes}; }
+    MatrixRows motion_magnitude() const { return {across(1), of_meshes, used_modes}; }
     // What a force of mesh i and its copies does to the modes.
-    MatrixRows press() const { return {across(2), of_modes, used_meshes}; }
+    MatrixRows force_to_modes() const { return {across(2), of_modes, used_meshes}; }
     // Where axes are held: how mode m turns both gears of the meshes against the carrier
     // [1/(m sqrt(kg))], and what torques on the gears of mesh i and its copies do to the modes.
     MatrixRows spin(int gear) const { return {across(3 + gear), of_meshes, used_modes}; }
-    MatrixRows twist(int gear) const {
+    MatrixRows torque_to_modes(int gear) const {
         return {across(3 + (GEARS - 1) + gear), of_modes, used_meshes};
     }
 
@@ -123,7 +123,7 @@ struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t follower;  // the state that came next last time
     double step;            // that did last time such a state began, 0: none yet [s]
-    double pull[2];         // by which a sweep brings the next closer, per step length [1/s]
+    double contraction[2];  // by which a sweep brings the next closer, per step length [1/s]
     bool varies;            // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     ModeMatrices matrices;
@@ -135,9 +135,9 @@ struct alignas(64) ContactState {
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];
     alignas(64) double fast[BODIES];
-    WaveBounds bounds;              // with the damping time of either kind of mesh
-    KeptWaves waves[KEPT_STEPS];    // of the first steps in such a state
-    KeptGrowth growth[KEPT_STEPS];  // likewise, see the predictor
+    WaveBounds bounds;                         // with the damping time of either kind of mesh
+    StoredWaves waves[STORED_STEPS];           // of the first steps in such a state
+    StoredIncrement increments[STORED_STEPS];  // likewise, see the predictor
 };
 
 // Modes of the contact states met so far. They never move while they are kept.

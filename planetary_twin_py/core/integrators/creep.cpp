@@ -34,7 +34,7 @@ bool vibration_slows(const Train& train, const double* v, const double* rigid, d
 
 // Whether friction may feed a vibration of creeping gears. It counts against the speed that they
 // shall reach: where they pass through standstill, any vibration exceeds that of the moment.
-bool creep_swings(const Model& model, const March& march) {
+bool creep_swings(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     double rigid[BODIES], rate = 0.0, size = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
@@ -48,33 +48,34 @@ bool creep_swings(const Model& model, const March& march) {
         for (std::int64_t a = 0; a < train.axes; ++a)
             rigid[j] += train.ratio[j][a] * model.load.target_speed[a];
     }
-    return vibration_slows(train, march.begin.v, rigid, SWINGING);
+    return vibration_slows(train, integrator.begin.v, rigid, SWINGING);
 }
 
 }  // namespace
 
-void hold_or_slide(const Model& model, March& march) {
-    Control& control = march.control;
-    State& begin = march.begin;
-    bool creeping = creeps(model.train, march.constants.cycle_rate);
+void select_friction_model(const Model& model, Integrator& integrator) {
+    Control& control = integrator.control;
+    State& begin = integrator.begin;
+    bool creeping = creeps(model.train, integrator.constants.cycle_rate);
     if (creeping == control.creeping) return;
     control.creeping = creeping;
     control.changed = true;
     if (creeping) {
-        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, march.first);
-        steady_bristles(march.first.pairs, begin.bristle);
+        forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim,
+               integrator.first);
+        steady_bristles(integrator.first.pairs, begin.bristle);
     }
-    march.first.pairs.held = march.last.pairs.held = creeping;
-    march.work.evaluation.pairs.held = creeping;
+    integrator.first.pairs.has_bristles = integrator.last.pairs.has_bristles = creeping;
+    integrator.work.evaluation.pairs.has_bristles = creeping;
 }
 
-void avoid_reversals(const Model& model, March& march) {
-    Control& control = march.control;
-    const double* rigid = march.constants.rigid;
+void avoid_reversals(const Model& model, Integrator& integrator) {
+    Control& control = integrator.control;
+    const double* rigid = integrator.constants.rigid;
     if (control.creeping) {
-        control.reversals += creep_swings(model, march);
-    } else if (control.slow && vibration_slows(model.train, march.begin.v, rigid, STICKING)) {
-        control.detour = DETOUR;
+        control.reversals += creep_swings(model, integrator);
+    } else if (control.slow && vibration_slows(model.train, integrator.begin.v, rigid, STICKING)) {
+        control.fallback_steps = FALLBACK_STEPS;
         ++control.reversals;
     }
 }

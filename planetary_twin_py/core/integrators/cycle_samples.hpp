@@ -7,7 +7,7 @@
 // tolerance, every sample is computed. All samples of a repeated step come from here, so that they
 // do not depend on how a run is divided into windows.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
 #include "run/samples.hpp"
 #include "train/model.hpp"
@@ -15,13 +15,13 @@
 namespace gearbox {
 
 // Write the sample at an instant within the step that was played last; the march stands on it.
-void sample_cycle(const Model& model, March& march, const Instant& at, const Samples& out,
+void sample_cycle(const Model& model, Integrator& integrator, const Instant& at, const Samples& out,
                   std::int64_t row);
 
 // Play on to the step that ends at or after `until`, and write the samples that are due by then.
 //
 // The next of `samples` goes to the row `taken`; both are moved on.
-void play_window(const Model& model, March& march, const Instant& until, Sampling& samples,
-                 const Samples& out, std::int64_t& taken);
+void replay_window(const Model& model, Integrator& integrator, const Instant& until,
+                   Sampling& samples, const Samples& out, std::int64_t& taken);
 
 }  // namespace gearbox

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
 #include "train/bearings.hpp"
 #include "train/model.hpp"
@@ -43,15 +43,15 @@ inline void rebase(const Train& train, State& state) {
 }
 
 // Let clock, set-points and frame of `end` run on for h seconds.
-inline void advance_clock(const Model& model, March& march, double h) {
-    const State& begin = march.begin;
-    State& end = march.end;
+inline void advance_clock(const Model& model, Integrator& integrator, double h) {
+    const State& begin = integrator.begin;
+    State& end = integrator.end;
     run_on(begin, end, h);
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
-        end.set_speed[a] = begin.set_speed[a] + march.constants.slew[a] * h;
+        end.set_speed[a] = begin.set_speed[a] + integrator.constants.slew[a] * h;
         turn_frame(end, a, begin.speed[a] * h / TURN);
     }
-    march.control.step = h;
+    integrator.control.step = h;
 }
 
 }  // namespace gearbox

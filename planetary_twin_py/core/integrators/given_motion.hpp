@@ -3,7 +3,7 @@
 // Ends of shafts whose motion is given: where they are within a step. In the modes of the contacts
 // they stand still, so what the modes say of the bodies is without them.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {

@@ -22,7 +22,7 @@ class Mixing {
 public:
     // Note the rest that the nodes have moved under.
     void keep(const Propagation& run) {
-        for (std::int64_t n = 0; n < run.nodes.count; ++n) copy<L>(run.rest[n], used[n]);
+        for (std::int64_t n = 0; n < run.nodes.count; ++n) copy<L>(run.remainder[n], used[n]);
     }
 
     // Mix the rest of the last sweep with what it was before.
@@ -33,7 +33,7 @@ public:
         V weight = 1.0 / larger(V(run.motion.square), V(1.0 / (step * step)));
         V across(0.0), along(0.0), size(0.0);
         for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-            V left = V(run.rest[n]) - V(used[n]), own = left * weight;
+            V left = V(run.remainder[n]) - V(used[n]), own = left * weight;
             size += own * own;
             if (swept == 0) continue;
             V change = (left - V(left_before[n])) * weight;
@@ -45,10 +45,10 @@ public:
         const bool slow = swept > 0 && now > POOR * size_before;
         const double length = total(along), share = length > 0.0 ? total(across) / length : 0.0;
         for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-            V rest(run.rest[n]), left = rest - V(used[n]);
+            V remainder(run.remainder[n]), left = remainder - V(used[n]);
             if (slow) {
                 V change = (left - V(left_before[n])) + (V(used[n]) - V(used_before[n]));
-                (rest - share * change).store(run.rest[n]);
+                (remainder - share * change).store(run.remainder[n]);
             }
             left.store(left_before[n]);
             copy<L>(used[n], used_before[n]);
@@ -58,7 +58,7 @@ public:
     }
 
     // By how much a sweep without mixing would bring the next closer; 0: not known.
-    double pull() const { return ratio; }
+    double contraction() const { return ratio; }
 
 private:
     alignas(64) double used[MOST_NODES][BODIES];

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "capacities.hpp"
 #include "mesh/meshes_now.hpp"
-#include "rooms.hpp"
 #include "tribology/mesh_friction.hpp"
 
 namespace gearbox {
@@ -16,7 +16,7 @@ struct alignas(64) Node {
     alignas(64) double d[MESHES];                // transmission errors [m], [m/s]
     alignas(64) double rate[MESHES];             // of them
     alignas(64) double spin[GEARS - 1][MESHES];  // of both gears against the carrier [rad/s]
-    alignas(64) double rubbing[BODIES];          // friction and drag, in the modes
+    alignas(64) double friction_force[BODIES];   // friction and drag, in the modes
     alignas(64) double power[LEDGER];            // without what meshes take and put in [W]
     MeshesNow meshes;
     MeshFriction friction;

@@ -14,7 +14,7 @@ inline constexpr double NEARLY_CRITICAL = 1e-4;  // phase below which a sine cou
 inline constexpr double SMALLEST = 1e-300;       // keeps divisions finite
 
 // Whether a mode hardly moves of its own within h seconds.
-LAW bool is_free(double square, double damping, double h) {
+ALWAYS_INLINE bool is_free(double square, double damping, double h) {
     return square * h * h + damping * h < FREE_MASS;
 }
 
@@ -24,13 +24,13 @@ struct DecayRates {
     double fast;
 };
 
-LAW DecayRates decay_rates(double square, double damping) {
+ALWAYS_INLINE DecayRates decay_rates(double square, double damping) {
     double half = 0.5 * damping;
     double split = square - half * half;
     double rate = std::sqrt(std::fabs(split));
-    bool swings = split >= 0.0;
-    double slow = square / (swings ? 1.0 : half + rate);
-    return {rate, swings ? half : slow, swings ? half : half + rate};
+    bool underdamped = split >= 0.0;
+    double slow = square / (underdamped ? 1.0 : half + rate);
+    return {rate, underdamped ? half : slow, underdamped ? half : half + rate};
 }
 
 struct Wave {
@@ -40,19 +40,19 @@ struct Wave {
 
 // Free motions after t seconds. The rates are those of `decay_rates`. Those of the motions are
 // -w^2 times the second, and the first less c times the second.
-LAW Wave wave(double damping, double rate, double slow, double fast, double t) {
+ALWAYS_INLINE Wave wave(double damping, double rate, double slow, double fast, double t) {
     double phase = rate * t;
     double lasting = precise_exp(-slow * t), fading = precise_exp(-fast * t);
     auto [sine, cosine] = sin_cos(phase);
-    bool swings = slow == fast, apart = phase > NEARLY_CRITICAL;
+    bool underdamped = slow == fast, apart = phase > NEARLY_CRITICAL;
     double inverse = 1.0 / std::max(rate, SMALLEST);
     double series = t * (1.0 - phase * phase / 6.0);
-    double swing = lasting * (apart ? sine * inverse : series);
+    double oscillation = lasting * (apart ? sine * inverse : series);
     double gap = 0.5 * (lasting - fading) * inverse;
     double near = fading * t * (1.0 + phase + phase * phase / 1.5);
-    double creep = apart ? gap : near;
-    double second = swings ? swing : creep;
-    double first = swings ? lasting * cosine : 0.5 * (lasting + fading);
+    double overdamped_part = apart ? gap : near;
+    double second = underdamped ? oscillation : overdamped_part;
+    double first = underdamped ? lasting * cosine : 0.5 * (lasting + fading);
     return {first + 0.5 * damping * second, second};
 }
 

@@ -10,26 +10,26 @@
 // The cycle lasts as long as the speed set-point takes for it: the speed loop would not let it
 // drift.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
 // Check whether the step just made ends where the train has been before.
-void watch(const Model& model, March& march);
+void check_periodicity(const Model& model, Integrator& integrator);
 
 // Something acts on the train from outside: it must settle again.
-void restart_settling(March& march);
+void restart_settling(Integrator& integrator);
 
 // The step that was played last, or that closed the cycle.
-CycleStep& played_step(Periodic& periodic);
+CycleStep& replayed_step(Periodic& periodic);
 
 // Go on to the step of the cycle that ends at or after `until`; those before it are summed up.
-CycleStep& next_step(const Model& model, March& march, const Instant& until);
+CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until);
 
 // Let the march be as if it had just made a step of the cycle.
-void continue_from(const Model& model, March& march, const CycleStep& step);
+void continue_from(const Model& model, Integrator& integrator, const CycleStep& step);
 
 // Turns of the motor.
 struct Turns {

@@ -22,7 +22,7 @@ struct alignas(64) CycleStep {
     Place end;
     bool collocated;
     alignas(64) double power[LEDGER];  // at its end, see EVALUATION
-    alignas(64) double rubbing[BODIES];
+    alignas(64) double friction_force[BODIES];
     ModalMotion motion;
     MeshSums sums;
     SampleTable samples;
@@ -35,17 +35,17 @@ struct alignas(64) Periodic {
     double pause;         // [s] for which the train must not stray at least
     std::int64_t passed;  // mesh cycles since it was last looked whether the train repeats
     std::int64_t age;     // times that it was since something acted from outside
-    std::int64_t anchor_age;
-    State anchor;  // from which the train has not strayed since
+    std::int64_t reference_age;
+    State reference;  // from which the train has not strayed since
     bool recording;
-    bool playing;
+    bool replaying;
     std::int64_t steps;  // on the tape
     std::int64_t place;  // of the step on the tape that comes next
     std::int64_t known;  // contact states known when the last step was put on the tape
     State start;  // clock, turns and ledger where the present cycle starts; the fraction of the ...
     std::int64_t part;  // ... turn is that of the first cycle, and this many denominators
     Place whole;        // end of the cycle
-    std::vector<CycleStep> tape;
+    std::vector<CycleStep> cycle_steps;
     // Of all sample tables of the tape, one after another. Tables with memory of their own would
     // keep the largest that each place on the tape has ever had, and grow for hours with changes.
     std::vector<double> coefficients;

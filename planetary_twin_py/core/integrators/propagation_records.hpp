@@ -12,7 +12,7 @@ struct alignas(64) ModalMotion {
     std::int64_t modes;                  // place in `known`
     double step;                         // [s]
     double per_step;                     // its inverse
-    double pace;                         // of the fastest mode, w + c, but for free masses [1/s]
+    double fastest_rate;                 // of the fastest mode, w + c, but for free masses [1/s]
     alignas(64) double square[BODIES];   // w^2 [1/s^2]
     alignas(64) double damping[BODIES];  // c [1/s]
     alignas(64) double rate[BODIES];     // see `oscillator.decay_rates`
@@ -28,8 +28,8 @@ struct alignas(64) PastStep {
     std::int64_t nodes;        // their number
     std::int64_t end_seconds;  // when it ended, as in a State
     double end_time;
-    alignas(64) double rest[MOST_NODES][BODIES];
-    alignas(64) double rubbing[MOST_NODES][BODIES];
+    alignas(64) double remainder[MOST_NODES][BODIES];
+    alignas(64) double friction_force[MOST_NODES][BODIES];
 };
 
 struct alignas(64) Propagation {
@@ -40,9 +40,9 @@ struct alignas(64) Propagation {
     alignas(64) double spring[BODIES];  // w^2 and c, but 0 for what counts as a free mass
     alignas(64) double damper[BODIES];
     Node start;
-    alignas(64) double force[BODIES];      // at the start, friction being as it was before
-    alignas(64) double rest[5][BODIES];    // at the nodes
-    alignas(64) double cosine[5][BODIES];  // `wave` at the nodes
+    alignas(64) double force[BODIES];         // at the start, friction being as it was before
+    alignas(64) double remainder[5][BODIES];  // at the nodes
+    alignas(64) double cosine[5][BODIES];     // `wave` at the nodes
     alignas(64) double sine[5][BODIES];
     alignas(64) double end_cosine[BODIES];  // at the end of the step
     alignas(64) double end_sine[BODIES];

@@ -26,9 +26,9 @@ inline constexpr std::int64_t NO_MESH = -1;
 inline constexpr std::int64_t FAILED = -2;      // no mesh, and no step
 inline constexpr double SHORTEST_STEP = 1e-13;  // [s] below it two events count as one
 // Steps of Rosenbrock's method before collocation is tried again.
-inline constexpr std::int64_t DETOUR = 20;
+inline constexpr std::int64_t FALLBACK_STEPS = 20;
 // The same where only this step is too short: between the crowded edges of helical teeth.
-inline constexpr std::int64_t BRIEF_DETOUR = 1;
+inline constexpr std::int64_t BRIEF_FALLBACK_STEPS = 1;
 inline constexpr double SAFETY = 0.8, SHRINK = 0.25, GROW = 2.0;  // of steps
 inline constexpr double LARGEST_ERROR = 1e100;                    // in tolerances
 

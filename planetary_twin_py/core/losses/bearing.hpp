@@ -16,12 +16,13 @@ namespace gearbox {
 
 constexpr double SLOW_BEARING = 2000.0;  // [mm^2/s rpm] below it M0 follows neither oil nor speed
 
-// M0 + M1 [N m], never negative; `idle` f0 dm^3 [m^3], `rubbing` f1 dm [m], viscosity [m^2/s],
-// speed of one ring against the other [rad/s], load [N].
-inline double bearing_torque(double idle, double rubbing, double kinematic_viscosity, double speed,
-                             double load) {
+// M0 + M1 [N m], never negative; `no_load_factor` f0 dm^3 [m^3], `load_factor` f1 dm [m], viscosity
+// [m^2/s], speed of one ring against the other [rad/s], load [N].
+inline double bearing_torque(double no_load_factor, double load_factor, double kinematic_viscosity,
+                             double speed, double load) {
     double product = 1e6 * kinematic_viscosity * std::abs(speed) * 30.0 / std::numbers::pi;
-    return 0.1 * idle * power(at_least(product, SLOW_BEARING), 2.0 / 3.0) + rubbing * load;
+    return 0.1 * no_load_factor * power(at_least(product, SLOW_BEARING), 2.0 / 3.0) +
+           load_factor * load;
 }
 
 }  // namespace gearbox

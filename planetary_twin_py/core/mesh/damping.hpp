@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/step_constants.hpp"
 #include "train/train.hpp"
 #include "vector/math.hpp"

@@ -7,8 +7,8 @@
 // is a moment k L^2/12 s, and the energy k L^2 s^2/24, with the face width L. The face is taken as
 // touching all along.
 
+#include "capacities.hpp"
 #include "mesh/meshes_now.hpp"
-#include "rooms.hpp"
 #include "train/step_constants.hpp"
 #include "train/tilting.hpp"
 #include "train/train.hpp"

@@ -17,8 +17,8 @@ struct Cvode {
 int cvode_function(double t, void* y, void* dy, void* cvode);
 
 // Fill row k of `samples` with `vector` at times[k]; 0, or what CVODE returned.
-int cvode_march(const Cvode& cvode, void* memory, void* vector, const double* times,
-                double* samples, std::int64_t count);
+int cvode_integrate(const Cvode& cvode, void* memory, void* vector, const double* times,
+                    double* samples, std::int64_t count);
 
 // As CyRK calls it, whose argument is the address of a Problem.
 void cyrk_function(double* dy, double t, double* y, char* arguments);

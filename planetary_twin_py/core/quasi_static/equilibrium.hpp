@@ -12,22 +12,22 @@
 #include <algorithm>
 #include <iterator>
 
+#include "capacities.hpp"
 #include "quasi_static/equilibrium_record.hpp"
-#include "rooms.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
 // Columns of Equilibrium::play: the side whose flank carries.
-constexpr int DRIVE_PLAY = 0, COAST_PLAY = 1;
+constexpr int DRIVE_CLEARANCE = 0, COAST_CLEARANCE = 1;
 
 // Where passes do not end: friction of a mesh that hardly touches counts as settled below this [N].
-constexpr double DITHER = 0.05;
+constexpr double NEGLIGIBLE_FORCE = 0.05;
 
 // An equilibrium still to be found, the teeth on the side `lean`.
-inline Equilibrium first_guess(std::int64_t lean) {
+inline Equilibrium first_guess(std::int64_t closing_side) {
     Equilibrium run{};
-    std::fill(std::begin(run.lean), std::end(run.lean), lean);
+    std::fill(std::begin(run.closing_side), std::end(run.closing_side), closing_side);
     return run;
 }
 
@@ -39,6 +39,7 @@ inline Equilibrium first_guess(std::int64_t lean) {
 // shown: (QUANTITIES, MESHES), see `observe`.
 //
 // Throws std::invalid_argument: there is no equilibrium, or it is not found.
-void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]);
+void solve_equilibrium(const Model& model, double tolerance, Equilibrium& run,
+                       double (*shown)[MESHES]);
 
 }  // namespace gearbox

@@ -13,12 +13,12 @@ struct alignas(64) Equilibrium {
     State state;
     StepConstants step;
     Evaluation evaluation;
-    alignas(64) double before[BODIES];      // what rubbed in the pass before [N]
-    alignas(64) std::int64_t lean[MESHES];  // side to which an open mesh would close
-    alignas(64) double error[MESHES];       // of form, its tangential part [m]
-    alignas(64) double stiffness[MESHES];   // [N/m]
+    alignas(64) double before[BODIES];              // what rubbed in the pass before [N]
+    alignas(64) std::int64_t closing_side[MESHES];  // side to which an open mesh would close
+    alignas(64) double error[MESHES];               // of form, its tangential part [m]
+    alignas(64) double stiffness[MESHES];           // [N/m]
     // From the middle to the flank that carries, on both sides [m].
-    alignas(64) double play[MESHES][2];
+    alignas(64) double clearance[MESHES][2];
     alignas(64) double force[MESHES];     // signed [N]
     double torque[3];                     // [N m]
     double balance[2];                    // torques to be balanced along each rigid motion [N m]

@@ -14,6 +14,6 @@ void turn_to(const Model& model, const State& origin, double after, State& state
 
 // Move `origin` to the last whole second before `until`, second by second. Turns are counted off
 // there, so that angles stay exact and do not depend on who asks when.
-void roll(const Model& model, State& origin, const Instant& until);
+void advance_origin(const Model& model, State& origin, const Instant& until);
 
 }  // namespace gearbox

@@ -29,7 +29,7 @@ Sum add_up(double total, std::int64_t planets, const Springs& springs, double w)
 }  // namespace
 
 // Newton's method on a sum of rising lines, within a bracket.
-double share(double total, std::int64_t planets, const Springs& springs) {
+double solve_windup(double total, std::int64_t planets, const Springs& springs) {
     double copies = 0.0;
     for (std::int64_t p = 0; p < planets; ++p) copies += springs.copies[p];
     double low = INFINITE, high = -INFINITE, stiffness = 0.0, w = 0.0, mean = total / copies;

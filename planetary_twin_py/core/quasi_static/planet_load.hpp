@@ -66,6 +66,6 @@ inline SpringForce planet_force(const Springs& springs, std::int64_t p, double w
 }
 
 // The wind-up w [m] at which the planets with their copies have `total` [N] on the ring.
-double share(double total, std::int64_t planets, const Springs& springs);
+double solve_windup(double total, std::int64_t planets, const Springs& springs);
 
 }  // namespace gearbox

@@ -72,24 +72,25 @@ double to_next_edge(std::span<const double> edges, double cycle, double sense) {
 double panel_length(const Model& model, const State& state, std::span<const double> edges) {
     const Train& train = model.train;
     const Load& load = model.load;
-    double step = LONGEST_PANEL, bend = 0.0;
+    double step = LONGEST_PANEL, acceleration = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
         double gap = load.target_speed[a] - state.set_speed[a];
         if (gap == 0.0) continue;
         step = std::min(step, std::abs(gap) / load.slew_rate);
-        bend += train.cycles[a] * std::copysign(load.slew_rate, gap) / TURN;
+        acceleration += train.cycles[a] * std::copysign(load.slew_rate, gap) / TURN;
     }
     if (load.ripple > 0.0) {
         double turn = std::abs(state.speed[0]) + load.slew_rate * step;
         step = std::min(step, TURN / (PER_RIPPLE * load.ripple_order * turn));
     }
-    double rate = frame_cycle_rate(train, state), sense = rate != 0.0 ? rate : bend;
+    double rate = frame_cycle_rate(train, state), sense = rate != 0.0 ? rate : acceleration;
     if (sense == 0.0) return step;
-    if (rate * bend < 0.0) step = std::min(step, -rate / bend);  // where the motion turns
+    if (rate * acceleration < 0.0)
+        step = std::min(step, -rate / acceleration);  // where the motion turns
     sense = std::copysign(1.0, sense);
     double distance = to_next_edge(edges, frame_cycle(train, state, 1), sense);
     // distance = |rate| t + sense bend t^2/2
-    double square = rate * rate + 2.0 * sense * bend * distance;
+    double square = rate * rate + 2.0 * sense * acceleration * distance;
     if (square >= 0.0) step = std::min(step, 2.0 * distance / (std::abs(rate) + std::sqrt(square)));
     return step;
 }
@@ -111,7 +112,7 @@ void integrate(const Follower& follower, const State& origin, Span span, double*
     for (int n = 0; n < PANEL_NODES; ++n) {
         turn_to(follower.model, origin, span.begin + half * (1.0 + GAUSS_NODES[n]),
                 follower.run.state);
-        settle(follower.model, follower.tolerance, follower.run, follower.shown);
+        solve_equilibrium(follower.model, follower.tolerance, follower.run, follower.shown);
         add_rates(train, follower.run.evaluation.power, follower.shown, half * GAUSS_WEIGHTS[n],
                   out);
         raise_peaks_at_node(train, follower.shown, n, peak);

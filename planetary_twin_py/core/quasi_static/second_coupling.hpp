@@ -10,7 +10,7 @@ namespace gearbox {
 //
 // lean: side of the teeth on which the mean torque presses.
 // origin: where the motors are.
-double steepest_torque(const Model& model, double tolerance, std::int64_t lean, const State& origin,
-                       const double* speed);
+double steepest_torque(const Model& model, double tolerance, std::int64_t closing_side,
+                       const State& origin, const double* speed);
 
 }  // namespace gearbox

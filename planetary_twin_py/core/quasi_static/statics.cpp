@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capacities.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/machines.hpp"
 #include "quasi_static/planet_load.hpp"
-#include "rooms.hpp"
 #include "train/set_step_constants.hpp"
 
 namespace gearbox {
@@ -22,10 +22,11 @@ void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
     springs.compliance[p] = 1.0 / run.stiffness[s] + 1.0 / run.stiffness[r];
     springs.error[p] = run.error[s] + run.error[r] + friction / run.stiffness[s];
     double* steps = springs.steps[p];
-    steps[0] = -run.play[s][COAST_PLAY] - run.play[r][COAST_PLAY];
-    steps[2] = run.play[s][DRIVE_PLAY] + run.play[r][DRIVE_PLAY];
-    steps[1] = friction > 0.0 ? run.play[s][DRIVE_PLAY] - run.play[r][COAST_PLAY]
-                              : run.play[r][DRIVE_PLAY] - run.play[s][COAST_PLAY];
+    steps[0] = -run.clearance[s][COAST_CLEARANCE] - run.clearance[r][COAST_CLEARANCE];
+    steps[2] = run.clearance[s][DRIVE_CLEARANCE] + run.clearance[r][DRIVE_CLEARANCE];
+    steps[1] = friction > 0.0
+                   ? run.clearance[s][DRIVE_CLEARANCE] - run.clearance[r][COAST_CLEARANCE]
+                   : run.clearance[r][DRIVE_CLEARANCE] - run.clearance[s][COAST_CLEARANCE];
 }
 
 // Let the meshes be on the sides that their forces ask for.
@@ -60,8 +61,9 @@ void displace_by_windup(const Train& train, Equilibrium& run, double w) {
 
 // d [m] of a mesh that carries its force.
 double stretch(const Equilibrium& run, std::int64_t i) {
-    double play = run.force[i] > 0.0 ? run.play[i][DRIVE_PLAY] : -run.play[i][COAST_PLAY];
-    return run.error[i] + play + run.force[i] / run.stiffness[i];
+    double clearance =
+        run.force[i] > 0.0 ? run.clearance[i][DRIVE_CLEARANCE] : -run.clearance[i][COAST_CLEARANCE];
+    return run.error[i] + clearance + run.force[i] / run.stiffness[i];
 }
 
 // d [m] of the sun mesh of an idle planet, amid its play; w [m]: wind-up.
@@ -69,15 +71,15 @@ double idle_deflection(const Equilibrium& run, std::int64_t p, double w) {
     double low = run.springs.steps[p][0], high = run.springs.steps[p][2];
     double passed = w - run.springs.error[p] - low;
     passed = high > low ? passed / (high - low) : 0.0;
-    double both = run.play[p][DRIVE_PLAY] + run.play[p][COAST_PLAY];
-    return run.error[p] - run.play[p][COAST_PLAY] + passed * both;
+    double both = run.clearance[p][DRIVE_CLEARANCE] + run.clearance[p][COAST_CLEARANCE];
+    return run.error[p] - run.clearance[p][COAST_CLEARANCE] + passed * both;
 }
 
 }  // namespace
 
 void put_external(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
-    std::copy_n(run.evaluation.rubbing, train.bodies, run.external);
+    std::copy_n(run.evaluation.friction_force, train.bodies, run.external);
     balance_torques(model, run);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
@@ -85,7 +87,7 @@ void put_external(const Model& model, Equilibrium& run) {
     }
 }
 
-double carry(const Model& model, Equilibrium& run) {
+double solve_load_sharing(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     std::int64_t planets = train.meshes / 2, ring = train.body[planets][1];
     bool sun_turns = train.sun != train.bodies;
@@ -95,7 +97,7 @@ double carry(const Model& model, Equilibrium& run) {
         copies += train.copies[p];
         if (sun_turns) total -= train.copies[p] * run.springs.friction[p];
     }
-    double w = share(total, planets, run.springs);
+    double w = solve_windup(total, planets, run.springs);
     for (std::int64_t p = 0; p < planets; ++p) {
         run.force[planets + p] = planet_force(run.springs, p, w).force;
         run.force[p] = run.force[planets + p] + run.springs.friction[p];
@@ -105,7 +107,7 @@ double carry(const Model& model, Equilibrium& run) {
     return std::abs(total) / copies;
 }
 
-void deflect(const Model& model, Equilibrium& run) {
+void place_planets(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     double* x = run.state.x;
     std::int64_t planets = train.meshes / 2;

@@ -9,9 +9,9 @@ namespace gearbox {
 void put_external(const Model& model, Equilibrium& run);
 
 // Share the forces among the planets; their mean magnitude [N].
-double carry(const Model& model, Equilibrium& run);
+double solve_load_sharing(const Model& model, Equilibrium& run);
 
 // Put every planet where its meshes carry their forces, and an idle one amid its play.
-void deflect(const Model& model, Equilibrium& run);
+void place_planets(const Model& model, Equilibrium& run);
 
 }  // namespace gearbox

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "rooms.hpp"
 #include "train/train.hpp"
 
 namespace gearbox {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/load.hpp"
 #include "train/train.hpp"
 

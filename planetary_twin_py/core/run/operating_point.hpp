@@ -25,9 +25,9 @@ struct OperatingPoint {
 
 // How they depend on it in a scene.
 struct alignas(64) PointLaws {
-    Load constant;  // what depends on nothing
-    double play;  // half the backlash along the line of action per backlash, or all of it where the
-                  // force grows from zero [-]
+    Load constant;                // what depends on nothing
+    double half_backlash_factor;  // half the backlash along the line of action per backlash, or all
+                                  // of it where the force grows from zero [-]
     bool from_zero;                // whether the force grows from a DTE of zero
     double torque[MACHINES];       // of each machine per torque of the first motor [-]
     double ratio[MACHINES][AXES];  // speed of the shafts of motor and load per speed of a motor [-]
@@ -54,7 +54,7 @@ inline double start_speed(const PointLaws& laws, const OperatingPoint& point) {
 // Loads at an operating point; given torques and speeds are those of steady running there.
 inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
     Load load = laws.constant;
-    load.half_backlash = point.backlash * laws.play;
+    load.half_backlash = point.backlash * laws.half_backlash_factor;
     load.offset = laws.from_zero ? 0.0 : load.half_backlash;
     const double inner = load.half_backlash - load.offset;
     load.inner_squared = inner * inner;
@@ -79,7 +79,7 @@ inline void keep_given(const Load& before, Load& load) {
         load.speed[m] = before.speed[m];
         load.acceleration[m] = before.acceleration[m];
         load.arrives[m] = before.arrives[m];
-        load.onward[m] = before.onward[m];
+        load.speed_after[m] = before.speed_after[m];
     }
     load.since_seconds = before.since_seconds;
     load.since = before.since;

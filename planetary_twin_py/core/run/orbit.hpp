@@ -2,7 +2,7 @@
 
 // Displacements of axes as the housing sees them.
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
 #include "run/window.hpp"
@@ -48,24 +48,24 @@ struct PortStates {
 };
 
 // What a command may find.
-enum class Answer { OBEYED, OUT_OF_RANGE, NOT_GIVEN };
+enum class Answer { ACCEPTED, OUT_OF_RANGE, NOT_GIVEN };
 
 // Whether the ports take a command: its values are in their ranges, and what it gives is given.
 Answer check(const Load& load, const PortRanges& ranges, const Command& command);
 
 // Let the shafts reach positions [rad] at constant speed, `duration` seconds after `now`; a NaN: no
 // position is given.
-void approach(const Model& model, March& march, const Instant& now, double duration,
+void approach(const Model& model, Integrator& integrator, const Instant& now, double duration,
               const double* position, Command& command);
 
 // Let a command act from `now` on, the end of the last window: at once, or, where `reaching` is not
 // 0, along straight lines that reach its values after so many seconds. What the meshes show in the
 // last step counts up to `now`. Throws NoFiniteState.
-void apply_command(Model& model, March& march, const Instant& now, const Command& command,
+void apply_command(Model& model, Integrator& integrator, const Instant& now, const Command& command,
                    double reaching);
 
 // What the ports show at `time`, within the last step.
-void read_ports(const Model& model, March& march, const Instant& time, PortStates& out);
+void read_ports(const Model& model, Integrator& integrator, const Instant& time, PortStates& out);
 
 // A stretch of time under a command.
 struct PortStep {
@@ -78,7 +78,7 @@ struct PortStep {
 
 // Give the command, integrate to the end of the step without samples, and fill `out` and, with what
 // the limits are checked against, `end`.
-Outcome step_ports(Model& model, March& march, const PortStep& step, const Limits& limits,
+Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, const Limits& limits,
                    WindowEnd& end, PortStates& out);
 
 }  // namespace gearbox

@@ -10,7 +10,7 @@ constexpr std::int64_t SAMPLE_DRAGS = 2;  // power that bearings and churning ta
 constexpr std::int64_t SAMPLE_AXES = 4;   // displacement, then force on the bearing, two each
 // Where axes tilt: axial displacement and two tilts, then axial force and two moments on the
 // bearing.
-constexpr std::int64_t SAMPLE_LEAN = 6;
+constexpr std::int64_t SAMPLE_TILTING = 6;
 
 // Samples of one window, in arrays that their owner keeps. Body j stands at turns @ ratio[j] turns
 // + angle[j]. All pointers but the first may be null: not asked for.
@@ -28,7 +28,7 @@ struct Samples {
     Peaks* peaks = nullptr;     // of the samples that are computed, not of those that repeat
     std::int64_t bearings = 0;  // the first of those of the train whose axes are shown
     double* moved = nullptr;    // (rows, bearings, SAMPLE_AXES) [m] and [N]
-    double* lean = nullptr;     // (rows, bearings, SAMPLE_LEAN) [m], [rad], [N], [N m], if any
+    double* tilting = nullptr;  // (rows, bearings, SAMPLE_LEAN) [m], [rad], [N], [N m], if any
 
     double* mesh_row(std::int64_t row) const { return mesh + row * quantities * meshes; }
 
@@ -47,7 +47,7 @@ struct Samples {
                 peaks,
                 bearings,
                 moved + row * bearings * SAMPLE_AXES,
-                lean ? lean + row * bearings * SAMPLE_LEAN : nullptr};
+                tilting ? tilting + row * bearings * SAMPLE_TILTING : nullptr};
     }
 };
 

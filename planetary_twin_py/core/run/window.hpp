@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
@@ -20,7 +20,7 @@ struct AxesWaveform {
     double* bearing_force;  // (rows, bearings, 2), on the bearing [N]
     double* orbit;          // (rows, MEMBERS, 2) [m]
     double* flank_force;    // (rows, FLANKS, meshes), drive flanks first, magnitude [N]
-    double* lean;           // (rows, bearings, SAMPLE_LEAN), see Samples; only where axes tilt
+    double* tilting;        // (rows, bearings, SAMPLE_LEAN), see Samples; only where axes tilt
 };
 
 // Every sample of every mesh that is reported, in arrays that their owner keeps.
@@ -55,7 +55,7 @@ struct alignas(64) WindowEnd {
 // The task: a window, or the first part of one.
 struct WindowJob {
     const Model& model;
-    March& march;
+    Integrator& integrator;
     Instant until;
     Sampling samples;
     const Limits& limits;
@@ -74,13 +74,14 @@ Outcome run_window(const WindowJob& job);
 
 // Copy the integrals of the ledger since the last call and set them to zero: beside the sums of a
 // long run, rounding would lose what a window adds.
-void pop_energy_ledger(March& march, double* ledger);
+void pop_energy_ledger(Integrator& integrator, double* ledger);
 
 // Copy integrals and extremes of the meshes up to `until`, the end of the last window, and restart
 // them.
-void pop_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums);
+void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& until,
+                   MeshSums& sums);
 
 // Begin a window at the end of the last one: fill time, ledger, power and stored energy of `end`.
-void begin_window(const Model& model, March& march, WindowEnd& end);
+void begin_window(const Model& model, Integrator& integrator, WindowEnd& end);
 
 }  // namespace gearbox

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/body_speed.hpp"
 #include "train/rolling_bearing.hpp"
 #include "train/state.hpp"
@@ -44,14 +44,15 @@ inline double eccentricity(const Train& train, std::int64_t b, const double* x) 
 }
 
 // Add a force on what bearing b holds to `force`, and its reaction on what it is on.
-inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& pull, double* force) {
+inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& reaction,
+                           double* force) {
     const MovingAxes& axes = train.moving;
     auto [cosine, sine] = axes.direction[b];
-    force[axes.place[b][0]] += pull.along;
-    force[axes.place[b][1]] += pull.across;
-    force[axes.carrier[0]] -= cosine * pull.along - sine * pull.across;
-    force[axes.carrier[1]] -= sine * pull.along + cosine * pull.across;
-    force[train.carrier] -= axes.carried[b] * pull.across;
+    force[axes.place[b][0]] += reaction.along;
+    force[axes.place[b][1]] += reaction.across;
+    force[axes.carrier[0]] -= cosine * reaction.along - sine * reaction.across;
+    force[axes.carrier[1]] -= sine * reaction.along + cosine * reaction.across;
+    force[train.carrier] -= axes.carried[b] * reaction.across;
 }
 
 inline bool rolls(const MovingAxes& axes, std::int64_t b) {
@@ -64,11 +65,11 @@ inline bool is_linear(const MovingAxes& axes, std::int64_t b) {
 }
 
 // What bearing b does under an eccentricity of `size` [m].
-inline Pressed bearing_law(const MovingAxes& axes, std::int64_t b, double size) {
+inline BearingResponse bearing_law(const MovingAxes& axes, std::int64_t b, double size) {
     if (rolls(axes, b)) return rolling_bearing_law(axes.rolling[b], axes.clearance[b], size);
-    const double k = axes.stiffness[b], pressed = size - axes.clearance[b];
-    if (!(pressed > 0.0)) return {0.0, 0.0, 0.0};
-    return {0.5 * k * pressed * pressed, k * pressed, k};
+    const double k = axes.stiffness[b], penetration = size - axes.clearance[b];
+    if (!(penetration > 0.0)) return {0.0, 0.0, 0.0};
+    return {0.5 * k * penetration * penetration, k * penetration, k};
 }
 
 // Damping [N s/m] of bearing b along its eccentricity and across it. A rolling bearing is damped in
@@ -77,16 +78,16 @@ struct RadialDamping {
     double along, across;
 };
 
-inline RadialDamping radial_damping(const MovingAxes& axes, std::int64_t b, const Pressed& at,
-                                    double size) {
+inline RadialDamping radial_damping(const MovingAxes& axes, std::int64_t b,
+                                    const BearingResponse& at, double size) {
     if (!rolls(axes, b)) return {axes.damping[b], 0.0};
     const double time = axes.rolling[b].damping_time;
-    return {time * at.stiffness, time * at.push / size};
+    return {time * at.stiffness, time * at.force / size};
 }
 
 struct BearingForce {
-    InPlane pull;  // on what the bearing holds [N]
-    double lost;   // to damping [W]
+    InPlane reaction;  // on what the bearing holds [N]
+    double lost;       // to damping [W]
 };
 
 // Force of bearing b in a frame that turns at `turning` [rad/s].
@@ -107,16 +108,16 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
                 -(damped.along * rate.along + damped.across * rate.across)};
     }
     const double size = std::sqrt(r.along * r.along + r.across * r.across);
-    const Pressed at = bearing_law(axes, b, size);
-    if (!(at.push > 0.0)) return {{0.0, 0.0}, 0.0};
+    const BearingResponse at = bearing_law(axes, b, size);
+    if (!(at.force > 0.0)) return {{0.0, 0.0}, 0.0};
     const RadialDamping damping = radial_damping(axes, b, at, size);
     const double nx = r.along / size, ny = r.across / size;
-    const double pressing =
-        std::fmax(at.push + damping.along * (nx * against.along + ny * against.across), 0.0);
-    const double sideways = damping.across * (nx * against.across - ny * against.along);
-    return {{-pressing * nx + sideways * ny, -pressing * ny - sideways * nx},
-            (pressing - at.push) * (nx * rate.along + ny * rate.across) +
-                sideways * (nx * rate.across - ny * rate.along)};
+    const double normal =
+        std::fmax(at.force + damping.along * (nx * against.along + ny * against.across), 0.0);
+    const double tangential = damping.across * (nx * against.across - ny * against.along);
+    return {{-normal * nx + tangential * ny, -normal * ny - tangential * nx},
+            (normal - at.force) * (nx * rate.along + ny * rate.across) +
+                tangential * (nx * rate.across - ny * rate.along)};
 }
 
 // Displacement of what bearing b holds, without the way that the carrier turns it along, and its
@@ -124,11 +125,11 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
 inline void show_bearing(const Train& train, std::int64_t b, double turning, const double* x,
                          const double* v, double* out) {
     const MovingAxes& axes = train.moving;
-    const InPlane pull = bearing_force(train, b, turning, x, v).pull;
+    const InPlane reaction = bearing_force(train, b, turning, x, v).reaction;
     out[0] = x[axes.place[b][0]];
     out[1] = x[axes.place[b][1]] - axes.carried[b] * x[train.carrier];
-    out[2] = -pull.along;
-    out[3] = -pull.across;
+    out[2] = -reaction.along;
+    out[3] = -reaction.across;
 }
 
 // Coriolis and centrifugal forces on what bearing b holds.
@@ -156,7 +157,7 @@ inline void apply_axes(const Train& train, const State& state, const double* rig
     }
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
         BearingForce bearing = bearing_force(train, b, turning, x, v);
-        add_at_bearing(train, b, bearing.pull, force);
+        add_at_bearing(train, b, bearing.reaction, force);
         power[DAMPING] += bearing.lost;
         if (turning != 0.0) add_inertial(train, b, turning, x, v, force);
         if (!tilts(train)) continue;

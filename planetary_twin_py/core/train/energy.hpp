@@ -47,7 +47,7 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
     if constexpr (MOVING) {
         for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
             total += bearing_energy(train, b, state.x);
-            if (tilts(train)) total += lean_energy(train, b, state.x);
+            if (tilts(train)) total += axial_tilt_energy(train, b, state.x);
         }
         total += weight_energy(train, state);
     }

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <memory>
 
+#include "capacities.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "rooms.hpp"
 #include "train/bearings.hpp"
 #include "train/equations.hpp"
 #include "train/set_step_constants.hpp"
@@ -25,7 +25,7 @@ constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
 constexpr int CYCLE_POINTS = 64;         // places in the mesh cycle over which friction is averaged
 constexpr int BALANCING_PASSES = 12;     // each leaves some per cent of what friction was off by
 // Of the stiffness of a tooth pair: holds what nothing else does.
-constexpr double LOOSE = 1e-9;
+constexpr double REGULARISATION = 1e-9;
 constexpr int MOST_PASSES = 200;      // of finding which flanks and bearings touch
 constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as flanks might swap for ever
 constexpr double AT_REST = 1e-13;     // [m] by which a pass may still move the axes
@@ -57,7 +57,7 @@ void place_pairs(Start& start) {
 }
 
 // Let a body stay where it is.
-void hold_body(Balance& balance, std::int64_t body) {
+void fix_body(Balance& balance, std::int64_t body) {
     for (int j = 0; j < BODIES; ++j) balance.stiffness[body][j] = balance.stiffness[j][body] = 0.0;
     balance.stiffness[body][body] = 1.0;
     balance.force[body] = 0.0;
@@ -73,7 +73,7 @@ double stiffest(const Train& train, std::int64_t b, const double* x) {
 // Add the stiffness of the bearings, as if none had clearance: so no step leads far away, at the
 // price of more of them. And a little of its own to every coordinate: what nothing holds, such as
 // an axis that floats without load, stays where it is.
-void hold_axes(Start& start) {
+void add_bearing_stiffness(Start& start) {
     const Train& train = start.model.train;
     double (*stiffness)[BODIES] = start.balance.stiffness;
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
@@ -82,8 +82,8 @@ void hold_axes(Start& start) {
             add_outer(stiffness, row.place, row.factor, row.size,
                       row.radial ? radial : row.stiffness);
     }
-    double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
-    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
+    double regularisation = REGULARISATION * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
 }
 
 // Move x by what springs of meshes and couplings yield to `balance.force`, the motors held.
@@ -100,8 +100,8 @@ void displace_by_forces(Start& start) {
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
         add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
-    if constexpr (MOVING) hold_axes(start);
-    for (std::int64_t a = 0; a < train.axes; ++a) hold_body(balance, train.coupling[2 * a][0]);
+    if constexpr (MOVING) add_bearing_stiffness(start);
+    for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling[2 * a][0]);
     factorise(balance.stiffness, train.bodies);
     solve(balance.stiffness, train.bodies, balance.force);
     for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += balance.force[j];
@@ -120,16 +120,17 @@ void balance_mean_forces(Start& start) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
-        double push = start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
+        double normal_force =
+            start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
         for (int g = 0; g < ENTRIES; ++g)
-            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * push;
+            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * normal_force;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        double pull = load.torque[c] / train.radius[machine];
-        pull -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += pull;
-        force[member] -= pull;
+        double coupling_force = load.torque[c] / train.radius[machine];
+        coupling_force -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += coupling_force;
+        force[member] -= coupling_force;
     }
     displace_by_forces(start);
 }
@@ -162,18 +163,18 @@ void forces_at_rest(Start& start) {
         if (state.side[i] == OPEN) continue;
         double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
-        double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
+        double normal_force = k * (d - static_cast<double>(state.side[i]) * load.offset);
         for (int j = 0; j < entries_of(train); ++j)
-            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * push;
+            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * normal_force;
         if constexpr (MOVING)
             add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
                              force);
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        double pull = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += load.torque[c] / train.radius[machine] - pull;
-        force[member] += pull;
+        double coupling_force = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += load.torque[c] / train.radius[machine] - coupling_force;
+        force[member] += coupling_force;
     }
     double power[LEDGER] = {};
     apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
@@ -203,7 +204,7 @@ void balance_axes(Start& start) {
 }
 
 // Largest force on a body at rest at x, into `found`: none where the axes have settled.
-void find_unbalanced(Start& start, Beginning& found) {
+void find_unbalanced(Start& start, InitialState& found) {
     touch_flanks(start);
     place_pairs(start);
     forces_at_rest(start);
@@ -311,9 +312,9 @@ bool is_closed(const Train& train, const State& state) {
 
 }  // namespace
 
-Beginning initial_state(const Model& model, const double* speed, double force) {
+InitialState initial_state(const Model& model, const double* speed, double force) {
     const Train& train = model.train;
-    Beginning found{};
+    InitialState found{};
     State& state = found.state;
     std::copy(speed, speed + AXES, state.speed);
     std::copy(speed, speed + AXES, state.set_speed);

@@ -13,7 +13,7 @@
 
 namespace gearbox {
 
-struct Beginning {
+struct InitialState {
     State state;
     double unbalanced;  // largest force that nothing balances there, friction apart [N]
     std::int64_t body;  // on which it acts
@@ -24,6 +24,6 @@ struct Beginning {
 // model: the train at its operating point.
 // speed: of the motors (AXES,) [rad/s].
 // force: mean force of every mesh [N].
-Beginning initial_state(const Model& model, const double* speed, double force);
+InitialState initial_state(const Model& model, const double* speed, double force);
 
 }  // namespace gearbox

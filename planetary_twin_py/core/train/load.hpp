@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 
@@ -28,7 +28,7 @@ struct alignas(64) Load {
     double speed[MACHINES];            // of a shaft whose motion is given [rad/s]
     double acceleration[MACHINES];     // by which that changes [rad/s^2]
     std::int64_t arrives[MACHINES];    // 1: the shaft reaches a given position at this speed
-    double onward[MACHINES];           // its speed after that, until a command [rad/s]
+    double speed_after[MACHINES];      // its speed after that, until a command [rad/s]
 };
 
 }  // namespace gearbox

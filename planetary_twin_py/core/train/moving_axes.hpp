@@ -17,7 +17,7 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/rolling_bearing.hpp"
 
 namespace gearbox {
@@ -27,7 +27,7 @@ constexpr int CARRIER_BEARING = 2;  // place of that of the carrier
 
 // Axial and tilting motion of what a bearing holds.
 struct TiltingAxis {
-    std::int64_t lift;         // coordinate z
+    std::int64_t axial;        // coordinate z
     std::int64_t place[2];     // coordinates of the tilts
     double lever;              // tilt per coordinate [1/m]
     std::int64_t turns;        // body or ground, whose speed the spin is

@@ -30,10 +30,10 @@ inline void observe(const Model& model, const State& state, const StepConstants&
     mesh_forces(model, state, step, x, v, delay, work);
     share_loads(model, step, work);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double force = at_least(now.push[i], 0.0);
+        double force = at_least(now.normal_force[i], 0.0);
         at(DTE, i) = mesh_motion(train, i, x);
         at(MESH_FORCE, i) = static_cast<double>(state.side[i]) * force;
-        at(MESH_POWER, i) = force * train.base_pitch * std::abs(now.pace);
+        at(MESH_POWER, i) = force * train.base_pitch * std::abs(now.cycle_rate);
         if (state.side[i] == OPEN)
             at(FILM, i) = at(LAMBDA, i) = std::numeric_limits<double>::quiet_NaN();
     }
@@ -49,7 +49,7 @@ inline void observe(const Model& model, const State& state, const StepConstants&
             if (!train.friction) continue;
             at(BOUNDARY, i) += pairs.boundary[k];
             at(VISCOUS, i) += pairs.viscous[k];
-            double lost = pairs.held ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
+            double lost = pairs.has_bristles ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
             at(POWER_LOSS, i) += lost + pairs.rolling_power[k];
         }
     }

@@ -29,30 +29,32 @@ struct RollingBearing {
 };
 
 // What a bearing does along its eccentricity.
-struct Pressed {
+struct BearingResponse {
     double energy;     // [J]
-    double push;       // [N]
+    double force;      // [N]
     double stiffness;  // along the load [N/m]
 };
 
 // Of a rolling bearing with a radial clearance [m] under an eccentricity [m].
-inline Pressed rolling_bearing_law(const RollingBearing& bearing, double clearance, double size) {
+inline BearingResponse rolling_bearing_law(const RollingBearing& bearing, double clearance,
+                                           double size) {
     const double x = size - clearance;
     if (!(x > 0.0)) return {0.0, 0.0, 0.0};
     const double n = bearing.exponent, e = 0.5 * x / size, open = 1.0 - 2.0 * e;
-    double zone = 0.0, slope = 0.0, half_bend = 0.0;  // E, E' and E''/2
+    double zone = 0.0, slope = 0.0, half_curvature = 0.0;  // E, E' and E''/2
     for (int k = LOAD_ZONE_TERMS - 1; k >= 0; --k) {
-        half_bend = half_bend * e + slope;
+        half_curvature = half_curvature * e + slope;
         slope = slope * e + zone;
         zone = zone * e + bearing.load_zone[k];
     }
     const double by_zone = 0.5 * zone + e * slope;
-    const double push = (n + 1.0) * zone + open * by_zone;
-    const double push_slope =
-        (n + 1.0) * slope - 2.0 * by_zone + open * (1.5 * slope + 2.0 * e * half_bend);
-    const double rising = n * push + open * (0.5 * push + e * push_slope);
+    const double force_factor = (n + 1.0) * zone + open * by_zone;
+    const double force_factor_slope =
+        (n + 1.0) * slope - 2.0 * by_zone + open * (1.5 * slope + 2.0 * e * half_curvature);
+    const double stiffness_factor =
+        n * force_factor + open * (0.5 * force_factor + e * force_factor_slope);
     const double scale = bearing.strength * power(x, n - 1.0) * std::sqrt(e);
-    return {scale * x * x * zone, scale * x * push, scale * rising};
+    return {scale * x * x * zone, scale * x * force_factor, scale * stiffness_factor};
 }
 
 }  // namespace gearbox

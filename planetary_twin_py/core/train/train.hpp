@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/moving_axes.hpp"
 
 namespace gearbox {
@@ -81,12 +81,12 @@ struct alignas(64) Train {
     alignas(64) double fault_factor[FAULTS][KINDS][SEGMENTS][PAIRS]
                                    [TERMS];  // on the stiffness of the pair
     std::int64_t joints;                     // bearings, and members with a drag of their own
-    alignas(64) std::int64_t joint_body[JOINTS][2];  // what turns, and against what
-    alignas(64) std::int64_t joint_planet[JOINTS];   // whose pin loads it, or NO_PLANET
-    alignas(64) double joint_idle[JOINTS];           // f0 dm^3 [m^3]
-    alignas(64) double joint_rubbing[JOINTS];        // f1 dm [m]
-    alignas(64) double joint_coulomb[JOINTS];        // [N m]
-    alignas(64) double joint_viscous[JOINTS];        // [N m s/rad]
+    alignas(64) std::int64_t joint_body[JOINTS][2];   // what turns, and against what
+    alignas(64) std::int64_t joint_planet[JOINTS];    // whose pin loads it, or NO_PLANET
+    alignas(64) double joint_no_load_factor[JOINTS];  // f0 dm^3 [m^3]
+    alignas(64) double joint_load_factor[JOINTS];     // f1 dm [m]
+    alignas(64) double joint_coulomb[JOINTS];         // [N m]
+    alignas(64) double joint_viscous[JOINTS];         // [N m s/rad]
     double pin_share;  // load on a pin per sum of the forces of its planet's meshes [-]
     std::int64_t discs;
     std::int64_t disc_body[MEMBERS];

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/body_speed.hpp"
 #include "train/state.hpp"
 #include "train/train.hpp"

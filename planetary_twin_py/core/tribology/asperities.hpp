@@ -14,14 +14,14 @@ constexpr double LARGEST_LAMBDA = 6.0;  // asperities carry nothing beyond: F_5/
 
 // F_2 [-], which scales the area of the asperities in contact.
 template <class Real>
-LAW Real contact_area_function(Real lambda_ratio) {
+ALWAYS_INLINE Real contact_area_function(Real lambda_ratio) {
     Real x = at_most(lambda_ratio, LARGEST_LAMBDA);
     return exp((((0.00130501 * x - 0.0241815) * x - 0.275167) * x - 1.59436) * x - 0.693356);
 }
 
 // F_5/2 [-], which scales the load the asperities carry.
 template <class Real>
-LAW Real contact_load_function(Real lambda_ratio) {
+ALWAYS_INLINE Real contact_load_function(Real lambda_ratio) {
     Real x = at_most(lambda_ratio, LARGEST_LAMBDA);
     return exp((((0.00117382 * x - 0.0230728) * x - 0.270566) * x - 1.74266) * x - 0.483601);
 }

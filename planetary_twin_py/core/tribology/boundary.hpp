@@ -14,7 +14,7 @@ namespace gearbox {
 
 // Boundary friction per apparent area, f_b/A [Pa]; with `printed` asperity functions or not.
 template <class Real>
-LAW Real boundary_shear(const Asperities& asperities, bool printed, Real lambda_ratio) {
+ALWAYS_INLINE Real boundary_shear(const Asperities& asperities, bool printed, Real lambda_ratio) {
     Real area = printed ? printed_area_function(lambda_ratio) : contact_area_function(lambda_ratio);
     Real pressure =
         printed ? printed_load_function(lambda_ratio) : contact_load_function(lambda_ratio);

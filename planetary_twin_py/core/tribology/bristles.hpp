@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/train.hpp"
 #include "tribology/oil.hpp"
 #include "tribology/presliding.hpp"
@@ -27,14 +27,14 @@ inline bool creeps(const Train& train, double cycle_rate) {
 
 // Let the pairs have the shares of friction that a state gives them.
 inline void place_bristles(ToothPairs& pairs, const double* share) {
-    if (!pairs.held) return;
-    for (int k = 0; k < ROOM; ++k) pairs.bristle[k] = share[k];
+    if (!pairs.has_bristles) return;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) pairs.bristle[k] = share[k];
 }
 
 // Replace the friction of the traction curve by that of the bristles.
 //
 // Reads the friction of `evaluate` and the shares in `pairs.bristle`.
-inline void hold(const Oil& oil, ToothPairs& pairs) {
+inline void apply_bristles(const Oil& oil, ToothPairs& pairs) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         double full = pairs.boundary[k] + pairs.viscous[k], share = pairs.bristle[k];
         double force = share;
@@ -60,7 +60,7 @@ inline void hold(const Oil& oil, ToothPairs& pairs) {
 
 // Fill the shares of friction (ROOM,) from the traction curve, as the pairs begin to hold.
 inline void steady_bristles(const ToothPairs& pairs, double* share) {
-    for (int k = 0; k < ROOM; ++k) share[k] = 0.0;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) share[k] = 0.0;
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         double full = pairs.boundary[k] + pairs.viscous[k];
         if (full > LEAST_FRICTION) share[k] = pairs.friction[k] / full;

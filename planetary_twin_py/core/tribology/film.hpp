@@ -7,7 +7,7 @@
 // and exponents of the laws: see `lubrication/film.py`.
 
 #include "tribology/constants.hpp"
-#include "vector/law.hpp"
+#include "vector/attributes.hpp"
 
 namespace gearbox {
 
@@ -20,8 +20,8 @@ constexpr double STANDSTILL = 1e-12;  // [m/s] mean surface speed that entrains 
 // log(h/m) from the logarithms of the reduced radius in metres and of the groups U, G, W. It falls
 // below LOG_THINNEST, where no film is left, as the speed vanishes.
 template <class Real>
-LAW Real log_film_thickness(const Film& law, Real log_radius, Real log_speed_group,
-                            double log_material_group, Real log_load_group) {
+ALWAYS_INLINE Real log_film_thickness(const Film& law, Real log_radius, Real log_speed_group,
+                                      double log_material_group, Real log_load_group) {
     Real groups =
         law.speed * log_speed_group + law.material * log_material_group + law.load * log_load_group;
     return law.log_coefficient + log_radius + groups;

@@ -15,7 +15,7 @@ constexpr double SHARE_COEFFICIENT = 0.82, SHARE_EXPONENT = 0.28;
 
 // Share X of the load that the film carries [-], from the logarithm of the lambda ratio.
 template <class Real>
-LAW Real film_share(Real log_lambda) {
+ALWAYS_INLINE Real film_share(Real log_lambda) {
     return at_most(SHARE_COEFFICIENT * exp(SHARE_EXPONENT * log_lambda), 1.0);
 }
 

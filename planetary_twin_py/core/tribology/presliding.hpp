@@ -28,12 +28,12 @@ constexpr double RELAXATION = 2e-5;
 constexpr double LEAST_STEADY = 1e-9;   // share below which the layer is the inverse slope
 constexpr double LEAST_SLOPE = 1e-300;  // [s/m]
 
-struct Yielding {
+struct PlasticShare {
     double part, growth;  // a of the model, and da/dz
 };
 
 // From the magnitudes of both shares.
-inline Yielding yielding(double share, double steady) {
+inline PlasticShare plastic_share(double share, double steady) {
     double elastic = ELASTIC * steady;
     if (share <= elastic) return {0.0, 0.0};
     if (share >= steady) return {1.0, 0.0};
@@ -56,12 +56,12 @@ inline BristleRate bristle_rate(double share, double sliding, double steady, dou
                                 double displacement) {
     bool small = std::abs(steady) < LEAST_STEADY;
     double layer = small ? 1.0 / at_least(slope, LEAST_SLOPE) : sliding / steady;
-    double bend = small ? 0.0 : (1.0 - layer * slope) / steady;  // of that layer with V
-    auto [part, growth] = yielding(std::abs(share), std::abs(steady));
+    double curvature = small ? 0.0 : (1.0 - layer * slope) / steady;  // of that layer with V
+    auto [part, growth] = plastic_share(std::abs(share), std::abs(steady));
     if (share * sliding < 0.0) part = growth = 0.0;
     double slip = part * layer * share;
     double decay = layer * (part + growth * std::abs(share)) / displacement;
-    double gain = at_least(1.0 - part * share * bend, 0.0) / displacement;
+    double gain = at_least(1.0 - part * share * curvature, 0.0) / displacement;
     return {(sliding - slip) / displacement, decay, gain, slip};
 }
 

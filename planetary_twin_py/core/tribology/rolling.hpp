@@ -14,8 +14,8 @@ constexpr double ROLLING_COEFFICIENT = 4.318, ROLLING_SPEED = 0.658, ROLLING_LOA
 
 // Force F_R [N] on each surface, from R L/alpha [N] and the logarithms of U, G and W.
 template <class Real>
-LAW Real rolling_resistance(Real size, Real log_speed_group, double log_material_group,
-                            Real log_load_group) {
+ALWAYS_INLINE Real rolling_resistance(Real size, Real log_speed_group, double log_material_group,
+                                      Real log_load_group) {
     Real groups =
         ROLLING_SPEED * (log_speed_group + log_material_group) + ROLLING_LOAD * log_load_group;
     return ROLLING_COEFFICIENT * size * exp(groups);

@@ -16,7 +16,8 @@ constexpr double SCHLENK_LOAD = 0.2;
 // Friction coefficient [-], from the factor of `lubrication/schlenk.py` and the logarithms of the
 // load of the pair in N, of the mean surface speed in m/s and of the reduced radius in m.
 template <class Real>
-LAW Real schlenk_coefficient(double log_factor, Real log_load, Real log_speed, Real log_radius) {
+ALWAYS_INLINE Real schlenk_coefficient(double log_factor, Real log_load, Real log_speed,
+                                       Real log_radius) {
     return exp(log_factor + SCHLENK_LOAD * (log_load - log_speed - log_radius));
 }
 

@@ -40,8 +40,8 @@ struct FilmShear {
 // sinh(s) = x exp(-c s). One step of Newton from asinh(x) gives asinh(x)/(1 + c tanh(asinh(x))),
 // which is exact both for small x and for large x.
 template <class Real>
-LAW FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real log_film,
-                                 Real softening, Real speed) {
+ALWAYS_INLINE FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real log_film,
+                                           Real softening, Real speed) {
     Real exponent = film.log_shear_time + film.pressure_viscosity * pressure - log_film;
     Real gain = exp(at_most(exponent, LARGEST_GAIN));
     Real x = gain * speed;
@@ -56,8 +56,8 @@ LAW FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real 
 //
 // Arguments as of `viscous_friction`, and the magnitude of the sliding speed Vs [m/s].
 template <class Real>
-LAW FilmShear<Real> film_shear(const ShearThinning& film, Real load, Real area, Real log_film,
-                               Real log_heat, Real speed) {
+ALWAYS_INLINE FilmShear<Real> film_shear(const ShearThinning& film, Real load, Real area,
+                                         Real log_film, Real log_heat, Real speed) {
     Real peak = 4.0 / std::numbers::pi * load / area;
     Real heating = film.film_heating * exp(log_film) + film.flash_heating * exp(log_heat);
     Real softening = heating * speed;

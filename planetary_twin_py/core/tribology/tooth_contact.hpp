@@ -22,7 +22,7 @@ constexpr double LIGHTEST_LOAD = 1e-6;    // [N] keeps logarithms finite
 constexpr double SLOWEST_ROLLING = 1e-9;  // [m/s] below it the sense of sliding fades out
 
 // Specific film thickness [-]: as given, or film over roughness.
-LAW double lambda_ratio_of(const Oil& oil, double log_film) {
+ALWAYS_INLINE double lambda_ratio_of(const Oil& oil, double log_film) {
     return oil.prescribed ? oil.lambda_ratio : exp(log_film - oil.log_roughness);
 }
 
@@ -46,7 +46,7 @@ struct Friction {
 };
 
 template <Laws laws, class Real>
-LAW Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
+ALWAYS_INLINE Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
     // All laws that divide by the speed are of moving flanks.
     Real log_moving = at_least(contact.log_speed, LOG_SLOWEST);
     if constexpr (laws.traction == TractionLaw::SCHLENK) {
@@ -77,7 +77,7 @@ LAW Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
 }
 
 template <Laws laws, class Real>
-LAW Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) {
+ALWAYS_INLINE Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) {
     Friction<Real> film = film_friction<laws>(oil, contact);
     Real log_film = contact.log_film;
     if constexpr (laws.boundary == BoundaryLaw::NONE) return film;
@@ -139,16 +139,18 @@ struct SurfaceSpeeds {
 };
 
 template <class Real>
-LAW SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& rho2, const Real& external,
-                                       const Real& spin1, const Real& spin2) {
+ALWAYS_INLINE SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& rho2,
+                                                 const Real& external, const Real& spin1,
+                                                 const Real& spin2) {
     Real u1 = rho1 * spin1, u2 = external * rho2 * spin2;
     return {u1 + u2, u1 - u2};
 }
 
 // `slowest_rolling` [m/s] sets the least width of the layer in which friction reverses.
 template <class Real>
-LAW Flanks<Real> flanks_of(Real rho1, Real rho2, Real external, const SurfaceSpeeds<Real>& speeds,
-                           Real load, double sliding_threshold, double slowest_rolling) {
+ALWAYS_INLINE Flanks<Real> flanks_of(Real rho1, Real rho2, Real external,
+                                     const SurfaceSpeeds<Real>& speeds, Real load,
+                                     double sliding_threshold, double slowest_rolling) {
     // Three divisions in one, as they take longest of all in a loop over pairs.
     Real distance = rho2 + external * rho1, loaded = load + LIGHTEST_LOAD;
     Real threshold = sliding_threshold * at_least(magnitude(0.5 * speeds.sum), slowest_rolling);
@@ -160,8 +162,8 @@ LAW Flanks<Real> flanks_of(Real rho1, Real rho2, Real external, const SurfaceSpe
 }
 
 template <class Real>
-LAW Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshold,
-                           double slowest_rolling) {
+ALWAYS_INLINE Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshold,
+                                     double slowest_rolling) {
     SurfaceSpeeds<Real> speeds =
         surface_speeds(pair.rho1, pair.rho2, pair.external, pair.speed1, pair.speed2);
     return flanks_of(pair.rho1, pair.rho2, pair.external, speeds, pair.load, sliding_threshold,
@@ -176,20 +178,21 @@ struct Logarithms {
 };
 
 template <class Real>
-LAW Logarithms<Real> logarithms_of(const Flanks<Real>& flanks) {
+ALWAYS_INLINE Logarithms<Real> logarithms_of(const Flanks<Real>& flanks) {
     Real speed = at_least(magnitude(0.5 * flanks.sum), STANDSTILL);
     auto [log_radius, log_speed, log_load] = logs(flanks.radius, speed, flanks.load);
     return {log_radius, log_speed, log_load};
 }
 
 // Apparent contact area over sqrt(radius * load) [(m/N)^0.5 m].
-LAW double area_factor(const Oil& oil) {
+ALWAYS_INLINE double area_factor(const Oil& oil) {
     return 2.0 * oil.face_width * half_width(1.0, 1.0, oil.face_width, oil.contact_modulus);
 }
 
 template <class Real>
-LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Real>& flanks,
-                             const Logarithms<Real>& logarithms) {
+ALWAYS_INLINE Contact<Real> contact_of(const Oil& oil, double area_factor,
+                                       const Flanks<Real>& flanks,
+                                       const Logarithms<Real>& logarithms) {
     Real log_speed_group = logarithms.speed - logarithms.radius + oil.log_speed_group;  // of U
     Real log_load_group = logarithms.load - logarithms.radius + oil.log_load_group;     // of W
     // Where gears creep, bristles decide how much of the friction of a sliding contact acts.
@@ -207,8 +210,9 @@ LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Re
 
 // The friction of sliding from its magnitudes.
 template <Laws laws, class Real>
-LAW PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flanks,
-                                        const Contact<Real>& contact, const Friction<Real>& full) {
+ALWAYS_INLINE PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flanks,
+                                                  const Contact<Real>& contact,
+                                                  const Friction<Real>& full) {
     Real steepness = flanks.steepness;
     Real softer{};  // by what the friction grows with the sliding, its sense is less steep
     if constexpr (laws.traction == TractionLaw::EYRING) {
@@ -235,8 +239,8 @@ LAW PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flan
 
 // Add the rolling resistance of the film.
 template <class Real>
-LAW void add_rolling(const Oil& oil, const Flanks<Real>& flanks, const Contact<Real>& contact,
-                     PairFriction<Real>& found) {
+ALWAYS_INLINE void add_rolling(const Oil& oil, const Flanks<Real>& flanks,
+                               const Contact<Real>& contact, PairFriction<Real>& found) {
     Real size = flanks.radius * oil.face_width / oil.traction.pressure_viscosity;
     Real log_speed_group = contact.log_speed - contact.log_radius + oil.log_speed_group;
     Real log_load_group = contact.log_load - contact.log_radius + oil.log_load_group;
@@ -249,8 +253,9 @@ LAW void add_rolling(const Oil& oil, const Flanks<Real>& flanks, const Contact<R
 }
 
 template <Laws laws, class Real>
-LAW PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
-                                     const PairMotion<Real>& pair, double slowest_rolling) {
+ALWAYS_INLINE PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
+                                               const PairMotion<Real>& pair,
+                                               double slowest_rolling) {
     Flanks<Real> flanks = flanks_of(pair, oil.sliding_threshold, slowest_rolling);
     Contact<Real> contact = contact_of(oil, area_factor, flanks, logarithms_of(flanks));
     Friction<Real> full = mixed_friction<laws>(oil, contact);

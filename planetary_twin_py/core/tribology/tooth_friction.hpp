@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/evaluation.hpp"
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
@@ -154,8 +154,8 @@ inline void copy_friction(const ToothPairs& source, ToothPairs& target) {
         target.sliding[k] = source.sliding[k];
         target.slope[k] = source.slope[k];
     }
-    if (!source.held) return;
-    for (int k = 0; k < ROOM; ++k) {
+    if (!source.has_bristles) return;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) {
         target.bristle[k] = source.bristle[k];
         target.full[k] = source.full[k];
         target.bristle_rate[k] = source.bristle_rate[k];

@@ -17,8 +17,8 @@ namespace gearbox {
 // in metres; logarithm of sqrt(R p/V) in (Pa s)^0.5, R being the reduced radius of curvature, p the
 // mean pressure load/area and V the mean surface speed.
 template <class Real>
-LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
-                          Real log_heat) {
+ALWAYS_INLINE Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
+                                    Real log_heat) {
     // 1 + 9.6 zeta, with R/h sqrt(p/(R V)) of (13) written so that one root is enough.
     Real heating = 1.0 + exp(traction.log_heating + log_heat - log_film);
     Real log_argument = traction.log_root - 2.0 * log_film - log(heating);
@@ -33,7 +33,7 @@ LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real l
 // A tanh in the ratio over its threshold: the plateau of (12) has no sliding speed in it, which
 // would make friction jump at the pitch point.
 template <class Real>
-LAW Real sliding_sense(Real ratio) {
+ALWAYS_INLINE Real sliding_sense(Real ratio) {
     Real decay = falling_exp(-2.0 * magnitude(ratio));
     return with_sign((1.0 - decay) / (1.0 + decay), ratio);
 }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 

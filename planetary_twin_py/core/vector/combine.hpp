@@ -5,7 +5,7 @@
 // out[i] = sum over m of rows[m][i] weights[m], for all i there is room for. Rows beyond those in
 // use are zero, so that they come in blocks of eight.
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 

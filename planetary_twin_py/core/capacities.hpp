@@ -34,7 +34,7 @@ constexpr int SEGMENTS = 32;            // breakpoints: 4 of each pair and those
 constexpr int TERMS = 6;                // coefficients of a polynomial
 constexpr int LINES = 8;  // errors of form: 4 harmonics, runout of 2 gears, pins, axes
 constexpr int FAULTS = 4;
-constexpr int ROOM =
+constexpr int PAIR_CAPACITY =
     (PAIRS + 1) * MESHES;   // all tooth pairs, and what whole registers write beyond
 constexpr int MEMBERS = 3;  // sun, ring, carrier
 constexpr int JOINTS = 16 + MEMBERS;

@@ -13,7 +13,7 @@
 
 namespace gearbox {
 
-struct alignas(64) March {
+struct alignas(64) Integrator {
     State begin;
     State end;
     StepConstants constants;
