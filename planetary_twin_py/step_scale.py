@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from ._core import METHODS, Load, Integrator, PointLaws, Train, deflection_at
+from ._core import METHODS, Integrator, Load, PointLaws, Train, deflection_at
 from .dynamics.point_laws import record_of
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import lightest_body

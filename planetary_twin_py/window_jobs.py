@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import NamedTuple
 
 from . import _core
-from ._core import Limits, Integrator, Model, Report, WindowEnd
+from ._core import Integrator, Limits, Model, Report, WindowEnd
 from .integrators.clock import Instant, Sampling
 from .integrators.interpolant import Waves
 from .runaway import RunawayError

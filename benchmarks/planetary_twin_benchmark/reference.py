@@ -1,8 +1,8 @@
 """A converged reference: SciPy's DOP853 from event to event.
 
 This explicit Runge-Kutta method of order 8 has its own error control and event location (Brent's
-method on its own interpolant). It shares the equations of motion with the integrator, but no step, step
-control, interpolant or event location.
+method on its own interpolant). It shares the equations of motion with the integrator, but no step,
+step control, interpolant or event location.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from planetary_twin_py._core import (
     accept,
     begin_step,
     body_speed,
-    cycle_shift,
     contact_event,
+    cycle_shift,
     forces,
     observe,
 )

@@ -3,8 +3,9 @@
 The torque T of the second motor follows from the torque balance with friction, so it changes with
 the position c in the mesh cycle and twists the coupling: the motor is at c + g T(c), where
 g = z/(2 pi k), with z mesh cycles per turn of that motor and the stiffness k. If |g dT/dc| < 1, a
-position of the motors determines one position of the teeth, and the iteration of `solve_equilibrium`
-converges. Otherwise the teeth would jump between equilibria, which is not a quasi-static motion.
+position of the motors determines one position of the teeth, and the iteration of
+`solve_equilibrium` converges. Otherwise the teeth would jump between equilibria, which is not a
+quasi-static motion.
 """
 
 from __future__ import annotations

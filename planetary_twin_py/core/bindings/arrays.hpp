@@ -1,6 +1,6 @@
 #pragma once
 
-// NumPy arrays as arguments and answers.
+// NumPy arrays as arguments and results.
 
 #include <algorithm>
 #include <cstdint>
@@ -53,7 +53,7 @@ inline Sampling sampling_of(const SamplingTuple& values) {
     return {std::get<0>(values), std::get<1>(values), std::get<2>(values), std::get<3>(values)};
 }
 
-// planetary_twin_py's Samples: mesh, turns, angle, speed, drag, moved.
+// planetary_twin_py's Samples: mesh, turns, angle, speed, drag, moved, tilting.
 using SamplesTuple = std::tuple<Array, Array, Array, Array, Array, Array, Array>;
 
 inline Samples samples_of(const SamplesTuple& arrays) {

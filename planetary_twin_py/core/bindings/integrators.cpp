@@ -1,4 +1,4 @@
-// The march of a run, for `planetary_twin_py.engine`.
+// Integration of a run, for `planetary_twin_py.engine`.
 
 #include <nanobind/stl/pair.h>
 
@@ -66,28 +66,28 @@ void bind_integrator(nb::module_& m) {
           "Make one accepted step of at most `longest` seconds, ending on the first event.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("accept", &accept, "model"_a, "integrator"_a, "mesh"_a, nb::call_guard<Unlocked>(),
-          "Let the step stand; `mesh` changes its contact at its end (-1: none).");
+          "Accept the step; the contact of `mesh` changes at its end (-1: of no mesh).");
     m.def("advance", &py_advance, "model"_a, "integrator"_a, "until"_a, "bound"_a, "samples"_a,
           "out"_a,
           "Integrate to `until`, and fill `out` with `samples` and one at `until`.\n\n"
           "No step that is made passes `bound`.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("cut", &py_cut, "model"_a, "integrator"_a, "until"_a,
-          "Take back what lies beyond `until`, which is within the last step.\n\n"
+          "Repeat the last step so that it ends at `until`, which lies within it.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("count_step", &count_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
-          "Let the last step count as far as it has not been taken.");
+          "Add the part of the last step that is not counted yet to the sums.");
     m.def("count_until", &count_until, "model"_a, "integrator"_a, "delay"_a,
           nb::call_guard<Unlocked>(),
-          "Let the last step count up to `delay` seconds after its start.");
+          "Add the last step up to `delay` seconds after its start to the sums.");
     m.def("interpolate", &interpolate, "model"_a, "integrator"_a, "delay"_a,
           nb::call_guard<Unlocked>(),
           "Fill x and v of `integrator.dense`, `delay` seconds into the last step.");
     m.def("sample", &py_sample, "model"_a, "integrator"_a, "delay"_a, "out"_a, "row"_a,
-          "Write what the train shows `delay` seconds into the last step to a row of `out`.");
+          "Write the sample `delay` seconds after the start of the last step to a row of `out`.");
 }
 
-// Parts of a step, for tests of their order.
+// Parts of a step, for tests of the order of convergence.
 void bind_parts_of_steps(nb::module_& m) {
     m.def(
         "enter",
@@ -106,16 +106,16 @@ void bind_parts_of_steps(nb::module_& m) {
         [](const Model& model, Integrator& integrator) {
             with_lanes(model.train, [&](auto lanes) { update_nodes<lanes>(model, integrator); });
         },
-        "model"_a, "integrator"_a, "Answer the rest as it is now, at all nodes.");
+        "model"_a, "integrator"_a, "Compute the response to the present remainder at all nodes.");
     m.def(
         "sweep",
         [](const Model& model, Integrator& integrator, bool with_friction) {
             with_lanes(model.train,
                        [&](auto lanes) { sweep<lanes>(model, integrator, with_friction); });
         },
-        "model"_a, "integrator"_a, "with_friction"_a, "Evaluate the rest at all nodes.");
+        "model"_a, "integrator"_a, "with_friction"_a, "Evaluate the remainder at all nodes.");
     m.def("end_within", &end_within, "model"_a, "integrator"_a, "h"_a,
-          "Let the step of collocation end after `h` seconds, on its own motion.");
+          "End the collocation step after `h` seconds, without computing it again.");
     m.def("rosenbrock_step", &rosenbrock_step, "model"_a, "state"_a, "constants"_a, "h"_a,
           "first"_a, "out"_a, "work"_a,
           "Advance `state` by `h` seconds into `out` by Rosenbrock's method.");
@@ -128,7 +128,7 @@ void bind_oscillator(nb::module_& m) {
             DecayRates rates = decay_rates(square, damping);
             return std::make_tuple(rates.rate, rates.slow, rates.fast);
         },
-        "square"_a, "damping"_a, "Angular rate, and both decays [1/s].");
+        "square"_a, "damping"_a, "Angular frequency and both decay rates [1/s].");
     m.def(
         "wave",
         [](double damping, double rate, double slow, double fast, double t) {
@@ -137,7 +137,7 @@ void bind_oscillator(nb::module_& m) {
         },
         "damping"_a, "rate"_a, "slow"_a, "fast"_a, "t"_a,
         "Free motions from (1, 0) and (0, 1) after `t` seconds.");
-    m.def("radau", &py_radau, "points"_a, "Radau's points, so many of them.");
+    m.def("radau", &py_radau, "points"_a, "Radau points; `points` is their number.");
 }
 
 }  // namespace

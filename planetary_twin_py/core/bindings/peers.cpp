@@ -22,7 +22,7 @@ void check_states(const Problem& problem, const ConstArray& y, const Array& dy) 
     check_size("dy", dy.size(), size_of(problem));
 }
 
-// No interpreter lock is given back: that would take longer than the function.
+// The interpreter lock is kept: releasing it would take longer than the function.
 void py_derivative(Problem& problem, double t, const ConstArray& y, const Array& dy) {
     check_states(problem, y, dy);
     derivative(problem, t, y.data(), dy.data());
@@ -61,7 +61,7 @@ void py_fixed_step(Problem& problem, const ConstArray& times, std::int64_t steps
            static_cast<std::int64_t>(samples.size() / size));
 }
 
-// What CVODE calls, and where it finds its problem.
+// A function that CVODE calls, and its problem.
 class CvodeProblem {
 public:
     CvodeProblem(Problem& problem, std::uintptr_t numbers, std::uintptr_t advance)
@@ -122,7 +122,7 @@ void bind_peers(nb::module_& m) {
           "[W].");
     m.def("runge_kutta_4", &py_fixed_step<runge_kutta_4>, nb::arg("problem"), nb::arg("times"),
           nb::arg("steps"), nb::arg("y"), nb::arg("samples"),
-          "Take y from times[0] on; samples[k] is y at times[k + 1], `steps` steps later.");
+          "Integrate y from times[0]; samples[k] is y at times[k + 1], `steps` steps later.");
     m.def("semi_implicit_euler", &py_fixed_step<semi_implicit_euler>, nb::arg("problem"),
           nb::arg("times"), nb::arg("steps"), nb::arg("y"), nb::arg("samples"),
           "As `runge_kutta_4`.");

@@ -27,7 +27,7 @@ struct GivenValues {
     Given position[PORTS];
 };
 
-// A value that is not given acts as before; one that is no number is out of range.
+// A value that is not given does not change; NaN is out of range.
 double value_of(const Given& given) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     if (!given) return std::numeric_limits<double>::quiet_NaN();
@@ -78,7 +78,7 @@ double seconds(std::int64_t ticks) {
     return static_cast<double>(ticks) / static_cast<double>(TICKS);
 }
 
-// Whether the ports accept the command, which then acts.
+// Apply the command if the ports accept it; return whether they do.
 bool py_apply_command(Model& model, Integrator& integrator, std::int64_t begin, std::int64_t end,
                       const Given& input_torque, const Given& output_torque,
                       const Given& input_speed, const Given& output_speed,
@@ -132,7 +132,7 @@ void bind_ports(nb::module_& m) {
         "apply_command", &py_apply_command, "model"_a, "integrator"_a, "begin"_a, "end"_a,
         "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
         "output_position"_a, "linear"_a, "ranges"_a,
-        "Let a command act from `begin` [ticks] on; with `linear`, its values are reached at "
+        "Apply a command from `begin` [ticks] on; with `linear`, its values are reached at "
         "`end`.\n\nPositions are always reached at `end`. Returns whether the ports accept it.\n\n"
         "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def(
@@ -141,7 +141,7 @@ void bind_ports(nb::module_& m) {
             read_ports(model, integrator, instant_of(time), out);
         },
         "model"_a, "integrator"_a, "time"_a, "out"_a,
-        "Fill `out` with what the ports show at `time`, within the last step.");
+        "Fill `out` with the state of the ports at `time`, within the last step.");
 }
 
 }  // namespace gearbox

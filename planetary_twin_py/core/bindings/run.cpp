@@ -23,7 +23,8 @@ using namespace nb::literals;
 namespace {
 
 // Arrays of a waveform: time, dte, mesh force, friction; displacement, bearing force, orbit and
-// flank force, without columns where the axes are held; axial motion and tilts where these are.
+// flank force, which have no columns if the axes are fixed; axial motion and tilts, if the axes
+// tilt.
 using WaveformTuple = std::tuple<Values, Rows, Rows, Rows, Rows, Rows, Rows, Rows, Rows>;
 
 bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
@@ -155,7 +156,7 @@ void bind_run(nb::module_& m) {
         "Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.\n\n"
         "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
     m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
-          "`run_window` of every job, in so many threads; the outcomes in order.");
+          "`run_window` of every job in `workers` threads; the outcomes in order.");
     m.def("begin_window", &begin_window, "model"_a, "integrator"_a, "end"_a,
           "Begin a window: fill time, ledger, power and stored energy of `end`.");
     m.def(
@@ -163,7 +164,7 @@ void bind_run(nb::module_& m) {
         [](Integrator& integrator, const Values& ledger) {
             pop_energy_ledger(integrator, entries(ledger, LEDGER));
         },
-        "integrator"_a, "ledger"_a, "Integrals of the ledger since they were last taken.");
+        "integrator"_a, "ledger"_a, "Integrals of the ledger since the last call.");
     m.def(
         "pop_mesh_sums",
         [](const Model& model, Integrator& integrator, const InstantTuple& until, MeshSums& sums) {
@@ -188,7 +189,7 @@ void bind_run(nb::module_& m) {
         "displaced"_a, "angle"_a, "out"_a,
         "Displacements of sun, ring and carrier in the housing, from those on the carrier.");
     m.def("window_figures", &window_figures, "train"_a, "report"_a, "begin"_a, "end"_a,
-          "duration"_a, "out"_a, "Figures of a window of so many seconds.");
+          "duration"_a, "out"_a, "Figures of a window of `duration` seconds.");
     bind_statistics(m);
 }
 

@@ -188,7 +188,7 @@ void bind_contact(nb::module_& m) {
                                  {advance, cycle_rate, slack});
         },
         "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "position"_a,
-        "Play [m] that mesh i has left before its contact changes; negative: it has changed.");
+        "Gap [m] left to mesh i before its contact changes; negative: it has changed.");
     m.def("change_contact", &change_contact, "model"_a, "state"_a, "step"_a, "i"_a);
     m.def("change_segment", &change_segment, "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
     m.def("force_time_derivative", &force_time_derivative, "model"_a, "state"_a, "step"_a, "i"_a,
@@ -210,7 +210,7 @@ void bind_equations(nb::module_& m) {
            const Vector& v, double delay,
            Evaluation& out) { mesh_forces(model, state, step, bodies(x), bodies(v), delay, out); },
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "out"_a,
-        "Pushes of the meshes, whose transmission errors are in out.now.");
+        "Normal forces of the meshes, whose transmission errors are in out.now.");
     m.def(
         "share_loads",
         [](const Model& model, const StepConstants& step, Evaluation& out) {
@@ -229,7 +229,7 @@ void bind_equations(nb::module_& m) {
                        out.power);
         },
         "model"_a, "state"_a, "v"_a, "out"_a,
-        "Add the drag of joints and discs to out.friction_force; book it in out.power.");
+        "Add the drag of joints and discs to out.friction_force, and its power to out.power.");
     m.def(
         "forces",
         [](const Model& model, const State& state, const StepConstants& step, const Vector& x,

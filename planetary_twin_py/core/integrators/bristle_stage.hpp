@@ -1,11 +1,11 @@
 #pragma once
 
-// The shares of friction of pairs that hold, in the stages of Rosenbrock's method.
+// Bristle states of tooth pairs in the stages of Rosenbrock's method.
 //
-// Each share z depends on itself and on the sliding V of its pair alone, so it is eliminated before
-// the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z + gain u_V. Its friction
-// is f (z + tau dz/dt), f the full one and tau `RELAXATION`; so a pair adds
-// f gain (1 + tau/(gamma h))/(1/(gamma h) + decay) to the damping matrix.
+// The rate of the state z of a pair depends only on z and on the sliding speed V of the pair. So z
+// is eliminated before the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z +
+// gain u_V. The friction force is f (z + tau dz/dt), with the full friction f and tau = RELAXATION,
+// so a pair adds f gain (1 + tau/(gamma h))/(1/(gamma h) + decay) to the damping matrix.
 
 #include "integrators/workspace.hpp"
 #include "train/declarations.hpp"
@@ -13,7 +13,7 @@
 
 namespace gearbox {
 
-// Add to `matrix` what the pairs add to the damping matrix; `step` is gamma h [s].
+// Add the contribution of the pairs to the damping matrix; `step` is gamma h [s].
 inline void bristle_damping(const Train& train, const ToothPairs& pairs, double step, double* row,
                             Matrix matrix) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
@@ -26,7 +26,7 @@ inline void bristle_damping(const Train& train, const ToothPairs& pairs, double 
     }
 }
 
-// Shares of friction at a stage, from those at the start and the stages before.
+// Bristle states at a stage, from those at the start and the previous stages.
 inline void advance_bristles(ToothPairs& pairs, const double* share, const double* weights,
                              const double (*bristle_stage)[PAIR_CAPACITY], int stage) {
     if (!pairs.has_bristles) return;
@@ -37,9 +37,10 @@ inline void advance_bristles(ToothPairs& pairs, const double* share, const doubl
     }
 }
 
-// Fill r_z of a stage in its row of `work.bend`; add to `right`, the right-hand side of the linear
-// system [N], what it pulls the bodies by. `start`: pairs at the start of the step, whose
-// derivatives the method uses; `weights`: C of the method, of the stages before.
+// Fill r_z of a stage in its row of `work.bristle_stage`, and add its force on the bodies to
+// `right`, the right-hand side of the linear system [N]. `start`: pairs at the start of the step,
+// whose derivatives the method uses; `weights`: coefficients C of the method, of the previous
+// stages.
 inline void add_bristle_forces(const Train& train, const ToothPairs& start, const ToothPairs& pairs,
                                double h, double step, const double* weights, int stage,
                                double* right, Workspace& work) {

@@ -17,29 +17,29 @@ namespace gearbox {
 
 namespace {
 
-constexpr double ON_EDGE = 1e-13;   // [s] to which a step ends on the edge of a tooth pair
-constexpr double WITHIN = 0.1;      // of the step, by which its end is moved for that at most
-constexpr double CUT_SHORT = 1e-3;  // of the step that was to be made
-constexpr double STRETCH = 1.2;     // by which a planned step is stretched to end on an event
+constexpr double ON_EDGE = 1e-13;   // [s] tolerance of a step end at an edge of a pair
+constexpr double WITHIN = 0.1;      // of the step: largest change of its end for that
+constexpr double CUT_SHORT = 1e-3;  // of the next step
+constexpr double STRETCH = 1.2;     // factor by which a step may be lengthened to end on an event
 constexpr int MOST_CORRECTIONS = 3;
 
-// Whether Rosenbrock's method is to be taken rather than collocation over h seconds: where the
-// sweeps do not settle, or where friction reverses so fast that its steps are longer. Elsewhere
-// short steps are what the accuracy asks for.
+// Whether Rosenbrock's method replaces collocation over h seconds: if the sweeps do not converge,
+// or if friction reverses so fast that steps of Rosenbrock's method are longer. Otherwise, short
+// steps are necessary for the accuracy.
 bool rosenbrock_is_faster(const Control& control, double h, bool converged, int unconverged) {
     if (control.method == COLLOCATION) return false;
     if (!converged && (unconverged > 1 || h < control.next_stiff)) return true;
     return control.slow && h < control.next_stiff;
 }
 
-// Whether the teeth are helical: at the pitch point contact lines grow to both sides.
+// Whether the teeth are helical: then a contact moves by other than one base pitch per mesh cycle.
 bool has_contact_lines(const Train& train) {
     for (std::int64_t p = 0; p < train.present[0][0]; ++p)
         if (train.travel[0][0][p] != 1.0) return true;
     return false;
 }
 
-// Free waves h seconds after the start, most often just beside the last node.
+// Free waves h seconds after the start, usually close to the last node.
 template <int L>
 void find_end_waves(Propagation& run, double h) {
     const std::int64_t last = run.nodes.count - 1;
@@ -51,7 +51,7 @@ void find_end_waves(Propagation& run, double h) {
         waves<L>(run.motion, h, run.end_cosine, run.end_sine);
 }
 
-// Let the step end after h seconds: bodies alone.
+// End the step after h seconds: x and v of the bodies only.
 template <int L>
 void place_end(const Model& model, Integrator& integrator, double h) {
     Propagation& run = integrator.run;
@@ -73,7 +73,7 @@ void place_end(const Model& model, Integrator& integrator, double h) {
     move_given(model, integrator.begin, h, integrator.end.x, integrator.end.v);
 }
 
-// What else the end of the step has, once it stands.
+// Fill the rest of the state at the end of the step: trim, energy ledger and clock.
 template <int L>
 void finish_end(const Model& model, Integrator& integrator) {
     const double h = integrator.control.step;
@@ -83,8 +83,8 @@ void finish_end(const Model& model, Integrator& integrator) {
     advance_clock(model, integrator, h);
 }
 
-// Time [s] until `mesh` comes to the edge of its segment, were the pace to change on as it did
-// between the last two nodes.
+// Time [s] until `mesh` reaches the edge of its segment, if its cycle rate changes at the same rate
+// as between the last two nodes.
 double time_by_pace(const Model& model, const Integrator& integrator, std::int64_t mesh) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;
@@ -97,8 +97,8 @@ double time_by_pace(const Model& model, const Integrator& integrator, std::int64
     return gap - 0.5 * gap * gap * faster / (between * cycle_rate);
 }
 
-// Move the end of the step to where `mesh` comes to the edge of its segment. Where the pace has
-// changed too much for that, the next steps come to the edge.
+// Move the end of the step to the instant at which `mesh` reaches the edge of its segment. If the
+// cycle rate has changed too much for that, a later step ends on the edge.
 template <int L>
 void end_step_at_edge(const Model& model, Integrator& integrator, std::int64_t mesh, double h) {
     for (int k = 0; k < MOST_CORRECTIONS; ++k) {
@@ -109,7 +109,7 @@ void end_step_at_edge(const Model& model, Integrator& integrator, std::int64_t m
     }
 }
 
-// Let the step end where a mesh changes its contact first; that mesh, or NO_MESH.
+// End the step at the first change of contact of a mesh; return that mesh, or NO_MESH.
 template <int L>
 std::int64_t end_on_flank_event(const Model& model, Integrator& integrator, double h) {
     FlankEvent event = first_flank_event(model, integrator);
@@ -118,7 +118,8 @@ std::int64_t end_on_flank_event(const Model& model, Integrator& integrator, doub
     return event.mesh;
 }
 
-// The step that did when such contacts began the last time, or that follows from the last step.
+// First trial: the step that was accepted when this contact state started the last time, or the
+// step that follows from the last one.
 double first_trial(Integrator& integrator, double longest, double event) {
     const ContactState& contacts = contacts_of(integrator.run);
     bool known = integrator.control.changed && contacts.step > 0.0;
@@ -126,8 +127,8 @@ double first_trial(Integrator& integrator, double longest, double event) {
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
 }
 
-// Length of a step whose error is allowed, and by how much the next may be longer; 0: none, and for
-// how many steps the other method is to take over.
+// Length of an accepted step, 0 if there is none, with its error in tolerances; then also the
+// number of steps for which Rosenbrock's method is used.
 struct Accepted {
     double step;
     double error;
@@ -156,7 +157,7 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double h, boo
     }
 }
 
-// Powers and friction at the last node, with which the next step begins.
+// Store powers and friction at the last node, which the next step uses at its start.
 void store_last_forces(const Model& model, const Integrator& integrator, Node& node,
                        Evaluation& last) {
     for (double& force : last.friction_force) force = 0.0;
@@ -184,14 +185,14 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
         return FAILED;
     }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
-    // A step between the crowded edges of helical teeth says nothing about the steps to come.
+    // A step between close edges of helical teeth does not predict the length of later steps.
     const bool helical = has_contact_lines(model.train);
     const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) contacts_of(run).step = control.next_step;
     store_increment<L>(model, integrator);
-    // There a step that may grow was short by its trial, after one between close edges, not by its
-    // error.
+    // For helical teeth, a step whose error allows a longer one was short because of its trial
+    // length after close edges, not because of its error.
     const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);
     if (held_back && rosenbrock_is_faster(control, h, true, 0))
         control.fallback_steps = FALLBACK_STEPS;

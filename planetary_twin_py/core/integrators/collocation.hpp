@@ -2,11 +2,12 @@
 
 // One step of exponential collocation.
 //
-// The rest of `propagation` is evaluated at Radau's points of the step; the exact response to it
-// moves the points, and the rest is evaluated again, until the points no longer move. So the *rest*
-// limits the length of a step, however fast the meshes vibrate or decay (exponential Runge-Kutta
-// methods of collocation type: Hochbruck and Ostermann 2010, Exponential integrators, Acta Numerica
-// 19, section 2.2).
+// The nonlinear remainder of `propagation.hpp` is evaluated at the Radau points of the step. The
+// exact response to it gives the motion at these points, at which the remainder is evaluated again,
+// until this fixed-point iteration converges. Each iteration is called a sweep. So the remainder
+// limits the length of a step, not the frequencies and decay rates of the meshes (exponential
+// Runge-Kutta methods of collocation type: Hochbruck and Ostermann 2010, Exponential integrators,
+// Acta Numerica 19, section 2.2).
 
 #include <cmath>
 #include <limits>
@@ -20,29 +21,30 @@
 namespace gearbox {
 
 inline constexpr int MOST_SWEEPS = 6;
-// Of the tolerance that a sweep not made may leave. With 0.2, mesh cycles of some planar runs would
-// differ by more than what counts as a repetition.
+// Share of the tolerance that the last sweep may leave. With 0.2, mesh cycles of some planar runs
+// would differ by more than periodicity allows.
 inline constexpr double REMAINING_SHARE = 0.1;
-// Pull of a sweep beyond which a shorter step or another method is called for.
+// Contraction factor of a sweep above which a shorter step or another method is used.
 inline constexpr double LARGEST_CONTRACTION = 0.5;
-inline constexpr double LARGEST_MIXED_CONTRACTION = 1.5;  // the same of sweeps that are mixed
-// Least pull per step length [1/s] that is assumed: an earlier step may have succeeded by chance.
+inline constexpr double LARGEST_MIXED_CONTRACTION = 1.5;  // the same for mixed sweeps
+// Smallest contraction factor per step length [1/s] that is assumed: an earlier step may have
+// converged by chance.
 inline constexpr double LEAST_CONTRACTION = 2e3;
-inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
-// By how much the estimated error of the polynomial counts more. With 2, mesh cycles of some runs
-// whose axes are held would differ by more than what counts as a repetition.
+inline constexpr double CLOSE = 0.1;  // share of it that also predicts the next cycle
+// Safety factor of the estimated error of the polynomial. With 2, mesh cycles of some runs with
+// fixed axes would differ by more than periodicity allows.
 inline constexpr double TAIL = MOVING ? 2.0 : 4.0;
-inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors last for ever
+inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors do not decay
 inline constexpr double DIVERGED = std::numeric_limits<double>::infinity();
 
-// What a tried step of collocation has come to.
+// Result of a trial step of collocation.
 struct Outcome {
-    double error;    // over what is allowed
-    bool converged;  // whether the sweeps came to rest
+    double error;    // in tolerances
+    bool converged;  // whether the sweeps converged
 };
 
-// Express the start of a step in the modes of its contacts, and what acts there: friction is still
-// that of the end of the last step.
+// Transform the state and the forces at the start of a step to the modes of its contact state.
+// Friction is that at the end of the last step.
 template <int L>
 void enter(const Model& model, Integrator& integrator) {
     using V = Row<L>;
@@ -74,7 +76,7 @@ void enter(const Model& model, Integrator& integrator) {
     node_force<L>(model, integrator, contacts, 0.0, start).store(run.force);
 }
 
-// Evaluate the rest at node n.
+// Evaluate the remainder at node n.
 template <int L>
 ALWAYS_INLINE void find_remainder(const Model& model, Integrator& integrator,
                                   const ContactState& contacts, std::int64_t n) {
@@ -87,7 +89,7 @@ ALWAYS_INLINE void find_remainder(const Model& model, Integrator& integrator,
     remainder.store(run.remainder[n]);
 }
 
-// Evaluate the rest at all nodes, with the friction of the last sweep unless `with_friction`.
+// Evaluate the remainder at all nodes; unless `with_friction`, with the friction of the last sweep.
 template <int L>
 void sweep(const Model& model, Integrator& integrator, bool with_friction) {
     Propagation& run = integrator.run;
@@ -100,8 +102,8 @@ void sweep(const Model& model, Integrator& integrator, bool with_friction) {
         find_remainder<L>(model, integrator, contacts, n);
 }
 
-// Largest motion of a mesh, or change of the speed of a body, between the last sweep and the one
-// before, over its tolerance.
+// Largest change of a transmission error or of the speed of a body between the last two sweeps, in
+// tolerances.
 template <int L>
 double difference(const Integrator& integrator) {
     using V = Row<MESH_LANES<L>>;
@@ -113,10 +115,10 @@ double difference(const Integrator& integrator) {
         largest(larger(absolute(d), V(integrator.constants.damping) * absolute(rate)));
     double change = std::max(of_meshes / integrator.control.tolerance_x,
                              largest(speed) / integrator.control.tolerance_v);
-    return std::isfinite(total(d + rate)) ? change : DIVERGED;  // a maximum loses what is no number
+    return std::isfinite(total(d + rate)) ? change : DIVERGED;  // a maximum may lose NaN
 }
 
-// The local error of the speeds of the bodies, from that of the modes.
+// Local error of the speeds of the bodies in tolerances, from that of the modes.
 template <int L>
 double tail_of_speeds(const Integrator& integrator, const Row<L>& error) {
     using V = Row<L>;
@@ -126,18 +128,18 @@ double tail_of_speeds(const Integrator& integrator, const Row<L>& error) {
     return largest(speed) / integrator.control.tolerance_v;
 }
 
-// Local error, what the highest power of the polynomial moves, over its tolerance.
+// Local error in tolerances: the motion due to the highest power of the polynomial.
 template <int L>
 double tail_error(Integrator& integrator) {
     using V = Row<L>;
     Propagation& run = integrator.run;
     const double h = run.motion.step, share = TAIL * run.nodes.smallest;
     const std::int64_t highest = run.nodes.count - 1;
-    // It moves a mode by such a part of that at rest.
+    // Dynamic stiffness of a mode for that power [1/s^2].
     const double settling = 2.0 * static_cast<double>((highest + 2) * (highest + 3)) / (h * h);
     V tail = absolute(power<L>(run, highest)), below = absolute(power<L>(run, highest - 1));
     V stiff = larger(V(run.motion.square), V(settling)), damper(run.damper);
-    // Steps within the memory of a mode make errors that add up at random.
+    // Errors of steps that are shorter than the decay time of a mode add up at random.
     V lasting = square_root(1.0 + 2.0 / (damper * h + LEAST_DAMPED));
     lasting = select(V(run.spring) == 0.0, 1.0, lasting);
     V missed = tail * tail / (tail + below + SMALLEST) * share * lasting;
@@ -149,7 +151,7 @@ double tail_error(Integrator& integrator) {
                     tail_of_speeds<L>(integrator, missed / larger(square_root(stiff), damper)));
 }
 
-// Sweep with friction as it is: where stiffness changes fast, this saves evaluating it.
+// Sweep with unchanged friction: if the stiffness changes fast, this saves evaluations of friction.
 template <int L>
 void settle_meshes(const Model& model, Integrator& integrator) {
     Propagation& run = integrator.run;
@@ -169,8 +171,8 @@ void settle_meshes(const Model& model, Integrator& integrator) {
     }
 }
 
-// Sweep until what the next one would change is a share of the tolerance; `known_pull` is by how
-// much less that is, per step length.
+// Sweep until the next sweep would change less than a share of the tolerance. `known_contraction`
+// is the contraction factor of a sweep per step length [1/s].
 template <int L>
 Outcome settle_friction(const Model& model, Integrator& integrator, double& known_contraction) {
     Propagation& run = integrator.run;
@@ -207,7 +209,8 @@ Outcome settle_friction(const Model& model, Integrator& integrator, double& know
     return {DIVERGED, false};
 }
 
-// Try a step of h, up to the motion at its nodes; `fresh`: the contacts have just changed.
+// Compute a trial step of h seconds, up to the motion at its nodes; `fresh`: the contact state has
+// just changed.
 template <int L>
 Outcome collocate(const Model& model, Integrator& integrator, double h, bool fresh) {
     Propagation& run = integrator.run;
@@ -220,7 +223,7 @@ Outcome collocate(const Model& model, Integrator& integrator, double h, bool fre
     update_nodes<L>(model, integrator);
     ContactState& contacts = contacts_of(run);
     if (!contacts.varies) return settle_friction<L>(model, integrator, contacts.contraction[1]);
-    // What was foreseen needs no sweep of the meshes alone; the others have them along.
+    // A predicted step needs no sweeps without friction.
     if (recalled && stored_increment(run)->predictable)
         return settle_friction<L>(model, integrator, contacts.contraction[0]);
     settle_meshes<L>(model, integrator);

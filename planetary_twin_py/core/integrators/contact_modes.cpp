@@ -17,7 +17,7 @@ constexpr double FIRST_CONTRACTION = 1e4;  // [1/s]
 // Relative change of a stiffness within its segment that rounding does not explain.
 constexpr double STEADY = 1e-9;
 
-// Stiffness of every mesh with its copies; `varies` where one changes within its segment.
+// Stiffness of every mesh with its copies; `varies` is set if one changes within its segment.
 void find_stiffness(const Train& train, const State& state, ContactState& modes) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = 0.0;
@@ -42,13 +42,14 @@ void add_spring(double (*matrix)[BODIES], const std::int64_t* place, const doubl
         }
 }
 
-// Bearings that move the axes. What their forces differ from linear ones is part of the rest.
+// Number of bearings of moving axes. Deviations of their forces from linear ones are part of the
+// remainder.
 std::int64_t linear_bearings(const Train& train) {
     return MOVING ? train.moving.bearings : 0;
 }
 
-// Whether bearing b most often lets its axis float within its clearance, as that of a planet, which
-// carries the load, does not.
+// Whether the axis of bearing b usually floats within the clearance. Those of planets do not,
+// because they carry the load.
 bool floats(const Train& train, std::int64_t b) {
     return train.moving.clearance[b] > 0.0 && !on_carrier(train.moving, b);
 }
@@ -74,7 +75,7 @@ void stiffness_matrix(const Train& train, const ContactState& modes, const doubl
                    modes.stiffness[i] * train.moving.face_square, scale);
 }
 
-// What mode m does to the bodies, and to the ground beyond them: nothing.
+// Shape of mode m: displacements of the bodies; that of the ground is zero.
 struct ModeShape {
     double displacement[BODIES] = {};
 
@@ -83,7 +84,7 @@ struct ModeShape {
     }
 };
 
-// What mode m does to the bearings, which damp it.
+// Damping of mode m by the bearings.
 void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
     const ModeShape mode(train, modes.matrices, m);
     const double* shape = mode.displacement;
@@ -97,7 +98,7 @@ void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
     }
 }
 
-// What mode m does to the meshes, and what damps it.
+// Motion of the meshes in mode m, and its damping.
 void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     ModeMatrices& matrices = modes.matrices;
     const ModeShape mode(train, matrices, m);

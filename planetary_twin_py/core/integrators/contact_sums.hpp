@@ -1,6 +1,6 @@
 #pragma once
 
-// Integrals over a step of what the tooth pairs of all meshes show: films and friction.
+// Integrals of films and friction of all tooth pairs over a step.
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ struct ContactSums {
     Row<L> rolled = 0.0;                   // through the mesh [J]
 };
 
-// Films of a train without friction, under the pushes in `work`.
+// Films of a train without friction, under the mesh forces in `work`.
 inline void find_contacts(const Model& model, const StepConstants& constants, const double* v,
                           Evaluation& work) {
     share_loads(model, constants, work);
@@ -78,7 +78,7 @@ ALWAYS_INLINE void add_films(const Train& train, const Node& node, double weight
     sums.film += weight * Row<L>(node.friction.film);
 }
 
-// Add what friction finds at a node, times `weight` [s].
+// Add the results of `find_friction` at a node, times `weight` [s].
 template <int L>
 ALWAYS_INLINE void add_node(const Train& train, const Node& node, double weight,
                             ContactSums<L>& sums) {
@@ -103,7 +103,7 @@ ALWAYS_INLINE void put_contacts(const Train& train, const Oil& oil, const Contac
                                 double (*out)[MESHES]) {
     const double given = oil.prescribed ? oil.lambda_ratio : 0.0;
     const double per_film = oil.prescribed ? 0.0 : exp(-oil.log_roughness);
-    // Beyond the meshes stands what whole registers have read of the next pairs.
+    // Entries beyond the meshes contain values of the next pairs, because whole registers are read.
     const Mask<L> used = first_of_row<L>(train.meshes);
     auto put = [&](int row, const Row<L>& sum) { select(used, sum, 0.0).store(out[row]); };
     put(FILMED, sums.share);

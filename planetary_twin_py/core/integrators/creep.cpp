@@ -10,14 +10,16 @@ namespace gearbox {
 
 namespace {
 
-// Part of its speed against the carrier by which vibration slows a gear that may come to stick.
+// Reduction of the speed of a gear relative to the carrier by vibration, as a share of its rigid
+// speed, above which the gear may stick.
 constexpr double STICKING = 0.5;
-// The same of gears that creep. Friction that falls with the speed feeds their vibration, which
-// grows from errors however small, until it stops them.
+// The same for creeping gears. Friction that decreases with speed excites their vibration, which
+// grows from the smallest error until the gears stick.
 constexpr double SWINGING = 0.2;
 constexpr double ROUNDING = 1e-9;  // of the speeds of two motors, in their difference
 
-// Whether vibration slows a gear against the carrier by more than a part of its rigid speed.
+// Whether vibration reduces the speed of a gear relative to the carrier by more than this part of
+// its rigid speed.
 bool vibration_slows(const Train& train, const double* v, const double* rigid, double part) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t carrier = train.body[i][2];
@@ -32,8 +34,8 @@ bool vibration_slows(const Train& train, const double* v, const double* rigid, d
     return false;
 }
 
-// Whether friction may feed a vibration of creeping gears. It counts against the speed that they
-// shall reach: where they pass through standstill, any vibration exceeds that of the moment.
+// Whether friction may excite vibration of creeping gears. The vibration is compared with the
+// target speed: near a reversal, any vibration exceeds the present speed.
 bool creep_swings(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     double rigid[BODIES], rate = 0.0, size = 0.0;
@@ -42,7 +44,7 @@ bool creep_swings(const Model& model, const Integrator& integrator) {
         rate += share;
         size += std::fabs(share);
     }
-    if (!(std::fabs(rate) > ROUNDING * size)) return false;  // they shall not turn
+    if (!(std::fabs(rate) > ROUNDING * size)) return false;  // the target is standstill
     for (int j = 0; j < BODIES; ++j) {
         rigid[j] = 0.0;
         for (std::int64_t a = 0; a < train.axes; ++a)

@@ -17,12 +17,12 @@ namespace gearbox {
 namespace {
 
 constexpr int TERMS_OF_TIME = 8;
-// Chebyshev's points, where interpolation errs least, and places where it errs most.
+// Chebyshev points for interpolation, and points at which the error is largest.
 constexpr double POINTS[TERMS_OF_TIME] = {-0.98078528, -0.83146961, -0.55557023, -0.19509032,
                                           0.19509032,  0.55557023,  0.83146961,  0.98078528};
 constexpr int TRIALS = 5;
 constexpr double TRIAL[TRIALS] = {-1.0, -0.38268343, 0.0, 0.38268343, 1.0};
-constexpr double ERROR_SHARE = 0.01;  // of the tolerance, that interpolation may add
+constexpr double ERROR_SHARE = 0.01;  // of the tolerance: allowed error of interpolation
 constexpr int MOST_COLUMNS = QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS +
                              (MOVING ? BEARINGS * (SAMPLE_AXES + SAMPLE_TILTING) : 0);
 
@@ -62,7 +62,7 @@ struct Rows {
     std::int64_t columns;
 };
 
-// Place of the columns of axes that move, the last ones.
+// Index of the columns of axes that move, the last ones.
 std::int64_t place_of_axes(const Train& train) {
     return QUANTITIES * train.meshes + 2 * train.bodies + SAMPLE_DRAGS;
 }
@@ -79,7 +79,7 @@ std::int64_t columns_of(const Train& train) {
     return place_of_axes(train) + columns_of_axes(train) + columns_of_tilting(train);
 }
 
-// What an empty `Samples` of one row needs, a column after the other.
+// Samples with one row, whose arrays are consecutive in `columns`.
 Samples row_in(const Train& train, double* turns, double* columns) {
     Samples out{1,       QUANTITIES, train.meshes, train.bodies, AXES,
                 columns, turns,      nullptr,      nullptr,      nullptr};
@@ -94,7 +94,7 @@ Samples row_in(const Train& train, double* turns, double* columns) {
     return out;
 }
 
-// Compute samples at all places of a piece of the step on which the march stands.
+// Compute samples at all points of a piece of the present step.
 void compute_rows(const Model& model, Integrator& integrator, Piece piece, Rows& rows) {
     const Train& train = model.train;
     double turns[AXES];
@@ -110,7 +110,7 @@ void compute_rows(const Model& model, Integrator& integrator, Piece piece, Rows&
     }
 }
 
-// Values at s of the first `wanted` columns.
+// Values at s of the first `wanted` columns (Horner's scheme).
 void evaluate_columns(const double* coefficient, std::int64_t columns, std::int64_t wanted,
                       double s, double* out) {
     const double* top = coefficient + (TERMS_OF_TIME - 1) * columns;
@@ -121,7 +121,8 @@ void evaluate_columns(const double* coefficient, std::int64_t columns, std::int6
     }
 }
 
-// Error that a column may have: of bodies by what the meshes yield, of others by what they show.
+// Allowed error of each column: for bodies relative to the mesh deflection, for others relative to
+// their values.
 void set_allowed(const Model& model, const Integrator& integrator, const Rows& rows,
                  double* allowed) {
     const Train& train = model.train;
@@ -161,7 +162,7 @@ void set_allowed(const Model& model, const Integrator& integrator, const Rows& r
     }
 }
 
-// Whether polynomials show at all trials what was computed there.
+// Whether the polynomials agree with the computed samples at all trial points.
 bool is_accurate(const Model& model, const Integrator& integrator, const Rows& rows,
                  const double* table) {
     double allowed[MOST_COLUMNS], found[MOST_COLUMNS];
@@ -185,8 +186,8 @@ void fit(const Rows& rows, double* table) {
                 table[k * rows.columns + c] += FROM_VALUES.weight[k][j] * rows.value[j][c];
 }
 
-// Fit polynomials to so many equal pieces of the step on which the march stands; in how many of
-// them they fit.
+// Fit polynomials to this number of equal pieces of the present step; return in how many they are
+// accurate.
 int fit_pieces(const Model& model, Integrator& integrator, int pieces, SampleTable& table) {
     std::int64_t size = TERMS_OF_TIME * columns_of(model.train);
     std::vector<double>& coefficients = integrator.periodic.coefficients;
@@ -205,7 +206,8 @@ int fit_pieces(const Model& model, Integrator& integrator, int pieces, SampleTab
     return fitting;
 }
 
-// A few pieces may stay that no polynomial fits, as where a friction force turns its sense.
+// In some pieces no polynomial may be accurate, for example where a friction force changes its
+// sign.
 void fit_step(const Model& model, Integrator& integrator, SampleTable& table) {
     int fitting = 0;
     for (int pieces = 1; pieces <= SampleTable::MOST_PIECES; pieces *= 2) {
@@ -215,8 +217,8 @@ void fit_step(const Model& model, Integrator& integrator, SampleTable& table) {
     table.all_fit = fitting == table.pieces;
 }
 
-// Make the table of a step, where it has none, from the step as it was recorded: it is the same
-// whenever that is done.
+// Create the table of a step, if it has none, from the recorded step, so that it does not depend on
+// when it is created.
 void need_table(const Model& model, Integrator& integrator, CycleStep& step) {
     SampleTable& table = step.samples;
     if (table.known) return;
@@ -241,7 +243,7 @@ void need_table(const Model& model, Integrator& integrator, CycleStep& step) {
     integrator.control.collocated = collocated;
 }
 
-// A place in a step: in which of its pieces, and where there from -1 to 1.
+// A point in a step: the number of the piece, and s from -1 to 1 in it.
 struct PieceAt {
     std::int64_t number;
     double s;
@@ -293,12 +295,13 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
     put_bodies(train, turns, values + QUANTITIES * train.meshes, out, row);
 }
 
-// From the start of the step to an instant [s], by the clock of the cycle.
+// Time from the start of the step to an instant [s], by the clock of the cycle.
 double since_begin(const Periodic& periodic, const CycleStep& step, const Instant& at) {
     return delay(periodic.start, at) - step.begin.after;
 }
 
-// Write the sample so long after the start of a step from its table, if there it fits.
+// Write the sample `passed` seconds after the start of a step from its table, if that is accurate
+// there.
 bool show_from_table(const Model& model, const Periodic& periodic, const CycleStep& step,
                      double passed, const Samples& out, std::int64_t row) {
     PieceAt piece = piece_at(step, passed);
@@ -307,7 +310,8 @@ bool show_from_table(const Model& model, const Periodic& periodic, const CycleSt
     return true;
 }
 
-// Write the samples that are due within a step of the cycle; the march stands on it if need be.
+// Write the samples that are due within a step of the cycle; if necessary, set the integrator to
+// that step.
 void sample_step(const Model& model, Integrator& integrator, CycleStep& step, Sampling& samples,
                  const Samples& out, std::int64_t& taken) {
     const Periodic& periodic = integrator.periodic;

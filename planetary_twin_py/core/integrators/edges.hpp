@@ -1,7 +1,7 @@
 #pragma once
 
-// Tooth pairs that enter and leave: when they will, and that they have. They do so on the edges of
-// the segments of the mesh cycle, see `mesh/tooth_pairs.py`.
+// Events of tooth pairs, which enter and leave contact at the edges of the segments of the mesh
+// cycle, see `mesh/tooth_pairs.py`: prediction of their times, and changes of segment.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace gearbox {
 
-// Mesh cycles within which a tooth pair counts as having entered or left.
+// Tolerance [mesh cycles] within which a mesh is at an edge.
 inline constexpr double EDGE = 1e-9;
 
 struct NextEvent {
@@ -24,7 +24,7 @@ struct NextEvent {
     std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
 };
 
-// Times [s] until the meshes come to the edges of their segments, were their pace to last.
+// Times [s] until the meshes reach the edges of their segments at constant cycle rate.
 template <int L>
 ALWAYS_INLINE void times_to_edges(const StepConstants& constants, double cycle_rate,
                                   double* times) {
@@ -55,7 +55,7 @@ inline NextEvent next_event(const Model& model, const Integrator& integrator) {
     return nearest;
 }
 
-// A step of about h that does not leave a tiny one before the event.
+// A step of about h that does not leave a very short one before the event.
 inline double planned(double event, double h, double stretch) {
     if (event <= stretch * h) return event;
     return event < 2.0 * h ? 0.5 * event : h;
@@ -68,7 +68,7 @@ inline double cycles_of_step(const Train& train, const Integrator& integrator) {
            (cycle_shift(train, integrator.end.x) - cycle_shift(train, integrator.begin.x));
 }
 
-// Time [s] by which mesh i is short of the edge of its segment at the end of the step.
+// Time [s] from the end of the step until mesh i reaches the edge of its segment.
 inline double time_to_edge(const Model& model, const Integrator& integrator, std::int64_t i) {
     const Train& train = model.train;
     const State& begin = integrator.begin;
@@ -79,7 +79,7 @@ inline double time_to_edge(const Model& model, const Integrator& integrator, std
     return (left - side * cycles_of_step(train, integrator)) / rate;
 }
 
-// Whether mesh i has come to the edge of its segment that lies in a direction.
+// Whether mesh i has reached the edge of its segment in this direction.
 inline bool at_edge(const Train& train, const State& end, std::int64_t i, int direction) {
     std::int64_t kind = train.kind[i], segment = end.segment[i];
     double cycle = mesh_cycle(train, end, i, end.side[i]);
@@ -88,7 +88,7 @@ inline bool at_edge(const Train& train, const State& end, std::int64_t i, int di
     return cycle <= train.edge[kind][segment] + EDGE;
 }
 
-// Change the segment of mesh i until it has come to the edge of its own no more.
+// Change the segment of mesh i until it is no longer at the edge of its segment.
 inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i, int direction) {
     const Train& train = model.train;
     for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
@@ -99,7 +99,7 @@ inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i
     }
 }
 
-// Change the segment of every mesh that has come to the edge of its own.
+// Change the segment of every mesh that has reached the edge of its segment.
 inline void pass_edges(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
     const StepConstants& constants = integrator.constants;

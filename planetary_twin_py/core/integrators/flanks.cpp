@@ -6,12 +6,12 @@ namespace gearbox {
 
 namespace {
 
-constexpr double EVENT_SHARE = 0.1;   // of the slack, to which an event is located
-constexpr double LEAST_SHARE = 1e-3;  // of an interval, by which its ends move
-constexpr double CLOSEST = 1e-16;     // relative length of an interval without anything between
+constexpr double EVENT_SHARE = 0.1;   // of the slack: tolerance for the location of an event
+constexpr double LEAST_SHARE = 1e-3;  // of an interval: smallest change of its ends
+constexpr double CLOSEST = 1e-16;     // relative length of the shortest interval
 
-// Where the play of mesh i falls below zero: regula falsi, Illinois form (Dahlquist and Björck
-// 1974, Numerical Methods, section 6.3).
+// Time at which the event function of mesh i falls below zero: regula falsi, Illinois form
+// (Dahlquist and Björck 1974, Numerical Methods, section 6.3).
 double find_contact_time(const Model& model, Integrator& integrator, std::int64_t i, double low,
                          double high) {
     double above = contact_event_at(model, integrator, i, low),
@@ -39,14 +39,14 @@ double find_contact_time(const Model& model, Integrator& integrator, std::int64_
     return high;
 }
 
-// Which modes may turn round between two nodes.
+// Modes that may oscillate between two nodes.
 template <int L>
 ALWAYS_INLINE Mask<L> has_waves(const ModalMotion& motion) {
     const double h = motion.step;
     return Row<L>(motion.square) * (h * h) + Row<L>(motion.damping) * h > LEAST_OSCILLATION;
 }
 
-// Play that mesh i has left at node n, less what its free waves, `d` and `rate`, take or add.
+// Gap left to mesh i at node n without the contribution of the free waves, `d` and `rate`.
 double left_without_waves(const Model& model, const Integrator& integrator, std::int64_t i, int n,
                           double tau, double d, double rate) {
     const Train& train = model.train;
@@ -68,7 +68,7 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
-// Free waves of all modes that have any, at node n, and their rates.
+// Free waves of the modes that may oscillate, at node n, and their rates.
 template <int L>
 ALWAYS_INLINE RowPair<L> free_waves(const Propagation& run, int n) {
     using V = Row<L>;
@@ -79,7 +79,7 @@ ALWAYS_INLINE RowPair<L> free_waves(const Propagation& run, int n) {
     return {select(waves, c * u + s * w, 0.0), select(waves, rate, 0.0)};
 }
 
-// Bounds on what free waves can take from the play of the meshes [m].
+// Bounds on the change of the gaps of the meshes by free waves [m].
 template <int L>
 ALWAYS_INLINE Row<MESH_LANES<L>> wave_bounds(const Propagation& run) {
     using V = Row<L>;
@@ -90,9 +90,9 @@ ALWAYS_INLINE Row<MESH_LANES<L>> wave_bounds(const Propagation& run) {
                                    select(has_waves<L>(run.motion), bound, 0.0));
 }
 
-// Whether all meshes are closed, have no errors of form, and keep so much play at every node that
-// free waves cannot take it between them: a wave that adds to the play at a node may take as much
-// elsewhere.
+// Whether all meshes are closed, have no errors of form, and have at every node a larger gap than
+// free waves can close between the nodes: a wave that increases the gap at a node may decrease it
+// by the same amount elsewhere.
 template <int L>
 bool loaded_throughout(const Model& model, const Integrator& integrator, const Row<L>& bound) {
     using V = Row<L>;
@@ -109,8 +109,8 @@ bool loaded_throughout(const Model& model, const Integrator& integrator, const R
     return none(first_of_row<L>(train.meshes) & !(left > 0.0));
 }
 
-// The same where each flank has an entry: whether all of them keep the contact they have. Open
-// flanks come no closer than their deflection, which damping holds back further.
+// The same if each flank has an entry: whether no flank changes its contact. The gap of open flanks
+// is at least that of their deflection; damping increases it.
 template <int L>
 bool contacts_stay(const Model& model, const Integrator& integrator, const Row<L>& bound) {
     using V = Row<L>;
@@ -130,11 +130,11 @@ bool contacts_stay(const Model& model, const Integrator& integrator, const Row<L
     return none(first_of_row<L>(train.meshes) & !(left > 0.0));
 }
 
-// Mark the meshes that may change their contact within the step; whether there are any.
+// Mark the meshes whose contact may change within the step; return whether there are any.
 //
-// What a mesh has left before it changes is a polynomial, known at the nodes, and free waves, which
-// are bounded by their amplitudes. The rates at the nodes are those of the last sweep, so what is
-// left is known to the tolerance.
+// The event function of a mesh is the sum of a polynomial, known at the nodes, and free waves,
+// which are bounded by their amplitudes. The rates at the nodes are those of the last sweep, so the
+// function is known to within the tolerance.
 template <int L>
 bool flanks_may_change(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
@@ -183,7 +183,7 @@ void scan(Integrator& integrator, double end) {
     }
 }
 
-// Number of the first of the scanned times at which mesh i has changed, or SCANNED.
+// Index of the first scanned time at which the contact of mesh i has changed, or SCANNED.
 int first_scanned(const Model& model, Integrator& integrator, std::int64_t i, double end) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Flanks that meet or part within a step, and when.
+// Events at which flanks come into contact or separate within a step.
 
 #include <cmath>
 #include <limits>
@@ -14,12 +14,12 @@
 
 namespace gearbox {
 
-// Share of the local tolerance by which flanks may pull or pass each other.
+// Share of the local tolerance: slack of the event functions.
 inline constexpr double SLACK = 0.01;
-inline constexpr int ROUNDS = 60;  // of closing in on an event
+inline constexpr int ROUNDS = 60;  // iterations for the location of an event
 inline constexpr double LEAST_OSCILLATION =
-    0.5;                           // (w h)^2 + c h below which a mode does not turn round
-inline constexpr int SCANNED = 8;  // times at which flanks are looked at
+    0.5;  // (w h)^2 + c h below which a mode does not oscillate within a step
+inline constexpr int SCANNED = 8;  // number of times at which flanks are checked
 
 struct FlankEvent {
     std::int64_t mesh;  // NO_MESH: none
@@ -30,7 +30,7 @@ inline double slack_of(const Integrator& integrator) {
     return SLACK * integrator.control.tolerance_x;
 }
 
-// `departure` of mesh i within the step, where no error of form moves its flanks.
+// `contact_event` of mesh i within the step, without errors of form.
 template <int L>
 double smooth_contact_event(const Model& model, Integrator& integrator, std::int64_t i,
                             double delay) {
@@ -47,7 +47,7 @@ double smooth_contact_event(const Model& model, Integrator& integrator, std::int
                          {0.0, 0.0}, slack_of(integrator));
 }
 
-// `departure` of mesh i on the interpolant.
+// `contact_event` of mesh i on the interpolant.
 inline double contact_event_at(const Model& model, Integrator& integrator, std::int64_t i,
                                double delay) {
     const Train& train = model.train;
@@ -64,13 +64,13 @@ inline double contact_event_at(const Model& model, Integrator& integrator, std::
                          {advance, cycle_rate, slack_of(integrator)});
 }
 
-// Whether the step ends where the contact of mesh i changes, to within its slack.
+// Whether the step ends at a change of contact of mesh i, to within the slack.
 inline bool at_event(const Model& model, Integrator& integrator, std::int64_t i) {
     return std::fabs(contact_event_at(model, integrator, i, integrator.control.step)) <=
            slack_of(integrator);
 }
 
-// Mesh whose contact changes first within the step, and when; none: NO_MESH and the step.
+// Mesh whose contact changes first within the step, and the time; if none, NO_MESH and the step.
 FlankEvent first_flank_event(const Model& model, Integrator& integrator);
 
 }  // namespace gearbox

@@ -1,6 +1,7 @@
 #pragma once
 
-// The frame of the motors, in which bodies are placed, and how it turns with the clock.
+// The frame of the motors, in which the coordinates of bodies are measured, and its rotation with
+// time.
 
 #include <cmath>
 #include <numbers>
@@ -14,14 +15,14 @@ namespace gearbox {
 
 inline constexpr double TURN = 2.0 * std::numbers::pi;  // [rad]
 
-// Turn the frame with motor a; whole turns are counted apart.
+// Turn the frame with motor a; whole turns are counted separately.
 inline void turn_frame(State& state, std::int64_t a, double turns) {
     double fraction = state.fraction[a] + turns;
     state.turns[a] += std::floor(fraction);
     state.fraction[a] = fraction - std::floor(fraction);
 }
 
-// Let the frame catch up with the motors: their x and v become zero.
+// Move the frame to the motors, whose x and v become zero.
 inline void rebase(const Train& train, State& state) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
@@ -42,7 +43,7 @@ inline void rebase(const Train& train, State& state) {
     }
 }
 
-// Let clock, set-points and frame of `end` run on for h seconds.
+// Advance clock, set-points and frame of `end` by h seconds.
 inline void advance_clock(const Model& model, Integrator& integrator, double h) {
     const State& begin = integrator.begin;
     State& end = integrator.end;

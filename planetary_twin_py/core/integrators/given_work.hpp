@@ -1,7 +1,7 @@
 #pragma once
 
-// The work of what is given at the ports, exactly: quadrature at the nodes of a step would miss the
-// waves of the members of shafts whose motion is given, which their torques follow.
+// Exact work of given torques and motions at the ports: quadrature at the nodes of a step would
+// miss the free waves of the members, on which the torques of shafts with given motion depend.
 
 #include "integrators/given_motion.hpp"
 #include "integrators/propagation.hpp"
@@ -16,7 +16,7 @@ struct Moments {
     double first;   // [m s^2]
 };
 
-// Of body j over h seconds, with `wave`s at their end.
+// Moments of the motion of body j over h seconds, from the free waves at the end.
 //
 // A mode is a polynomial and a free motion u, u'' + c u' + w^2 u = 0, from which the integrals of
 // u and of t u follow.
@@ -44,8 +44,8 @@ Moments moments(const Propagation& run, std::int64_t j, double h, const double* 
             total(share * (first + select(free, 0.0, wave1)))};
 }
 
-// What damping in the shaft of machine c takes by both its ends moving at once, less what the nodes
-// say of it [J]; `across` is the integral of the product of their speeds [m^2/s].
+// Energy dissipated in the shaft of machine c by the product of the speeds of its ends, minus its
+// quadrature at the nodes [J]; `across` is the integral of the product of their speeds [m^2/s].
 inline double damped_across(const Model& model, const Propagation& run, std::int64_t c,
                             const GivenMotion& end, double across) {
     const std::int64_t member = model.train.coupling[c][1];
@@ -58,7 +58,7 @@ inline double damped_across(const Model& model, const Propagation& run, std::int
 }
 
 // Impulse and work of a given torque on the shaft of machine c over h seconds. The torque is known;
-// what the nodes say of the speed lags by the last sweep.
+// the speeds at the nodes are those before the last sweep.
 template <int L>
 void add_work_of_given_torque(const Model& model, Integrator& integrator, std::int64_t c,
                               double h) {
@@ -105,7 +105,8 @@ void add_work_of_given_motion(const Model& model, Integrator& integrator, std::i
     after.energy[DAMPING] += damped_across(model, run, c, end, across);
 }
 
-// Book impulse and work at the ports at which torque or motion is given, h seconds into the step.
+// Add impulse and work at the ports with given torque or motion to the ledger, h seconds after the
+// start of the step.
 template <int L>
 void add_given_work(const Model& model, Integrator& integrator, double h) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {

@@ -23,16 +23,16 @@ namespace gearbox {
 
 namespace {
 
-// Errors of speeds, over the layer in which friction reverses, in tolerances: where pairs slide,
-// and where they hold and the gears may stick and slip.
+// Allowed errors of speeds relative to the range in which friction reverses, in tolerances: where
+// pairs slide, and where they have bristles and gears may stick and slip.
 constexpr double SLIDING_SHARE = 60.0, CREEPING_SHARE = 1.0;
 constexpr double AT_TARGET =
     1e-12;  // [s] of the slew rate, by which a set-point may miss its target
 
-// Allow errors in proportion to what the meshes yield, be it to torques or to inertia.
+// Allow errors in proportion to the deflection of the meshes by torques or by inertia.
 //
-// Friction turns round within a narrow layer of sliding speeds: where the gears turn slowly, this
-// is what an error of a speed is measured by.
+// Friction reverses within a small range of sliding speeds, which limits errors of speeds where the
+// gears turn slowly.
 void set_tolerances(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
     Control& control = integrator.control;
@@ -49,7 +49,7 @@ void set_tolerances(const Model& model, Integrator& integrator) {
     control.tolerance_v = std::min(control.tolerance_v, allowed);
 }
 
-// Let set-points that have reached their targets stay there.
+// End the slewing of set-points that have reached their targets.
 void end_slews(const Model& model, Integrator& integrator) {
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
         double gap = model.load.target_speed[a] - integrator.end.set_speed[a];
@@ -161,7 +161,7 @@ void interrupt(const Model& model, Integrator& integrator, const Instant& until)
     }
     integrator.end.seconds = until.seconds;
     integrator.end.time = until.time;
-    integrator.run.place = STORED_STEPS;  // what is kept of a contact state begins where it begins
+    integrator.run.place = STORED_STEPS;  // stored steps start with the contact state
 }
 
 void cut(const Model& model, Integrator& integrator, const Instant& until) {

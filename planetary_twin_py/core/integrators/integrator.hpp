@@ -1,14 +1,14 @@
 #pragma once
 
-// Drive the one-step methods from event to event and sample what lies between.
+// Integrates with one-step methods from event to event, and samples the steps.
 //
-// Events are tooth pairs entering or leaving, flanks meeting or parting, and the speed set-point
-// reaching its target. Steps end on them, so the equations are smooth within every step. Windows do
-// not cut steps: samples come from the interpolant of the step, and the last step ends at or after
-// the end of the window. So the path does not depend on the windows.
+// Events are tooth pairs that enter or leave, flanks that come into contact or separate, and speed
+// set-points that reach their targets. Steps end at events, so the equations are smooth within
+// every step. Windows do not cut steps: samples come from the interpolant of the step, and the last
+// step ends at or after the end of the window. So the motion does not depend on the windows.
 //
-// Steps are collocation steps. Where collocation does not converge, Rosenbrock's method takes over
-// for a while. Where mesh cycles repeat, the last cycle is repeated, and no steps are computed.
+// Steps are collocation steps. Where collocation does not converge, some steps use Rosenbrock's
+// method. Where mesh cycles repeat, the last cycle is replayed without computing steps.
 
 #include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
@@ -24,11 +24,11 @@ void begin_step(const Model& model, Integrator& integrator);
 // NoFiniteState.
 void one_step(const Model& model, Integrator& integrator, double longest);
 
-// Let the step stand; `mesh` changes its contact at its end (NO_MESH: none).
+// Accept the step; the contact of `mesh` changes at its end (NO_MESH: none).
 void accept(const Model& model, Integrator& integrator, std::int64_t mesh);
 
-// Integrate to `until`, and fill `out` with `samples`, none of them later. No step that is made
-// passes `bound`. Throws NoFiniteState.
+// Integrate to `until`, and fill `out` with `samples`, none of them later. No step ends after
+// `bound`. Throws NoFiniteState.
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
              Sampling samples, const Samples& out);
 
@@ -36,12 +36,12 @@ void advance(const Model& model, Integrator& integrator, const Instant& until, c
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
              const Sampling& samples, const Samples& out, const Samples& last);
 
-// Let the last step end at `until`, which is within it, on its own motion: what is given at the
-// ports changes there. Other than `cut`, this makes no step again. Throws NoFiniteState.
+// End the last step at `until`, a time within it, on its interpolant: given torques or motions
+// change there. Unlike `cut`, this does not compute the step again. Throws NoFiniteState.
 void interrupt(const Model& model, Integrator& integrator, const Instant& until);
 
-// Take back what lies beyond `until`, which is within the last step: what changes from outside,
-// changes there, and the next step begins at it. Throws NoFiniteState.
+// Shorten the last step to end at `until`, a time within it, where the operating point changes; the
+// next step starts there. Throws NoFiniteState.
 void cut(const Model& model, Integrator& integrator, const Instant& until);
 
 }  // namespace gearbox

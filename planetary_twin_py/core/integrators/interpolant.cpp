@@ -26,7 +26,7 @@ void sample_drag(const Model& model, Integrator& integrator, const double* v,
     out[1] = work.power[CHURNING];
 }
 
-// The largest magnitudes so far; a NaN stays.
+// Update a largest magnitude; NaN is kept.
 void note_peak(double value, double& peak) {
     if (std::fabs(value) > peak || std::isnan(value)) peak = std::fabs(value);
 }
@@ -50,7 +50,7 @@ void sample_bodies(const Train& train, const State& begin, const double* x, cons
     }
 }
 
-// Write a sample from what the meshes show and the motion of the bodies.
+// Write a sample from the quantities of the meshes and the motion of the bodies.
 void write_sample(const Model& model, Integrator& integrator, const double (*shown)[MESHES],
                   const double* x, const double* v, double delay, const Samples& out,
                   std::int64_t row) {
@@ -65,7 +65,7 @@ void write_sample(const Model& model, Integrator& integrator, const double (*sho
     if constexpr (MOVING) sample_axes(train, integrator.begin, x, v, out, row);
 }
 
-// What `observe` fills, from a node and its friction.
+// The quantities of `observe`, from a node and its friction.
 template <int L>
 void show_node(const Model& model, const Integrator& integrator, const Node& node,
                double (*shown)[MESHES]) {
@@ -90,7 +90,7 @@ void show_node(const Model& model, const Integrator& integrator, const Node& nod
     (friction_acts * V(friction.lost)).store(shown[POWER_LOSS]);
 }
 
-// Samples of a step by collocation, at most MOST_INSTANTS.
+// Samples of a collocation step, at most MOST_INSTANTS.
 template <int L>
 void sample_collocated(const Model& model, Integrator& integrator, const double* delays, int count,
                        const Samples& out, std::int64_t row) {

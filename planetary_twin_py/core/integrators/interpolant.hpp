@@ -1,6 +1,6 @@
 #pragma once
 
-// What lies within the last step: its interpolant, and samples from it.
+// Interpolant of the last step, and samples from it.
 
 #include <cstring>
 
@@ -11,10 +11,10 @@
 
 namespace gearbox {
 
-// x and v within the last step, as its method would have them had it ended there.
+// x and v within the last step: the result of its method for a step that ends there.
 //
-// Polynomials through the ends of a stiff step do not know how flanks settle within it. Its ends
-// stand, whatever the load has become since.
+// Polynomials through the ends of a Rosenbrock step do not represent fast decay of the flanks
+// within it. The states at the ends do not change if the load changes later.
 inline void interpolate(const Model& model, Integrator& integrator, double delay) {
     State& dense = integrator.dense;
     if (integrator.control.collocated) {
@@ -34,8 +34,8 @@ inline void interpolate(const Model& model, Integrator& integrator, double delay
     trial_step(model, integrator, delay, dense);
 }
 
-// Write what the train shows at so many times [s] after the start of the last step, within it, at
-// most MOST_INSTANTS. Together they take less time than one by one, and have the same bits.
+// Write samples at `count` times [s] after the start of the last step, within it, at most
+// MOST_INSTANTS. One call takes less time than one call per sample, with identical results.
 void sample(const Model& model, Integrator& integrator, const double* delays, int count,
             const Samples& out, std::int64_t row);
 

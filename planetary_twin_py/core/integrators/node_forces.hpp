@@ -1,6 +1,6 @@
 #pragma once
 
-// What acts on the train at a node of a step by collocation.
+// Forces on the train at a node of a collocation step.
 
 #include "integrators/propagation.hpp"
 #include "mesh/mesh_forces.hpp"
@@ -9,10 +9,10 @@
 
 namespace gearbox {
 
-// Tolerance from which friction in single precision errs by less than all else.
+// Lowest tolerance for friction in single precision, whose error is negligible there.
 inline constexpr double SINGLE_PRECISION = 1e-5;
-// The same where it is shown: films then err by less than a hundredth of the tolerance, as the
-// polynomials of `cycle_samples.cpp` ask for.
+// The same for samples: errors of film thicknesses are below a hundredth of the tolerance, as
+// required by the polynomials of `cycle_samples.cpp`.
 inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 
 // Forces of the meshes at a node.
@@ -28,7 +28,7 @@ NOINLINE void find_forces_at_node(const Model& model, const Integrator& integrat
     if (tilts(model.train)) tilt_flanks(model.train, constants, node.x, node.v, node.meshes);
 }
 
-// Friction and drag at a node as forces on the bodies, but for what `find_friction` has found.
+// Friction and drag at a node as forces on the bodies, without the results of `find_friction`.
 NOINLINE inline void find_friction_forces(const Model& model, const Integrator& integrator,
                                           Node& node, double* friction_force) {
     const Train& train = model.train;
@@ -60,7 +60,7 @@ ALWAYS_INLINE void find_node_friction(const Model& model, const Integrator& inte
     friction_force.store(node.friction_force);
 }
 
-// Friction and drag at all nodes, under the forces of the meshes there.
+// Friction and drag at all nodes, from the forces of the meshes there.
 template <int L>
 void find_friction_of_nodes(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
@@ -119,7 +119,7 @@ void show_meshes(const Model& model, const Integrator& integrator, double delay,
     find_forces_at_node<L>(model, integrator, node, delay);
 }
 
-// The same at so many times, at most MOST_INSTANTS, in `run.shown`, and friction with it.
+// The same at several times, at most MOST_INSTANTS, with friction, in `run.shown`.
 template <int L>
 void show_friction(const Model& model, Integrator& integrator, const double* delays, int count) {
     FrictionInstant instants[MOST_INSTANTS] = {};

@@ -9,18 +9,18 @@
 
 namespace gearbox {
 
-inline constexpr double FREE_MASS = 1e-3;        // (w h)^2 + c h below which a mode hardly moves
-inline constexpr double NEARLY_CRITICAL = 1e-4;  // phase below which a sine counts as its series
+inline constexpr double FREE_MASS = 1e-3;  // (w h)^2 + c h below which a mode counts as a free mass
+inline constexpr double NEARLY_CRITICAL = 1e-4;  // smaller phases: series of the sine
 inline constexpr double SMALLEST = 1e-300;       // keeps divisions finite
 
-// Whether a mode hardly moves of its own within h seconds.
+// Whether spring and damper of a mode are negligible for h seconds.
 ALWAYS_INLINE bool is_free(double square, double damping, double h) {
     return square * h * h + damping * h < FREE_MASS;
 }
 
 struct DecayRates {
-    double rate;  // angular rate of the wave, or half the gap between two decays [1/s]
-    double slow;  // both decays [1/s]
+    double rate;  // angular frequency, or half the difference of both decay rates [1/s]
+    double slow;  // both decay rates, equal if underdamped [1/s]
     double fast;
 };
 
@@ -38,8 +38,8 @@ struct Wave {
     double sine;    // motion from (0, 1)
 };
 
-// Free motions after t seconds. The rates are those of `decay_rates`. Those of the motions are
-// -w^2 times the second, and the first less c times the second.
+// Free motions after t seconds; for `rate` and `slow` see `decay_rates`. The derivatives of the
+// motions are -w^2 times the second, and the first minus c times the second.
 ALWAYS_INLINE Wave wave(double damping, double rate, double slow, double fast, double t) {
     double phase = rate * t;
     double lasting = precise_exp(-slow * t), fading = precise_exp(-fast * t);

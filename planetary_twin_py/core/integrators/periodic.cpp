@@ -17,18 +17,18 @@ namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // steps of the longest cycle that is kept
-// Of the tolerance, by which a train that repeats may miss where it was.
+constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
+// Largest difference of states one cycle apart, relative to the tolerance.
 constexpr double MISSED_SHARE = 0.3;
-constexpr double SETTLED = 0.25;  // of all cycles so far, for which the train must not stray
-// Change of the transmission errors, in static deflections, when the teeth are a mesh cycle late.
+constexpr double SETTLED = 0.25;  // share of all cycles in which states must agree
+// Change of the transmission errors, in static deflections, by a delay of one mesh cycle.
 constexpr double PHASE = 20.0;
 
 Instant now_of(const State& state) {
     return {state.seconds, state.time};
 }
 
-// Whether a mesh cycle begins at the end of the step.
+// Whether a mesh cycle starts at the end of the step.
 bool begins_mesh_cycle(const Integrator& integrator) {
     const State &begin = integrator.begin, &end = integrator.end;
     return begin.segment[0] != 0 && end.segment[0] == 0 && end.side[0] != OPEN;
@@ -40,7 +40,7 @@ bool same_contacts(const Train& train, const State& a, const State& b) {
     return true;
 }
 
-// How far meshes, couplings and speeds of two states are apart in what the meshes yield [m].
+// Difference of two states in meshes, couplings and speeds, as a deflection of the meshes [m].
 double distance_of_bodies(const Train& train, const Control& control, const State& a,
                           const State& b) {
     double largest = 0.0;
@@ -61,7 +61,7 @@ double distance_of_bodies(const Train& train, const Control& control, const Stat
     return largest;
 }
 
-// How far two states are apart in what the meshes yield, relative to the static deflection.
+// Difference of two states as a deflection of the meshes, relative to the static deflection.
 double distance(const Model& model, const Integrator& integrator, const State& a, const State& b) {
     const Train& train = model.train;
     const Control& control = integrator.control;
@@ -81,7 +81,7 @@ double distance(const Model& model, const Integrator& integrator, const State& a
     return largest / control.deflection;
 }
 
-// Fill `place` with a state, as it lies after the start of the cycle.
+// Fill `place` with a state, relative to the start of the cycle.
 void keep(const State& start, const State& state, Place& place) {
     place.state = state;
     place.after = delay(start, now_of(state));
@@ -89,7 +89,7 @@ void keep(const State& start, const State& state, Place& place) {
     for (int e = 0; e < LEDGER; ++e) place.energy[e] = state.energy[e] - start.energy[e];
 }
 
-// Put the step just made on the tape, unless there is no room or its modes were lost.
+// Record the last step, unless there are too many steps or its modes are no longer stored.
 void record_step(Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     const std::int64_t known = integrator.run.known.count(), place = periodic.steps;
@@ -117,7 +117,7 @@ void record_step(Integrator& integrator) {
     periodic.known = known;
 }
 
-// Let the cycle end as exactly as set-point and teeth say; whether it does.
+// Adjust the end of the cycle to set-point and tooth positions; whether they agree.
 bool close_cycle(const Model& model, Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     const Train& train = model.train;
@@ -142,7 +142,7 @@ bool close_cycle(const Model& model, Integrator& integrator) {
            MISSED_SHARE * integrator.control.tolerance;
 }
 
-// Whether the train has stayed near its anchor for long enough to repeat.
+// Whether the train has stayed near the reference for long enough to repeat.
 bool has_settled(const Periodic& periodic, const State& end) {
     auto since = static_cast<double>(periodic.age - periodic.reference_age);
     double stayed = delay(periodic.reference, now_of(end));
@@ -167,7 +167,7 @@ void check_repetition(const Model& model, Integrator& integrator) {
     periodic.reference = end;
 }
 
-// Move the start on by a cycle; the motor's turns are counted in whole parts.
+// Advance the start by one cycle; turns of the motor are counted in whole fractions.
 void begin_cycle(Periodic& periodic) {
     State& start = periodic.start;
     const Place& whole = periodic.whole;
@@ -181,7 +181,7 @@ void begin_cycle(Periodic& periodic) {
     periodic.place = 0;
 }
 
-// Begin the cycle in which `until` lies; those before it count as a whole.
+// Start the cycle that contains `until`; earlier cycles are summed up as a whole.
 void begin_cycle_of(Integrator& integrator, std::int64_t lanes, const Instant& until) {
     Periodic& periodic = integrator.periodic;
     const double end = periodic.cycle_steps[periodic.steps - 1].end.after;
@@ -193,7 +193,7 @@ void begin_cycle_of(Integrator& integrator, std::int64_t lanes, const Instant& u
     }
 }
 
-// Let `state` be at a place in the present cycle.
+// Set `state` to a place in the present cycle.
 void restore(const Periodic& periodic, const Place& place, State& state) {
     const State& start = periodic.start;
     state = place.state;
@@ -257,7 +257,7 @@ void continue_from(const Model& model, Integrator& integrator, const CycleStep& 
     integrator.sums.step = step.sums;
     const State& begin = integrator.begin;
     set_step_constants(model, begin, integrator.constants);
-    if (step.collocated) return;  // else dense output computes the step again
+    if (step.collocated) return;  // otherwise dense output computes the step again
     place_bristles(integrator.first.pairs, begin.bristle);
     forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim, integrator.first);
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-// How the rest of the motion grows over a step, from what earlier steps have shown.
+// Prediction of the remainder over a step from earlier steps.
 //
-// Meshing returns to the same contacts in every cycle. In steady running the rest then grows from
-// the start of the step as it did the last time, so it needs no further sweep. Within a contact
-// state it grows on as it did over the step before. Either is a guess: where it is wrong, the
-// sweeps find out.
+// The same contacts recur in every mesh cycle. In steady running the remainder changes over a step
+// as it did over the same step of the last cycle, so the first sweep is enough. Otherwise it is
+// extrapolated from the previous step with the same contacts. Both are initial guesses, which the
+// sweeps correct.
 
 #include <cmath>
 
@@ -14,9 +14,9 @@
 namespace gearbox {
 
 inline constexpr double SIMILAR = 0.25;  // relative difference of the lengths of two steps compared
-inline constexpr int START = MOST_NODES;  // row of what was at the start
+inline constexpr int START = MOST_NODES;  // row of the values at the start
 
-// Whether what is given at the ports changes within a step.
+// Whether given torques or motions at the ports change within a step.
 inline bool given_changes(const Model& model, const State& begin) {
     bool changes = false;
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
@@ -28,7 +28,8 @@ inline bool given_changes(const Model& model, const State& begin) {
     return changes;
 }
 
-// What the rest of all modes gains by that until `delay` seconds after the start of the step.
+// Change of the remainder of all modes by given torques until `delay` seconds after the start of
+// the step.
 template <int L>
 Row<L> gain_of_given(const Model& model, const Integrator& integrator, double delay) {
     const Train& train = model.train;
@@ -47,7 +48,7 @@ Row<L> gain_of_given(const Model& model, const Integrator& integrator, double de
     return gain;
 }
 
-// Add so many times this gain to a row for each node.
+// Add this change, times a factor, to a row for each node.
 template <int L>
 void add_given(const Model& model, const Integrator& integrator, double times,
                double (*remainder)[BODIES]) {
@@ -60,13 +61,13 @@ void add_given(const Model& model, const Integrator& integrator, double times,
     }
 }
 
-// What is kept of the step at this place since the contacts changed; null: nothing ever is.
+// Stored increment of the step with this number since the contacts changed; null: not stored.
 inline StoredIncrement* stored_increment(Propagation& run) {
     return run.place < STORED_STEPS ? &contacts_of(run).increments[run.place] : nullptr;
 }
 
-// Let rest and friction grow over the step as they did when it was last made; whether that is
-// known.
+// Predict remainder and friction from the last step with the same number and contacts; whether it
+// is known.
 template <int L>
 bool repeat_increment(Integrator& integrator) {
     Propagation& run = integrator.run;
@@ -83,7 +84,7 @@ bool repeat_increment(Integrator& integrator) {
     return true;
 }
 
-// Keep the rest and friction of a step that has just been accepted, for the next.
+// Store remainder and friction of an accepted step, for the next.
 template <int L>
 void store_step(Propagation& run) {
     PastStep& past = run.past;
@@ -95,16 +96,16 @@ void store_step(Propagation& run) {
     }
 }
 
-// Whether the step begins where the last one by collocation has ended; if so, and if the contacts
-// have not changed since, the rest grows on.
+// Whether the step starts at the end of the last collocation step; then, with the same contacts,
+// the remainder is extrapolated.
 inline bool continues(const Integrator& integrator) {
     const PastStep& past = integrator.run.past;
     return past.step > 0.0 && past.nodes == integrator.run.nodes.count &&
            past.end_seconds == integrator.begin.seconds && past.end_time == integrator.begin.time;
 }
 
-// Let rest and friction grow on as the polynomials of the last step do at its end, by their slopes
-// and curvatures there: higher powers would amplify what the sweeps have left.
+// Extrapolate remainder and friction by the slopes and curvatures of the polynomials of the last
+// step at its end: higher powers would amplify the errors that remain after the sweeps.
 template <int L>
 void extrapolate(Propagation& run) {
     const PastStep& past = run.past;
@@ -124,7 +125,7 @@ void extrapolate(Propagation& run) {
     }
 }
 
-// Keep how rest and friction grew over the step, but for what was given.
+// Store the increments of remainder and friction over the step, without those of given torques.
 template <int L>
 void store_increment(const Model& model, Integrator& integrator) {
     Propagation& run = integrator.run;

@@ -1,13 +1,13 @@
 #pragma once
 
-// A step whose meshes move exactly, under a polynomial for all that is not linear.
+// A step with the exact linear motion of the meshes; all other terms are polynomials.
 //
-// M x'' = F(t, x, v) reads q'' + c q' + w^2 q = rest in the modes of the meshes in contact. The
-// rest is friction, machines, errors of form, damping out of proportion, stiffness that changes
-// within its segment; a polynomial through its values at the nodes of the step is answered exactly,
-// at the nodes and at any time between them: by a polynomial and a free wave. A mode that hardly
-// moves of its own within the step counts as a free mass, its spring and damper as part of the
-// rest.
+// In the modes of the meshes in contact, M x'' = F(t, x, v) is q'' + c q' + w^2 q = remainder. The
+// remainder contains friction, machines, errors of form, damping that is not proportional, and
+// changes of the stiffness within its segment. It is interpolated by a polynomial through its
+// values at the nodes of the step, under which the motion is known exactly at any time within the
+// step: a polynomial and a free wave. A mode whose spring and damper are negligible within the step
+// counts as a free mass, their forces as part of the remainder.
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +22,12 @@
 
 namespace gearbox {
 
-inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h) of a mode whose motion keeps ten digits
+inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h): ten digits are accurate
 
-// Relative change of the damping times for which the modes keep their damping.
+// Relative change of the damping times below which the damping of the modes is not updated.
 inline constexpr double DAMPING_KEPT = 5e-3;
-// Terms of the series of a free wave a little later, and the phase for which it keeps eleven
-// digits.
+// Terms of the series of a free wave a short time later, and the phase up to which it is accurate
+// to eleven digits.
 inline constexpr int FEW_TERMS = 5, MANY_TERMS = 9;
 inline constexpr double FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
 
@@ -38,7 +38,7 @@ inline const ContactState& contacts_of(const Propagation& run) {
     return run.known.states[run.motion.modes];
 }
 
-// Bounds for damping times up to tau, which may change by DAMPING_KEPT while they are kept.
+// Bounds for damping times up to tau, which may change by DAMPING_KEPT without an update.
 //
 // From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
 template <int L>
@@ -49,7 +49,7 @@ WaveBounds bound_waves(const ContactState& contacts, double tau) {
     V longest = 1.0 / square_root(larger(square, V(SMALLEST)));
     V inverse = 1.0 / larger(V(contacts.rate), V(SMALLEST));
     longest = select(underdamped, smaller(longest, inverse), longest);
-    // The lean is a straight line in tau: largest at an end.
+    // The slope is linear in tau: largest at an end.
     V slope = larger(absolute(0.5 * damping - tau * square), 0.5 * damping);
     slope += DAMPING_KEPT * tau * square;
     V ratio = slope * inverse, first = 1.0 + slope * longest;
@@ -60,8 +60,8 @@ WaveBounds bound_waves(const ContactState& contacts, double tau) {
     return bounds;
 }
 
-// Damp the modes of a contact state as its meshes are damped now. What the damping is off by later
-// is part of the rest.
+// Set the damping of the modes of a contact state to the present one of its meshes. Later
+// differences are part of the remainder.
 template <int L>
 void damp_modes(ContactState& contacts, const double* tau) {
     bool near = std::fabs(tau[0] - contacts.tau[0]) <= DAMPING_KEPT * contacts.tau[0] &&
@@ -82,7 +82,7 @@ void damp_modes(ContactState& contacts, const double* tau) {
     contacts.bounds = bound_waves<L>(contacts, std::max(tau[0], tau[1]));
 }
 
-// Free waves a little later (Taylor): C' = -w^2 S, S' = C - c S.
+// Free waves a short time later by Taylor series: C' = -w^2 S, S' = C - c S.
 template <int L, int TERMS>
 ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s,
                                double* cosine, double* sine) {
@@ -101,7 +101,7 @@ ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, Row<L> c
     sum_s.store(sine);
 }
 
-// `wave` of all modes; within a small part of all periods and decays by its series.
+// `wave` of all modes; by its series for times much shorter than all periods and decay times.
 template <int L>
 NOINLINE void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
     const double phase = motion.fastest_rate * std::fabs(t);
@@ -115,7 +115,7 @@ NOINLINE void waves(const ModalMotion& motion, double t, double* cosine, double*
     }
 }
 
-// Free waves of all modes at a time, and after two stretches of time, from those after each.
+// Free waves of all modes after the sum of two times, from those after each.
 template <int L>
 struct Waves {
     Row<L> cosine, sine;
@@ -137,7 +137,7 @@ ALWAYS_INLINE Waves<L> waves_after(const ModalMotion& motion, const Waves<L>& a,
             a.sine * b.cosine + rate * b.sine};
 }
 
-// Free waves at the nodes of a step that is longer than the one they are kept of.
+// Free waves at the nodes of a step from stored ones of a shorter step.
 template <int L, int TERMS>
 void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer) {
     for (int n = 0; n < run.nodes.count; ++n)
@@ -145,7 +145,7 @@ void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer)
                               Row<L>(stored.sine[n]), run.cosine[n], run.sine[n]);
 }
 
-// Free motions at the nodes of a step of h, from those of a step as long if such are kept.
+// Free motions at the nodes of a step of h, from those of an equally long step if stored.
 template <int L>
 void find_waves(Propagation& run, double h) {
     const std::int64_t place = run.place;
@@ -166,7 +166,7 @@ void find_waves(Propagation& run, double h) {
     stored->nodes = run.nodes.count;
 }
 
-// Free motions of all modes at the nodes of a step of h, and the rest as it is at the start.
+// Free motions of all modes at the nodes of a step of h, and the remainder at the start.
 template <int L>
 void set_step(Propagation& run, double h) {
     using V = Row<L>;
@@ -186,8 +186,9 @@ void set_step(Propagation& run, double h) {
     }
 }
 
-// Whether a step of h keeps its digits. A mode that creeps for much longer than the step is a small
-// difference of a polynomial and a wave, both larger by the square of that ratio.
+// Whether a step of h loses no accuracy by cancellation. The motion of a mode with a decay time
+// much longer than the step is a small difference of a polynomial and a wave, both larger by the
+// square of that ratio.
 inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
     for (std::int64_t m = 0; m < bodies; ++m) {
         double square = run.motion.square[m], damping = run.motion.damping[m];
@@ -196,7 +197,7 @@ inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
     return true;
 }
 
-// Coefficients of (t/h)^k in the polynomials through the rest of all modes.
+// Coefficients of (t/h)^k in the polynomials through the remainder of all modes.
 template <int L>
 ALWAYS_INLINE Row<L> power(const Propagation& run, std::int64_t k) {
     using V = Row<L>;
@@ -206,7 +207,7 @@ ALWAYS_INLINE Row<L> power(const Propagation& run, std::int64_t k) {
     return sum;
 }
 
-// The motion of all modes under the polynomial through `rest`.
+// Motion of all modes under the polynomial through `remainder`.
 template <int L>
 void respond(Propagation& run) {
     using V = Row<L>;
@@ -220,7 +221,8 @@ void respond(Propagation& run) {
     V d(0.0), e(0.0);
     if (run.nodes.count > 3) d = power<L>(run, 3);
     if (run.nodes.count > 4) e = power<L>(run, 4);
-    // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the rest's coefficient.
+    // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the coefficient of the
+    // remainder.
     V four = e * inverse;
     V three = (d - 4.0 * loss * four) * inverse;
     V two = (c - 3.0 * loss * three - 12.0 * inertia * four) * inverse;
@@ -246,7 +248,7 @@ ALWAYS_INLINE RowPair<L> modal_states(const ModalMotion& motion, double t, const
     const double (*y)[BODIES] = motion.particular;
     V a(y[0]), b(y[1]), c(y[2]), d(y[3]), e(y[4]), f(y[5]), g(y[6]);
     V u(motion.free[0]), w(motion.free[1]);
-    // By even and odd powers, half as long to wait for.
+    // Even and odd powers apart, which halves the latency.
     const double s = t * t;
     V even = fused(s, fused(s, fused(s, g, e), c), a), odd = fused(s, fused(s, f, d), b);
     V odd_slope = fused(s, fused(5.0 * s, f, 3.0 * d), b);
@@ -289,7 +291,7 @@ inline void trim_at(const Model& model, const Integrator& integrator, double del
     }
 }
 
-// How gears turn against their lines of action at a node, from the speeds of the bodies.
+// Speeds of the gears relative to their lines of action at a node, from the speeds of the bodies.
 inline void turn_gears(const Train& train, const StepConstants& constants, Node& node) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         const double line = turning_of_line(train, i, node.v);
@@ -300,7 +302,8 @@ inline void turn_gears(const Train& train, const StepConstants& constants, Node&
     }
 }
 
-// Bodies, meshes and gears of a node in the motion of the modes, and the trim of the speed loops.
+// Motion of bodies, meshes and gears at a node from that of the modes, and the trim of the speed
+// loops.
 template <int L>
 NOINLINE void move_node(const Model& model, const Integrator& integrator, double delay,
                         const Row<L>& cosine, const Row<L>& sine, Node& node) {
@@ -334,7 +337,7 @@ ALWAYS_INLINE void move_to(const Model& model, Integrator& integrator, std::int6
                  Row<L>(run.sine[n]), run.node[n]);
 }
 
-// Answer the rest as it is now, and move on to where that takes the nodes.
+// Compute the motion under the present remainder, and move all nodes accordingly.
 template <int L>
 void update_nodes(const Model& model, Integrator& integrator) {
     respond<L>(integrator.run);
@@ -354,8 +357,9 @@ ALWAYS_INLINE Row<L> modal_places(const Propagation& run, std::int64_t n) {
     return fused(t, odd, even) + wave_part;
 }
 
-// Answer the rest once more, and move the last node; of the others only the transmission errors,
-// which is all that is read of them where the step stands.
+// Compute the motion under the present remainder once more, and move the last node; of the other
+// nodes only the transmission errors, the only quantities that are read from them in an accepted
+// step.
 template <int L>
 void update_last_node(const Model& model, Integrator& integrator) {
     Propagation& run = integrator.run;

@@ -57,7 +57,7 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
     }
 }
 
-// Let the ends of shafts whose motion is given move as they do: nothing of the train acts on them.
+// Decouple the ends of shafts with given motion: no forces of the train act on them.
 void free_given(const Model& model, double h, Workspace& work) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {
@@ -69,7 +69,7 @@ void free_given(const Model& model, double h, Workspace& work) {
     }
 }
 
-// The same of the bearings that press; the turning of the frame is left out.
+// The same of the bearings beyond their clearances; the rotation of the frame is neglected.
 void assemble_bearings(const Train& train, const State& state, double step, Workspace& work) {
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
         const bool loaded = beyond_clearance(train, b, state.x);
@@ -108,7 +108,7 @@ void assemble(const Model& model, const State& state, const StepConstants& const
     free_given(model, h, work);
 }
 
-// Let the members of such shafts feel what their ends do in a stage, which is known.
+// Add the forces on the members of such shafts by the known motion of the ends in a stage.
 void add_given_motion_forces(const Model& model, double h, double* right) {
     const Train& train = model.train;
     const double step = GAMMA * h;
@@ -120,7 +120,7 @@ void add_given_motion_forces(const Model& model, double h, double* right) {
     }
 }
 
-// Bodies and trim at stage i, and what its right-hand sides take from the stages before.
+// Bodies and trim at stage i, and the contributions of earlier stages to its right-hand sides.
 void place_stage(const Train& train, const State& state, double h, int i, Workspace& work) {
     for (std::int64_t j = 0; j <= train.bodies; ++j) {
         double x = state.x[j], v = state.v[j], cx = 0.0, cv = 0.0;
@@ -141,7 +141,7 @@ void place_stage(const Train& train, const State& state, double h, int i, Worksp
     }
 }
 
-// What the ledger and the trim get from stage i.
+// Contributions of stage i to the ledger and the trim.
 void add_stage(const Train& train, const State& state, const StepConstants& constants, double h,
                int i, const Evaluation& out, Workspace& work) {
     for (std::int64_t a = 0; a < train.axes; ++a) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// Coefficients of ROS34PW2, and what the usual transformation makes of them that avoids products
-// with the Jacobian (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.7):
-// stages u = Gamma k.
+// Coefficients of ROS34PW2, after the usual transformation that avoids products with the Jacobian
+// (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.7): stages u = Gamma
+// k.
 
 #include "integrators/rosenbrock.hpp"
 

@@ -1,13 +1,13 @@
 #pragma once
 
-// The energy ledger of a step by collocation.
+// The energy ledger of a collocation step.
 
 #include "integrators/propagation.hpp"
 
 namespace gearbox {
 
 inline constexpr double SLOWEST_SWING =
-    30.0;  // (1 + c h)/(w h)^2, to whose 4th power digits are lost
+    30.0;  // (1 + c h)/(w h)^2, cancellation grows with its 4th power
 
 // Fill the weights of the nodes in the integral over the part t of the step [s].
 inline void weigh_nodes(Propagation& run, double t) {
@@ -23,8 +23,8 @@ inline void weigh_nodes(Propagation& run, double t) {
     }
 }
 
-// Which modes have free waves, of which quadrature might miss what is damped. Not those that hardly
-// move within the step: `damped` would lose all its digits, quadrature none.
+// Modes with free waves whose dissipation quadrature may not resolve. Not those that hardly move
+// within the step: `damped` would suffer from cancellation, quadrature is accurate.
 template <int L>
 ALWAYS_INLINE Mask<L> swings(const Propagation& run) {
     const double h = run.motion.step;
@@ -32,11 +32,11 @@ ALWAYS_INLINE Mask<L> swings(const Propagation& run) {
     return (loss > 0.0) & (1.0 + loss < SLOWEST_SWING * stiff);
 }
 
-// Integral of c q'^2 over h seconds for modes that swing, with `waves` at its end [J].
+// Integral of c q'^2 over h seconds for modes with free waves, `waves` at its end [J].
 //
-// q' is a polynomial y'(t) and the rate of a free motion u. By itself that loses c int u'^2, the
-// energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each other
-// by u'' + c u' + w^2 u = 0.
+// q' is a polynomial y'(t) and the rate of a free motion u. The latter alone dissipates c int u'^2,
+// the decrease of (u'^2 + w^2 u^2)/2; int t^k u' and int t^k u follow from each other by u'' + c u'
+// + w^2 u = 0.
 template <int L>
 ALWAYS_INLINE Row<L> damped(const Propagation& run, double h, const double* cosine,
                             const double* sine) {
@@ -77,8 +77,8 @@ ALWAYS_INLINE double sum_of_meshes(const Train& train, const Row<L>& row) {
     return sum;
 }
 
-// Fill the ledger at h seconds into the step: by quadrature at the nodes; what damping takes from
-// modes that swing is known exactly.
+// Fill the ledger h seconds after the start of the step, by quadrature at the nodes; the
+// dissipation of modes with free waves is known exactly.
 template <int L>
 void integrate_powers(const Train& train, Integrator& integrator, double h) {
     using V = Row<L>;

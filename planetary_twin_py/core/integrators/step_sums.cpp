@@ -15,10 +15,10 @@ namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t MOST_EVEN_TIMES = 129;  // room
-constexpr double NEAR = 0.02;  // of a step, by which it may end beside its last node
+constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
+constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 
-// Films at two nodes of a step without friction, as nothing else asks for them.
+// Films at two nodes of a step without friction, where nothing else depends on them.
 template <int L>
 void add_films_of_nodes(const Model& model, Integrator& integrator, ContactSums<L>& contacts) {
     const Propagation& run = integrator.run;
@@ -27,7 +27,7 @@ void add_films_of_nodes(const Model& model, Integrator& integrator, ContactSums<
     std::int64_t early = std::max<std::int64_t>(run.nodes.count - 4, 0), late = run.nodes.count - 2;
     double t = run.nodes.abscissa[early] * run.motion.step;
     double u = run.nodes.abscissa[late] * run.motion.step;
-    double weight = h * (u - 0.5 * h) / (u - t);  // of the early one, exact for straight lines
+    double weight = h * (u - 0.5 * h) / (u - t);  // of the earlier one, exact for linear functions
     for (std::int64_t n : {early, late}) {
         work.now = run.node[n].meshes;
         find_contacts(model, integrator.constants, run.node[n].v, work);
@@ -35,8 +35,8 @@ void add_films_of_nodes(const Model& model, Integrator& integrator, ContactSums<
     }
 }
 
-// Films of a step that was cut short, at Gauss's points of what is left of it: beyond the end of a
-// step whose flanks part, nodes show films of no load.
+// Films of a shortened step, at the Gauss points of the remaining part: nodes after the separation
+// of flanks have films without load.
 template <int L>
 void add_films_of_cut_step(const Model& model, Integrator& integrator,
                            ContactSums<MESH_LANES<L>>& contacts) {
@@ -50,7 +50,7 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
         add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
 }
 
-// Fill the series at the start and the nodes of a step by collocation.
+// Fill the series at the start and the nodes of a collocation step.
 template <int M>
 void fill_at_nodes(Integrator& integrator) {
     const Propagation& run = integrator.run;
@@ -67,7 +67,7 @@ void fill_at_nodes(Integrator& integrator) {
     }
 }
 
-// Fill the series at `intervals` + 1 even times of a step by collocation.
+// Fill the series at `intervals` + 1 equidistant times of a collocation step.
 template <int L>
 void fill_at_even_times(const Model& model, Integrator& integrator, std::int64_t intervals) {
     Series& series = integrator.sums.series;
@@ -85,7 +85,7 @@ void fill_at_even_times(const Model& model, Integrator& integrator, std::int64_t
     }
 }
 
-// Fill the series at a step by collocation, and sum up its contacts and friction.
+// Fill the series of a collocation step, and sum up its contacts and friction.
 template <int L>
 void add_collocated(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
@@ -109,7 +109,7 @@ void add_collocated(const Model& model, Integrator& integrator) {
     put_contacts(train, model.oil, contacts, integrator.sums.step.integral);
 }
 
-// Let `sums.rates` hold what an evaluation shows of contacts and friction.
+// Fill `sums.rates` with contacts and friction of an evaluation.
 void put_rates(const Model& model, const StepConstants& constants, const double* v,
                Evaluation& work, StepSums& sums) {
     if (!model.train.friction) find_contacts(model, constants, v, work);
@@ -127,7 +127,7 @@ void add_rates(const Train& train, const StepSums& sums, double weight, double (
         for (std::int64_t i = 0; i < lanes; ++i) out[row][i] += weight * sums.rates[row][i];
 }
 
-// Fill the series at the ends of a stiff step, and sum up its contacts and friction.
+// Fill the series at the ends of a Rosenbrock step, and sum up its contacts and friction.
 void add_ends(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
     const State& begin = integrator.begin;
@@ -158,7 +158,7 @@ void add_ends(const Model& model, Integrator& integrator) {
     }
 }
 
-// Times of two values after the one between them, their inverses, and that of their distance.
+// Times of two values relative to the one between them, their inverses, and that of their distance.
 struct Neighbours {
     double left, right, inverse_left, inverse_right, inverse_span;
 };
@@ -217,7 +217,7 @@ void sum_step(const Model& model, Integrator& integrator) {
     add_series(model.train, integrator.constants, integrator.sums.series, integrator.sums.step);
 }
 
-// Nodes resolve as many radians of a free wave as they are; even times one each. Waves below the
+// Nodes resolve one radian of a free wave each, and so do equidistant times. Waves below the
 // tolerance do not count.
 std::int64_t even_intervals(const Integrator& integrator, const Train& train, double h) {
     const Propagation& run = integrator.run;
@@ -233,7 +233,7 @@ std::int64_t even_intervals(const Integrator& integrator, const Train& train, do
         double largest = *std::max_element(reach[m], reach[m] + train.meshes);
         if (amplitude * largest > integrator.control.tolerance_x) fastest = phase;
     }
-    // A phase beyond the room counts as the room; so does none that is not a number.
+    // Larger phases, and NaN, count as the largest number of intervals.
     double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(MOST_EVEN_TIMES)));
     return std::min(2 * static_cast<std::int64_t>(halves), MOST_EVEN_TIMES - 1);
 }

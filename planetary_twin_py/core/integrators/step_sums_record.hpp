@@ -16,16 +16,16 @@ struct alignas(64) Series {
 };
 
 struct alignas(64) StepSums {
-    MeshSums step;   // over the last step
-    MeshSums part;   // over a part of it
-    MeshSums total;  // since it was popped, up to the start of the last step
-    double taken;    // of the last step [s]
+    MeshSums step;   // of the last step
+    MeshSums part;   // of a part of it
+    MeshSums total;  // since the last reading, up to the start of the last step
+    double taken;    // part of the last step already counted [s]
     Series series;
-    bool not_requested;  // no one asks for sums: steps have none
+    bool not_requested;  // sums are not requested, and not computed
     bool known;          // `rates` are those of the end of the last step
     bool stale;          // `rates` are not those of the start of the step
     alignas(
-        64) double rates[SUMS][MESHES];  // by which the integrals grow at the end of a stiff step
+        64) double rates[SUMS][MESHES];  // rates of the integrals at the end of a Rosenbrock step
     alignas(64) double normal_force[MESHES];  // there [N]
 };
 

@@ -20,14 +20,14 @@ namespace gearbox {
 
 namespace {
 
-constexpr double STIFF = 3.0;  // by which errors count more
-// Of the tolerance: error of the share of friction of a pair that holds.
+constexpr double STIFF = 3.0;  // weight of the errors
+// Allowed error of the share of friction of a pair with bristles, relative to the tolerance.
 constexpr double BRISTLE_SHARE = 1.0;
-constexpr double ROUNDING = 1e-15;       // [m/s] errors of a speed below it are none
-constexpr std::int64_t EVALUATIONS = 4;  // of the equations in a step
+constexpr double ROUNDING = 1e-15;       // [m/s] smaller errors of a speed are neglected
+constexpr std::int64_t EVALUATIONS = 4;  // of the equations of motion in a step
 constexpr double DIVERGED = std::numeric_limits<double>::infinity();
 
-// One step of h from `begin` into `end`, without regard to events.
+// One step of h from `begin` into `end`, regardless of events.
 void try_step(const Model& model, Integrator& integrator, double h) {
     const State& begin = integrator.begin;
     State& end = integrator.end;
@@ -40,8 +40,8 @@ void try_step(const Model& model, Integrator& integrator, double h) {
     integrator.control.evaluations += EVALUATIONS;
 }
 
-// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite
-// where the step went astray: a comparison with NaN would let it pass.
+// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite if
+// the step diverged: a comparison with NaN would accept it.
 double error_norm(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     const Workspace& work = integrator.work;
@@ -50,7 +50,7 @@ double error_norm(const Model& model, const Integrator& integrator) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double tau = integrator.constants.tau[train.kind[i]];
         double error = std::fabs(mesh_motion(train, i, work.error_x));
-        // Damping turns an error of the rate into one of the force, k tau times as large.
+        // By damping, an error of the rate causes k tau times that error of the force.
         double slip = std::max(std::fabs(mesh_motion(train, i, work.error_v)) - ROUNDING, 0.0);
         largest = std::max(largest, std::max(error, tau * slip) / control.tolerance_x);
     }
@@ -68,10 +68,10 @@ double error_norm(const Model& model, const Integrator& integrator) {
 
 struct Controlled {
     double step;
-    double factor;  // by which the next may be longer
+    double factor;  // for the length of the next step
 };
 
-// Try steps from h downwards until the error is allowed.
+// Try steps, the first of h, until the error is allowed.
 Controlled controlled_step(const Model& model, Integrator& integrator, double h) {
     while (true) {
         try_step(model, integrator, h);
@@ -111,7 +111,7 @@ std::int64_t stiff_step(const Model& model, Integrator& integrator, double longe
     double trial = std::min(planned(event, std::min(control.next_stiff, longest), 1.0), longest);
     auto [h, factor] = controlled_step(model, integrator, trial);
     double candidate = h * std::min(GROW, std::max(SHRINK, factor));
-    // A step cut short by an event says little about the steps to come.
+    // A step shortened by an event does not determine the length of the next ones.
     control.next_stiff = factor >= 1.0 ? std::max(candidate, control.next_stiff) : candidate;
     control.fallback_steps = std::max<std::int64_t>(control.fallback_steps - 1, 0);
     ++control.stiff_steps;

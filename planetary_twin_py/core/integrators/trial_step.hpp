@@ -1,6 +1,6 @@
 #pragma once
 
-// A step by the method that is asked for, where collocation is not: for step control and samples.
+// A step of the requested method other than collocation: for step control and samples.
 
 #include "integrators/integrator_record.hpp"
 #include "integrators/rosenbrock.hpp"
@@ -9,7 +9,7 @@
 
 namespace gearbox {
 
-// Advance `march.begin` by h seconds into `out`, without regard to events.
+// Advance `integrator.begin` by h seconds into `out`, regardless of events.
 inline void trial_step(const Model& model, Integrator& integrator, double h, State& out) {
     switch (integrator.control.method) {
         default:

@@ -13,7 +13,7 @@ namespace gearbox {
 
 namespace {
 
-// Let the last step count from `begin` to `end` [s] after its start.
+// Add the last step from `begin` to `end` [s] after its start.
 template <int L>
 void count_part(const Model& model, Integrator& integrator, double begin, double end) {
     const Train& train = model.train;

@@ -32,7 +32,7 @@ inline LengthAndRate widening(const Train& train, const StepConstants& step, std
 }
 
 // Gap [m] left to mesh i on `side`, from its deflection and the increase of its backlash; see
-// `departure`.
+// `contact_event`.
 inline double remaining_gap(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
                             LengthAndReach motion, LengthAndReach wider, double slack) {
     double d = motion.length, half = load.half_backlash;

@@ -41,7 +41,7 @@ inline void place_lines(const Train& train, const State& state, std::int64_t i,
 }
 
 // e_R [m] of mesh i and its rate, an increase of the backlash on each side: `advance` mesh cycles
-// after `place_lines`, at `pace` mesh cycles per second.
+// after `place_lines`, at `cycle_rate` mesh cycles per second.
 inline LengthAndRate radial_error(const Train& train, std::int64_t i, const double (*angle)[LINES],
                                   double advance, double cycle_rate) {
     std::int64_t kind = train.kind[i];
@@ -73,7 +73,7 @@ inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
     return {error + side * radial.length, rate + side * radial.rate};
 }
 
-// Second derivative of e [m/s^2] of mesh i on a side, at `place_lines`, at `pace` cycles/s.
+// Second derivative of e [m/s^2] of mesh i on a side, at `place_lines`, at `cycle_rate` cycles/s.
 inline double form_error_acceleration(const Train& train, std::int64_t i, double side,
                                       const double (*angle)[LINES], double cycle_rate) {
     std::int64_t kind = train.kind[i];

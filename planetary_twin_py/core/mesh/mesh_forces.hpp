@@ -59,7 +59,7 @@ template <int L>
 ALWAYS_INLINE Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES],
                                const Row<L>& u) {
     using V = Row<L>;
-    if (terms == 2)  // what a given stiffness needs
+    if (terms == 2)  // for a given stiffness
         return {V(coefficient[0]) + V(coefficient[1]) * u, V(coefficient[1])};
     V value(coefficient[terms - 1]), growth(0.0);
     for (std::int64_t t = terms - 2; t >= 0; --t) {
@@ -69,7 +69,7 @@ ALWAYS_INLINE Weights<L> weigh(std::int64_t terms, const double (*coefficient)[M
     return {value, growth};
 }
 
-// Add the power that the meshes lose to damping, and that of their changing shape.
+// Add the power lost to damping, and that of changing stiffness and errors of form.
 inline void add_mesh_power(const Train& train, const MeshesNow& now, double* power) {
     double lost = 0.0, work = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {

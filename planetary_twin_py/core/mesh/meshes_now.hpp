@@ -15,7 +15,7 @@ struct alignas(64) MeshesNow {
     alignas(64) double error_rate[MESHES];    // of the error of form [m/s]
     alignas(64) double normal_force[MESHES];  // force, 0 if open [N]
     alignas(64) double lost[MESHES];          // to damping [W]
-    alignas(64) double work[MESHES];          // what the changing shape puts in [W]
+    alignas(64) double work[MESHES];          // power of changing stiffness and errors of form [W]
     // Where axes move: stiffness [N/m] and its growth [N/(m s)]; where they tilt, the moment
     // against the slope of the flanks [N m].
     alignas(64) double stiffness[MESHES];

@@ -18,7 +18,7 @@ namespace gearbox {
 
 namespace {
 
-// Fill what is known of the bodies and the motors at time t.
+// Fill the state of the bodies and the motors at time t.
 void place_bodies(Problem& problem, double t, const double* y) {
     const Train& train = problem.model.train;
     const Load& load = problem.model.load;
@@ -40,13 +40,13 @@ void place_bodies(Problem& problem, double t, const double* y) {
     }
 }
 
-// Of which side and segment (from 1 on) the tables in `step` are.
+// Side and segment (from 1 on) of the tables in `step`.
 struct StoredTables {
     double side[MESHES];
     std::int64_t segment[MESHES];
 };
 
-// Let all meshes be open; the tables stay as they are.
+// Open all meshes, without changing the tables.
 StoredTables open_meshes(const Train& train, State& state, StepConstants& step) {
     StoredTables stored;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -59,7 +59,7 @@ StoredTables open_meshes(const Train& train, State& state, StepConstants& step) 
     return stored;
 }
 
-// As `copy_segment`, which costs more than all else here, where other tables are held.
+// As `copy_segment`, the most expensive part here, if other tables are stored.
 void copy_tables(const Train& train, const State& state, StepConstants& step, std::int64_t i,
                  const StoredTables& stored) {
     double side = static_cast<double>(state.side[i]);
@@ -87,7 +87,7 @@ void find_contacts(Problem& problem, const StoredTables& stored) {
         }
         double d = deflection(train, step, i, x, v, 0.0, cycle_rate).d;
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
-        // As `mesh_cycle`, but the cycles of the frame, which take long to count, are counted once.
+        // As `mesh_cycle`, but the cycles of the frame, which are expensive, are counted once.
         double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
         if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
         cycle -= std::floor(cycle);

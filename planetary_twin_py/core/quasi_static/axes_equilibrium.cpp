@@ -1,9 +1,9 @@
-// Static equilibrium of a train whose axes move: flanks that only push, bearings, friction.
+// Static equilibrium of a train with moving axes: unilateral flanks, bearings, friction.
 //
 // All forces are those of the dynamic model, on bodies at rest in the frame that turns with the
 // motors. Springs of flanks and bearings are piecewise smooth and their energy is convex, so
-// Newton's method finds the equilibrium (see planar/statics.py); friction follows pass by pass, as
-// it is some hundredths of the forces.
+// Newton's method finds the equilibrium (see planar/statics.py); friction, some per cent of the
+// forces, is updated in an outer iteration.
 
 #include <algorithm>
 #include <cmath>
@@ -29,19 +29,19 @@ namespace {
 
 constexpr int MOST_PASSES = 100;
 constexpr int UNRELAXED_PASSES = 30;     // then oscillating friction is under-relaxed
-constexpr double OVERSHOOT = 0.5;        // of the force along a step, at which it is shortened
+constexpr double OVERSHOOT = 0.5;        // share of the initial force that shortens a step
 constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
 constexpr double REGULARISATION =
-    1e-9;  // of the stiffness of a tooth pair: holds what nothing else does
+    1e-9;  // of the stiffness of a tooth pair: regularises free coordinates
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
-// What flanks and bearings without load resist in a step, of their stiffness: so that no step is
-// much longer than play and clearance, at the price of a few more of them.
+// Share of their stiffness that open flanks and bearings within their clearance have in a step, so
+// that no step is much longer than backlash and clearance, at the cost of a few more steps.
 constexpr double IDLE_MESH = 1e-3, IDLE_BEARING = 1e-2;
 
 using SquareMatrix = double[BODIES][BODIES];
 
-// Let every mesh in contact have the tooth pairs that are at its place in the cycle.
+// Set the tooth pairs of every mesh in contact to those at its place in the cycle.
 void place_pairs(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     State& state = run.state;
@@ -56,7 +56,7 @@ void place_pairs(const Model& model, Equilibrium& run) {
     set_step_constants(model, state, run.step);
 }
 
-// Let the flanks on one side touch, the bodies being where the frame has them.
+// Close the flanks on one side, with all bodies at their positions in the frame.
 void close_side(const Model& model, Equilibrium& run, std::int64_t side) {
     State& state = run.state;
     std::fill(std::begin(state.x), std::end(state.x), 0.0);
@@ -71,7 +71,7 @@ bool any_touches(const Train& train, const State& state) {
                        [](std::int64_t side) { return side != OPEN; });
 }
 
-// Let those flanks touch that are squeezed where the bodies are; whether any of them changes.
+// Close the flanks that are compressed at the positions of the bodies; whether any contact changes.
 bool touch_flanks(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     State& state = run.state;
@@ -87,14 +87,13 @@ bool touch_flanks(const Model& model, Equilibrium& run) {
     return changes;
 }
 
-// Find friction and drag of the forces in `run.evaluation`; the largest change of it [N].
+// Update friction and drag from the forces in `run.evaluation`; their largest change [N].
 double update_friction(const Model& model, Equilibrium& run, bool midway) {
     const Train& train = model.train;
     Evaluation& evaluation = run.evaluation;
     std::copy_n(evaluation.friction_force, BODIES, run.before);
     std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
-    double
-        normal_force[MESHES];  // negative in the first guess, from which flanks have yet to close
+    double normal_force[MESHES];  // negative in the initial guess, where flanks may still be open
     std::copy_n(evaluation.now.normal_force, MESHES, normal_force);
     for (std::int64_t i = 0; i < train.meshes; ++i)
         evaluation.now.normal_force[i] = std::max(normal_force[i], 0.0);
@@ -109,7 +108,7 @@ double update_friction(const Model& model, Equilibrium& run, bool midway) {
     return change;
 }
 
-// Forces on all bodies, the motors apart, which stay with their frame.
+// Forces on all bodies but the motors, which are fixed to their frame.
 void find_forces(const Model& model, Equilibrium& run, double* force) {
     const Train& train = model.train;
     const State& state = run.state;
@@ -137,8 +136,8 @@ void find_forces(const Model& model, Equilibrium& run, double* force) {
     force[train.bodies] = 0.0;  // the ground
 }
 
-// Rows of bearing b with its stiffness at x: along the eccentricity, and across it that by which
-// its force turns.
+// Rows of bearing b with its stiffness at x: along the eccentricity, and across it that from the
+// rotation of its force.
 BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     BearingRows rows = rows_of_bearing(train, b);
     const MovingAxes& axes = train.moving;
@@ -161,7 +160,7 @@ BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     return rows;
 }
 
-// Stiffness of all springs at x, the motors held.
+// Stiffness of all springs at x, with fixed motors.
 void assemble(const Train& train, const Equilibrium& run, SquareMatrix& stiffness) {
     std::memset(stiffness, 0, sizeof stiffness);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -197,7 +196,7 @@ double mean_force(const Train& train, const double (*shown)[MESHES]) {
     return FLANKS * total / copies;
 }
 
-// Largest force that is not balanced, of one of the bodies with the same motion [N].
+// Largest unbalanced force [N], of one of the bodies with the same motion.
 double largest(const Train& train, const double* force) {
     double found = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j)
@@ -205,17 +204,17 @@ double largest(const Train& train, const double* force) {
     return found;
 }
 
-// A step of Newton's method, and how far along it the bodies are.
+// A step of Newton's method, and the position of the bodies along it.
 //
-// Along a line the forces of a convex energy fall. Where they have turned round and pull back by
-// more than a part of what they were, the secant finds where they vanish.
+// Along a line the forces of a convex energy decrease. Where they have reversed and exceed a share
+// of their initial value, the secant finds where they vanish.
 class Line {
 public:
     bool overshoots(const Train& train, const double* force) const {
         return along(train, force) < -OVERSHOOT * initial_work_;
     }
 
-    // Aim at where the springs of `run` balance the forces.
+    // Step to the position in which the springs of `run` balance the forces.
     void start(const Train& train, const Equilibrium& run, const double* force) {
         alignas(64) SquareMatrix stiffness;
         assemble(train, run, stiffness);
@@ -246,11 +245,11 @@ private:
 
     alignas(64) double start_[BODIES];
     alignas(64) double direction_[BODIES];
-    double initial_work_;  // force along the way at its start, times its length [J]
-    double fraction_;      // of the way
+    double initial_work_;  // force along the step at its start, times its length [J]
+    double fraction_;      // of the step
 };
 
-// Newton's method from where the bodies are; whether it ends in equilibrium.
+// Newton's method from the positions of the bodies; whether it ends in equilibrium.
 bool converges(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
     const Train& train = model.train;
     State& state = run.state;
@@ -267,7 +266,7 @@ bool converges(const Model& model, double tolerance, Equilibrium& run, double (*
         const double change = update_friction(model, run, !unrelaxed);
         find_forces(model, run, force);
         if (n > 0 && !changes && largest(train, force) <= slack && (unrelaxed || change <= slack)) {
-            if (!unrelaxed) {  // friction as it is, with its losses
+            if (!unrelaxed) {  // friction without relaxation, with its losses
                 update_friction(model, run, false);
                 find_forces(model, run, force);
             }

@@ -20,13 +20,13 @@ namespace {
 
 constexpr int MOST_PASSES = 60;
 constexpr int UNRELAXED_PASSES = 5;  // then oscillating friction is under-relaxed
-constexpr int FREE_PASSES = 20;  // then tooth pairs stay: at a jump of the stiffness they may not
-                                 // come to rest
-constexpr double PLACE = 0.01;   // mesh cycles over which stiffness changes by as much as counts
-                                 // for the tolerance
+constexpr int FREE_PASSES = 20;  // then tooth pairs are fixed: at a jump of the stiffness they may
+                                 // not converge
+constexpr double PLACE = 0.01;   // allowed change of position in mesh cycles per unit of
+                                 // the tolerance
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
-// Whether stiffness and play were those of the sides and tooth pairs that carry now.
+// Whether stiffness and clearance are those of the sides and tooth pairs that carry now.
 bool keeps_sides(const Train& train, const Equilibrium& run, const double (*shown)[MESHES],
                  double slack) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -37,7 +37,7 @@ bool keeps_sides(const Train& train, const Equilibrium& run, const double (*show
     return true;
 }
 
-// Whether friction and drag of these forces are those the forces were found with.
+// Whether friction and drag of these forces agree with those they were computed from.
 bool friction_converged(const Model& model, Equilibrium& run, double slack) {
     Evaluation& evaluation = run.evaluation;
     std::copy(std::begin(evaluation.friction_force), std::end(evaluation.friction_force),
@@ -54,10 +54,10 @@ bool friction_converged(const Model& model, Equilibrium& run, double slack) {
     return still;
 }
 
-// Guess the friction again: nothing where its sense has just changed, else midway.
+// Under-relax the friction: zero where its sense has just changed, otherwise the mean of both.
 //
-// The friction of a light load is large beside it, so an idle planet jumps from flank to flank,
-// pass by pass, while it is at rest amid its play.
+// The friction of a light load is large relative to it. So an idle planet would alternate between
+// its flanks from pass to pass, although it is at rest within its backlash.
 void center_idle_planets(const Train& train, Equilibrium& run) {
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double now = run.evaluation.friction_force[j], before = run.before[j];
@@ -65,7 +65,7 @@ void center_idle_planets(const Train& train, Equilibrium& run) {
     }
 }
 
-// A force that jumps where flanks meet cannot carry less than its jump at rest.
+// A force that jumps where flanks come into contact cannot be below its jump at rest.
 void check_jump(const Model& model, const Equilibrium& run) {
     const Load& load = model.load;
     if (load.half_backlash == load.offset) return;

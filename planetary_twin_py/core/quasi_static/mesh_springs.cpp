@@ -16,15 +16,15 @@ namespace gearbox {
 
 namespace {
 
-constexpr double LEAST_STIFFNESS = 1e-9;  // of a healthy mesh whose only pair is just entering
+constexpr double LEAST_STIFFNESS = 1e-9;  // of a healthy mesh, at the entry of its only pair
 
-// A spring and where it begins.
+// A spring and the deflection at which it starts.
 struct Spring {
     double stiffness;  // [N/m]
     double gap;        // missing material [m]
 };
 
-// Side and tooth pairs of a mesh: an open one is where it would close.
+// Side and tooth pairs of a mesh; those of an open one are those on which it would close.
 void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double rate) {
     State& state = run.state;
     if (state.side[i] != OPEN) run.closing_side[i] = state.side[i];
@@ -33,7 +33,7 @@ void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double ra
     state.segment[i] = find_segment(train, train.kind[i], cycle, std::copysign(1.0, side * rate));
 }
 
-// The pairs of mesh i that carry, as one spring: pair by pair, since each may have its faults.
+// The loaded pairs of mesh i as one spring, pair by pair, since each may have faults.
 Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i, double healthy) {
     const Train& train = model.train;
     const StepConstants& step = run.step;
@@ -71,8 +71,8 @@ void place_springs(const Model& model, Equilibrium& run) {
         double clearance =
             model.load.offset + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
         int carrying = run.state.side[i] == DRIVE_SIDE ? DRIVE_CLEARANCE : COAST_CLEARANCE;
-        // Below zero only with a regulatory factor, whose forces grow from no deflection at all:
-        // what a flank that does not carry stands off is positive.
+        // Negative only with a regulatory factor, whose forces grow from zero deflection; the gap
+        // of a flank without load is positive.
         run.clearance[i][DRIVE_CLEARANCE] = run.clearance[i][COAST_CLEARANCE] = std::abs(clearance);
         run.clearance[i][carrying] = clearance;
         Spring spring{mesh_stiffness(train, i, run.state.segment[i], step.start[i]), 0.0};

@@ -12,9 +12,9 @@ namespace gearbox {
 
 namespace {
 
-constexpr int PLACES = 256;  // of a mesh cycle; a jump of the torque counts as a slope from one to
-                             // the next
-constexpr double RIGID = 1e9;  // times the stiffness: a coupling that friction does not wind
+constexpr int PLACES = 256;    // in a mesh cycle; a jump of the torque counts as a slope between
+                               // adjacent ones
+constexpr double RIGID = 1e9;  // factor on the stiffness for a rigid coupling
 
 }  // namespace
 

@@ -29,7 +29,7 @@ void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
                    : run.clearance[r][DRIVE_CLEARANCE] - run.clearance[s][COAST_CLEARANCE];
 }
 
-// Let the meshes be on the sides that their forces ask for.
+// Set the sides of the meshes by the signs of their forces.
 void choose_sides(const Train& train, Equilibrium& run) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double force = run.force[i];
@@ -44,12 +44,12 @@ double carrier_factor(const Train& train) {
     return train.sign[0][2] + train.sign[train.meshes / 2][2];
 }
 
-// Let couplings and members yield; w [m] is what the ring stands behind the sun.
+// Displace couplings and members by their loads; w [m] is the lag of the ring behind the sun.
 void displace_by_windup(const Train& train, Equilibrium& run, double w) {
     double* x = run.state.x;
     std::int64_t planets = train.meshes / 2, loaded = train.coupling[LOAD_MACHINE][1];
     x[loaded] = 0.0;
-    for (std::int64_t c = 0; c < train.machines; c += 2) {  // the motors stay with their frame
+    for (std::int64_t c = 0; c < train.machines; c += 2) {  // the motors are fixed to their frame
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
         x[member] = -run.external[machine] / train.coupling_stiffness[c];
     }
@@ -59,14 +59,14 @@ void displace_by_windup(const Train& train, Equilibrium& run, double w) {
     x[loaded] = (w - wound) / (loaded == train.carrier ? carrier_factor(train) : 1.0);
 }
 
-// d [m] of a mesh that carries its force.
+// d [m] of a mesh under its force.
 double stretch(const Equilibrium& run, std::int64_t i) {
     double clearance =
         run.force[i] > 0.0 ? run.clearance[i][DRIVE_CLEARANCE] : -run.clearance[i][COAST_CLEARANCE];
     return run.error[i] + clearance + run.force[i] / run.stiffness[i];
 }
 
-// d [m] of the sun mesh of an idle planet, amid its play; w [m]: wind-up.
+// d [m] of the sun mesh of an idle planet in the middle of its backlash; w [m]: wind-up.
 double idle_deflection(const Equilibrium& run, std::int64_t p, double w) {
     double low = run.springs.steps[p][0], high = run.springs.steps[p][2];
     double passed = w - run.springs.error[p] - low;

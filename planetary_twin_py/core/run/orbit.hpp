@@ -1,6 +1,6 @@
 #pragma once
 
-// Displacements of axes as the housing sees them.
+// Displacements of axes relative to the housing.
 
 #include "capacities.hpp"
 #include "vector/math.hpp"

@@ -17,8 +17,8 @@ namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 
-// What acts at a port: a torque [N m] or a speed [rad/s], and its rate of change. A speed that
-// reaches a position is followed by another one.
+// Input of a port: a torque [N m] or a speed [rad/s], and its rate of change. The speed of an
+// approach to a position is followed by another one.
 struct Action {
     double value;
     double rate;
@@ -28,7 +28,7 @@ struct Action {
     bool operator==(const Action&) const = default;
 };
 
-// What acts at a port, so many seconds after the instant of the load.
+// Input of a port, `passed` seconds after the instant of the load.
 Action acting(const Load& load, int port, double passed) {
     if (load.port[port] == BY_MOTION)
         return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port],
@@ -36,7 +36,7 @@ Action acting(const Load& load, int port, double passed) {
     return {load.torque[port] + load.torque_rate[port] * passed, load.torque_rate[port]};
 }
 
-// What a command makes of it.
+// Input of a port under a command.
 Action commanded(const Load& load, int port, const Action& before, const Command& command,
                  double reaching) {
     const bool moved = load.port[port] == BY_MOTION;
@@ -49,14 +49,14 @@ Action commanded(const Load& load, int port, const Action& before, const Command
     return {now, (value - now) / reaching};
 }
 
-// Let the end of a shaft have a speed, and nothing else change.
+// Set the speed of the end of a shaft, without any other change.
 void set_speed(const Train& train, State& state, int machine, double speed) {
     std::int64_t body = train.coupling[machine][0];
     double rigid = train.ratio[body][0] * state.speed[0] + train.ratio[body][1] * state.speed[1];
     state.v[body] = (speed - rigid) * train.radius[body];
 }
 
-// What acts at both ports from an instant on.
+// Inputs of both ports from an instant on.
 struct Actions {
     Action at[PORTS];
     bool change;
@@ -88,8 +88,7 @@ void act_at(Model& model, State& state, int port, const Action& action) {
     set_speed(model.train, state, port, action.value);
 }
 
-// Let other actions begin at an instant within the last step. What the meshes show before does not
-// count with what follows.
+// Start new inputs at an instant within the last step. The sums of the meshes restart there.
 void act(Model& model, Integrator& integrator, const Instant& now, const Actions& actions) {
     Load& load = model.load;
     interrupt(model, integrator, now);
@@ -100,7 +99,8 @@ void act(Model& model, Integrator& integrator, const Instant& now, const Actions
     integrator.sums.taken = integrator.control.step;
 }
 
-// Whether anything is given: then nothing repeats, and steps without a window need no sums.
+// Whether a torque or motion is given: then cycles do not repeat, and steps without a window need
+// no sums.
 bool is_driven(const Load& load) {
     return load.port[MOTOR] != BY_MACHINE || load.port[LOAD_MACHINE] != BY_MACHINE;
 }
@@ -116,7 +116,7 @@ double angle_at(const Train& train, const Integrator& integrator, int port, doub
     return angle;
 }
 
-// Largest magnitudes of the motion at the end of a step of the caller.
+// Update the largest magnitudes with the motion at the end of a step of the caller.
 void note_peaks(const Model& model, const Integrator& integrator, Peaks& peaks) {
     const Train& train = model.train;
     for (std::int64_t i = 0; i < train.meshes; ++i)

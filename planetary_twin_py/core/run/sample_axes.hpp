@@ -1,6 +1,6 @@
 #pragma once
 
-// What bearings show in a row of samples.
+// Quantities of bearings in a row of samples.
 
 #include "run/samples.hpp"
 #include "train/bearings.hpp"

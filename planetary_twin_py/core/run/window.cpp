@@ -20,7 +20,7 @@ namespace gearbox {
 namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
-constexpr std::int64_t WAVES = VISCOUS + 1;  // quantities of `observe` that a waveform shows
+constexpr std::int64_t WAVES = VISCOUS + 1;  // number of quantities of `observe` in a waveform
 
 // Reorder samples of the meshes of the train (rows, WAVES, meshes) as in the report.
 void put_waveform(const Report& report, const Train& train, const double* mesh,
@@ -42,7 +42,7 @@ void put_waveform(const Report& report, const Train& train, const double* mesh,
     }
 }
 
-// What samples need beside those of the meshes to show axes that move.
+// Work space for samples of moving axes.
 struct RoomOfAxes {
     std::vector<double> turns, angle, speed, moved, tilting;
 
@@ -64,7 +64,7 @@ struct RoomOfAxes {
     }
 };
 
-// Angle of the carrier [rad], the last body that is reported.
+// Angle of the carrier [rad], the last reported body.
 double carrier_angle(const Report& report, const Train& train, const Samples& waves,
                      std::int64_t row) {
     const std::int64_t last = report.bodies - 1, j = report.body[last];

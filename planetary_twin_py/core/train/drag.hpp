@@ -1,6 +1,6 @@
 #pragma once
 
-// Drag outside the tooth contacts: bearings, seals and grease, and members that churn oil.
+// Drag outside the tooth contacts: bearings, seals and grease, and churning of oil by members.
 
 #include <cmath>
 
@@ -14,14 +14,14 @@
 
 namespace gearbox {
 
-constexpr double SLOWEST_DRAG_TURN = 1e-2;  // [rad/s] below which the sense of drag fades out
+constexpr double SLOWEST_DRAG_TURN = 1e-2;  // [rad/s] below which drag decreases to zero
 constexpr std::int64_t NO_PLANET = -1;
 
 inline double drag_sense(double speed) {
     return speed / std::sqrt(speed * speed + SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN);
 }
 
-// Load [N] on the pin of a planet, whose two meshes add up or oppose each other.
+// Load [N] on the pin of a planet, from its two meshes.
 inline double pin_load(const Train& train, const State& state, const double* normal_force,
                        std::int64_t planet) {
     if (planet == NO_PLANET) return 0.0;
@@ -32,7 +32,7 @@ inline double pin_load(const Train& train, const State& state, const double* nor
     return train.pin_share * std::abs(sum);
 }
 
-// Magnitude [N m] of the drag of joint b at a speed [rad/s], where its sense has not faded out.
+// Magnitude [N m] of the drag of joint b at a speed [rad/s] above SLOWEST_DRAG_TURN.
 inline double joint_drag(const Model& model, const State& state, const double* normal_force,
                          std::int64_t b, double speed) {
     const Train& train = model.train;
@@ -43,11 +43,11 @@ inline double joint_drag(const Model& model, const State& state, const double* n
     return torque * train.body_copies[train.joint_body[b][0]];
 }
 
-// Add to `matrix` what the drag of joints adds to the damping matrix.
+// Add the damping of the drag of joints to `matrix`.
 //
-// A light member whose drag changes its sense within SLOWEST_DRAG_TURN settles in nanoseconds. As
-// in `friction_damping`, the slope is that of the chord to rest where `force` would turn the
-// rotation round within h seconds.
+// The motion of a light member within SLOWEST_DRAG_TURN decays in nanoseconds. As in
+// `friction_damping`, the slope is that of the chord to rest where `force` would reverse the
+// rotation within h seconds.
 inline void drag_damping(const Model& model, const State& state, const double* normal_force,
                          const double* force, double h, Matrix matrix) {
     const Train& train = model.train;
@@ -66,7 +66,8 @@ inline void drag_damping(const Model& model, const State& state, const double* n
     }
 }
 
-// Add the drag of joints and discs under the pushes of the meshes to `rubbing`; book it in `power`.
+// Add the drag of joints and discs under the forces of the meshes to `friction_force`, and its
+// power to `power`.
 inline void apply_drag(const Model& model, const State& state, const double* v,
                        const double* normal_force, double* friction_force, double* power) {
     const Train& train = model.train;

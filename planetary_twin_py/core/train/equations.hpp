@@ -33,14 +33,14 @@ inline void add_friction_forces(const Train& train, const DragOfMeshes& drag,
     }
 }
 
-// Power that the friction of all meshes takes [W].
+// Power lost to the friction of all meshes [W].
 inline double friction_power(const Train& train, const DragOfMeshes& drag) {
     double power = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) power += train.copies[i] * drag.power[i];
     return power;
 }
 
-// Friction of the tooth pairs and drag, in out.rubbing; the meshes have their forces.
+// Friction of the tooth pairs and drag in out.friction_force, from the forces of the meshes.
 inline void apply_friction(const Model& model, const State& state, const StepConstants& step,
                            const double* v, Evaluation& out) {
     const Train& train = model.train;
@@ -58,7 +58,7 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
         apply_drag(model, state, v, out.now.normal_force, out.friction_force, out.power);
 }
 
-// Forces on the machines and the members that they are coupled to [N].
+// Forces on the machines and the members coupled to them [N].
 struct MachineForces {
     double machine[MACHINES];
     double member[MACHINES];
@@ -78,10 +78,10 @@ ALWAYS_INLINE void apply_couplings(const Train& train, const double* x, const do
     }
 }
 
-// Add the torques of the motors, which keep their speeds, and of the load; or what is given.
+// Add the torques of the motors, which control their speeds, and of the load; or given ones.
 //
-// A shaft whose motion is given answers with the torque of its coupling. Its end moves as its mass
-// would under the force here: the inertia of what moves it is not part of the train.
+// The torque of a shaft with given motion is that of its coupling. The force here accelerates the
+// mass of its end as given: the inertia of the drive is not part of the train.
 ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const StepConstants& step,
                                   const double* x, const double* v, double delay,
                                   const double* trim, MachineForces& forces, double* power) {
@@ -119,7 +119,7 @@ ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const 
     }
 }
 
-// All forces together: pushes of the meshes, friction and drag, couplings, machines.
+// Sum of all forces: meshes, friction and drag, couplings, machines.
 inline void assemble_forces(const Model& model, const State& state, const StepConstants& step,
                             const double* x, const double* v, double delay, const double* trim,
                             Evaluation& out) {

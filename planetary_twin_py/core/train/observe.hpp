@@ -1,6 +1,6 @@
 #pragma once
 
-// What the meshes show at one instant: the quantities that are published and recorded.
+// Quantities of the meshes at one instant that are published and recorded.
 
 #include <cmath>
 #include <limits>
@@ -14,8 +14,8 @@ namespace gearbox {
 // Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
 //
 // Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work` is
-// room to work in; out (QUANTITIES, meshes) has rows of `room` entries. Without `films`, what is
-// shown of them is zero.
+// work space; out (QUANTITIES, meshes) has rows of `room` entries. Without `films`, their
+// quantities are zero.
 inline void observe(const Model& model, const State& state, const StepConstants& step,
                     const double* x, const double* v, double delay, Evaluation& work, double* out,
                     std::int64_t room, bool films = true) {

@@ -9,9 +9,9 @@
 // in all directions, and its stored energy depends on r alone:
 //     U = Z K x^(n + 1) sqrt(e) E(e),   x = r - c,   e = x/(2 r),
 //     E(e) = B(1/2, n + 2)/(pi (n + 1)) F(1/2, 1/2; n + 5/2; e),
-// with the beta and the hypergeometric function, and e half the share of the diameter in the load
-// zone. The force is U' and the stiffness along the load U'': they conserve energy whatever
-// polynomial stands for E.
+// with the beta and the hypergeometric function; e = (1 - c/r)/2 is the share of the diameter in
+// the load zone (Harris's epsilon). The force is U' and the stiffness along the load U'': they
+// conserve energy for any polynomial approximation of E.
 
 #include <cmath>
 
@@ -22,20 +22,20 @@ namespace gearbox {
 constexpr int LOAD_ZONE_TERMS = 14;
 
 struct RollingBearing {
-    double strength;                    // Z K [N/m^n], 0 if the bearing is another one
+    double strength;                    // Z K [N/m^n], 0 for other bearings
     double exponent;                    // n
     double load_zone[LOAD_ZONE_TERMS];  // coefficients of E, the lowest first
     double damping_time;                // damping over stiffness [s]
 };
 
-// What a bearing does along its eccentricity.
+// Response of a bearing along its eccentricity.
 struct BearingResponse {
     double energy;     // [J]
     double force;      // [N]
     double stiffness;  // along the load [N/m]
 };
 
-// Of a rolling bearing with a radial clearance [m] under an eccentricity [m].
+// Response of a rolling bearing with a radial clearance [m] to an eccentricity [m].
 inline BearingResponse rolling_bearing_law(const RollingBearing& bearing, double clearance,
                                            double size) {
     const double x = size - clearance;

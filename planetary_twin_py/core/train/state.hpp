@@ -19,7 +19,7 @@ struct alignas(64) State {
     double trim[AXES];                          // integral of the speed error [rad]
     double set_speed[AXES];                     // slewed set-point [rad/s]
     alignas(64) double energy[LEDGER];          // [J], [N m s]
-    alignas(64) double bristle[PAIR_CAPACITY];  // of the tooth pairs, while they hold: share of
+    alignas(64) double bristle[PAIR_CAPACITY];  // of the tooth pairs with bristles: share of
                                                 // full friction [-]
 };
 

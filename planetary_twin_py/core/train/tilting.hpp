@@ -1,6 +1,6 @@
 #pragma once
 
-// Axial motion and tilts of the axes: bearings, and the moments of a gyroscope.
+// Axial motion and tilts of the axes: bearings and gyroscopic moments.
 //
 // A body of polar inertia J_p and diametral inertia J_t with the spin w_0 has, in a frame that
 // turns at W, the tilts theta = theta_x + i theta_y under a moment M,
@@ -19,7 +19,7 @@
 
 namespace gearbox {
 
-// Whether the axes tilt and move axially.
+// Whether axial motion and tilts are simulated.
 inline bool tilts(const Train& train) {
     return MOVING && train.moving.entries > IN_PLANE;
 }
@@ -140,7 +140,7 @@ inline double axial_tilt_energy(const Train& train, std::int64_t b, const double
     return 0.5 * (own.axial_stiffness * at.axial * at.axial + own.tilting_stiffness * square);
 }
 
-// Energy [J] of the moments that turn with the frame, as `centrifugal_energy` of the forces.
+// Energy [J] of the inertial moments in the frame, like `centrifugal_energy` of the forces.
 inline double tilting_energy(const Train& train, double turning, double spin, std::int64_t b,
                              const double* x) {
     const TiltingAxis& own = train.moving.tilting[b];
@@ -153,7 +153,7 @@ struct Rotation {
     double sine, cosine;
 };
 
-// Let the tilts of what bearing b holds follow a jump of the frame, see `turn_displacements`.
+// Transform the tilts of the body on bearing b to another frame, see `turn_displacements`.
 inline void turn_tilts(const Train& train, std::int64_t b, Rotation by, double rate, double* x,
                        double* v) {
     const std::int64_t first = train.moving.tilting[b].place[0];
@@ -169,7 +169,7 @@ inline void turn_tilts(const Train& train, std::int64_t b, Rotation by, double r
     v[second] -= rate * x[first];
 }
 
-// Axial displacement and tilts of what bearing b holds, and its axial force and moments on the
+// Axial displacement and tilts of the body on bearing b, and its axial force and moments on the
 // bearing, six numbers.
 inline void show_axial_tilt(const Train& train, std::int64_t b, double turning, const double* x,
                             const double* v, double* out) {

@@ -2,8 +2,8 @@
 
 // Boundary friction of the asperities (Salagianni et al. 2017, eqs. (7)-(11)).
 //
-// With the mean asperity pressure P_m = W_a/A_a (9), the friction f_b = (tau0 + eps P_m) A_a of
-// (7) and (8) is tau0 A_a + eps W_a: nothing is divided by A_a, which vanishes with lambda. Both
+// With the mean asperity pressure P_m = W_a/A_a (9), the friction f_b = (tau0 + eps P_m) A_a of (7)
+// and (8) is tau0 A_a + eps W_a, without a division by A_a, which vanishes at large lambda. Both
 // A_a (10) and W_a (11) are proportional to the apparent area A = 2 b L.
 
 #include "tribology/asperities.hpp"

@@ -23,7 +23,7 @@ ALWAYS_INLINE Lanes part_of_face(const ToothPairs& pairs, int k) {
     return face > 0.0 ? face : Lanes{} + 1.0;
 }
 
-// Laws are those of the whole face: where a part of it carries, they see its line load.
+// Laws are those of the whole face: if only a part is loaded, they use its line load.
 ALWAYS_INLINE PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
     return {load_lanes(pairs.rho1 + k),     load_lanes(pairs.rho2 + k),
             load_lanes(pairs.external + k), load_lanes(pairs.speed1 + k),
@@ -42,8 +42,8 @@ ALWAYS_INLINE void store_friction(const PairFriction<Lanes>& found, ToothPairs& 
     store_lanes(pairs.rolling_power + k, found.rolling_power * face);
 }
 
-// One part of the laws after the other for all pairs: what waits for a result in one register has
-// the other registers beside it. `tooth_contact` is the same for one.
+// Each part of the laws is computed for all registers in turn, which hides latencies.
+// `tooth_contact` is the same for one pair.
 template <Laws laws>
 void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
     const double slowest = pairs.slowest_rolling, factor = area_factor(oil);
@@ -67,7 +67,7 @@ void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
 
 }  // namespace
 
-// Whole registers, so that lanes beyond `count` are idle.
+// Whole registers; lanes beyond `count` are unused.
 void evaluate(const Model& model, ToothPairs& pairs) {
     const Oil& oil = model.oil;
     int registers = static_cast<int>((pairs.count + WIDTH - 1) / WIDTH);

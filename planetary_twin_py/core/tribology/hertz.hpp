@@ -1,6 +1,6 @@
 #pragma once
 
-// Elastic line contact (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.45).
+// Elastic line contact (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.43).
 
 #include <numbers>
 

@@ -133,12 +133,13 @@ void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, 
         store_register(pairs.friction + k, found.friction);
         store_register(pairs.boundary + k, found.boundary);
         store_register(pairs.viscous + k, found.viscous);
-        // The exponential may be off by a rounding.
+        // The exponential may have a rounding error.
         store_register(pairs.film + k, at_least(exp(found.log_film), Real{} + THINNEST_FILM));
     }
 }
 
-// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears, u1
+// and u2 the surface speeds.
 template <int L, class Number>
 ALWAYS_INLINE void add_up(const Train& train, const StepConstants& step,
                           const Columns<Number>& pairs, std::int64_t first, bool rolling,
@@ -196,8 +197,8 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
         add_up<L>(train, step, pairs, n * of_instant, oil.rolling, instants[n]);
 }
 
-// Call `function` with the number of lanes that the closed meshes need. Where each flank has an
-// entry, those of the flanks that carry are often the first ones.
+// Call `function` with the number of lanes that the closed meshes need. If each flank has an entry,
+// those of the loaded flanks are often the first ones.
 template <class Function>
 void with_closed_lanes(const Train& train, const StepConstants& step, Function&& function) {
     constexpr int FIRST = 8;
@@ -209,7 +210,7 @@ void with_closed_lanes(const Train& train, const StepConstants& step, Function&&
     with_mesh_lanes(train, function);
 }
 
-// Let entries beyond the first `lanes` have no friction.
+// Set the friction of entries beyond the first `lanes` to zero.
 void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
     const std::int64_t count = mesh_lanes(train);
     for (std::int64_t i = lanes; i < count; ++i) {

@@ -2,8 +2,8 @@
 
 // The asperity functions as Salagianni et al. 2017 print them in their appendix.
 //
-// Polynomials cut to three decimals: the area function is negative above lambda = 1.90, the load
-// function rises above 1.91, and both drop to zero at 3. See `asperities.hpp` for what they are.
+// Polynomials with three decimals: the area function is negative above lambda = 1.90, the load
+// function rises above 1.91, and both drop to zero at 3. For their definition see `asperities.hpp`.
 
 #include "vector/lanes.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
 
-// A formula that is merged into its caller, so that loops over it vectorise.
+// Always inlined, so that loops over a formula vectorise.
 #define ALWAYS_INLINE [[gnu::always_inline]] inline
 
-// A part of the step that several callers share. Merged into each of them, the code of a step would
-// not fit into the instruction cache, and every step would wait for it.
+// Never inlined: a part of the step with several callers. Inlined into each of them, the code of a
+// step would exceed the instruction cache.
 #define NOINLINE [[gnu::noinline]]
 
-// What most trains do without, kept out of the way of the others.
+// Never inlined, and rarely called: not used by most trains.
 #define COLD [[gnu::noinline, gnu::cold]]

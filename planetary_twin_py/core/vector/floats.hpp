@@ -1,7 +1,7 @@
 #pragma once
 
 // Floats in one vector register, twice as many as doubles: for formulas that are templates over
-// `Real`, where six digits are enough. exp and log err by some units of the last digit.
+// `Real`, where six digits are enough. exp and log have errors of some units of the last digit.
 
 #include <cstdint>
 

@@ -1,10 +1,10 @@
 #pragma once
 
 // Several doubles in one vector register. Formulas that are templates over `Real` take a double or
-// `Lanes`; either gives the same bits.
+// `Lanes`, with bitwise identical results.
 //
-// A product is fused with a sum where a formula says so, never by the compiler: levels v3 and v4
-// give the same bits, whatever compiles them.
+// Products are fused with sums only where a formula requests it, never by the compiler: levels v3
+// and v4 give bitwise identical results with any compiler.
 
 #include <bit>
 #include <cmath>
@@ -61,7 +61,7 @@ constexpr std::uint64_t SIGN = std::uint64_t{1} << 63;
 
 }  // namespace vector
 
-// The larger (smaller) of both; `x` if that is NaN, so that an error is not lost in a bound.
+// The larger (smaller) of both; `x` if that is NaN, so that a bound does not hide an error.
 ALWAYS_INLINE constexpr double at_least(double x, double bound) {
     return bound > x ? bound : x;
 }
@@ -69,7 +69,7 @@ ALWAYS_INLINE constexpr double at_most(double x, double bound) {
     return bound < x ? bound : x;
 }
 
-#if defined(__AVX512F__)  // with masks gcc 12 does not warn of its own headers
+#if defined(__AVX512F__)  // with masks gcc 12 does not warn about its own headers
 ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
     return _mm512_maskz_max_pd(0xFF, bound, x);
 }

@@ -3,7 +3,7 @@
 // exp, log, sine and cosine without branches or calls, so that loops over them vectorise.
 //
 // Relative error below 1e-11 of exp, absolute error below 1e-12 of log; precise_exp and sin_cos are
-// exact to the last digits. No conversion between doubles and 64-bit integers, which AVX2 lacks:
+// accurate to the last digits. No conversion between doubles and 64-bit integers, which AVX2 lacks:
 // adding 1.5 * 2^52 rounds to a whole number and leaves it in the low bits.
 
 #include <bit>
@@ -43,7 +43,8 @@ ALWAYS_INLINE Real every_other(const double* coefficient, Real square) {
     return sum;
 }
 
-// Polynomial with these coefficients, lowest first: even and odd powers, half as long to wait for.
+// Polynomial with these coefficients, lowest first: even and odd powers apart, which halves the
+// latency.
 template <class Real, int COUNT>
 ALWAYS_INLINE Real polynomial_of(const double (&coefficient)[COUNT], Real x) {
     Real square = x * x;

@@ -2,8 +2,8 @@
 
 // Rows of numbers in vector registers, one for each body, mode or mesh.
 //
-// Every operation acts on each number by itself, so what comes out does not depend on the width of
-// the registers.
+// Every operation acts on each number separately, so results do not depend on the width of the
+// registers.
 
 #include <cmath>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace gearbox {
 
 using MaskRegister [[gnu::vector_size(8 * WIDTH)]] = std::int64_t;
 
-// Which numbers of a row a condition holds for.
+// For each number of a row, whether a condition holds.
 template <int L>
 struct Mask {
     MaskRegister part[L / WIDTH];
@@ -224,14 +224,14 @@ ALWAYS_INLINE double total(const Row<L>& a) {
     return fold(a, [](double x, double y) { return x + y; });
 }
 
-// The largest number; what is no number may be lost.
+// The largest number; NaN may be ignored.
 template <int L>
 ALWAYS_INLINE double largest(const Row<L>& a) {
     return fold(a, [](double x, double y) { return y > x ? y : x; });
 }
 
-// Lanes in which small trains have room: 3 planets, or planets of the same motion where axes move;
-// then 4 planets whose axes move in the plane, 7 of these, and 4 whose axes tilt.
+// Lanes of small trains: 3 planets, or planets of the same motion where axes move; then 4 planets
+// whose axes move in the plane, 7 of these, and 4 whose axes tilt.
 inline constexpr int FEW_LANES = 8, MORE_LANES = 24, MANY_LANES = 40, TILTING_LANES = 48;
 
 // Lanes of the meshes of a train with L lanes of bodies: where axes move, it has fewer meshes.
@@ -286,8 +286,8 @@ struct MatrixRows {
 // Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero. The rows have L
 // lanes.
 //
-// Weights that have just been computed are best given as a Row: read back from memory, each would
-// wait until all of the row is written.
+// Weights that have just been computed are best passed as a Row: reading them from memory would
+// stall until the whole row is written.
 template <int L, int COUNT>
 ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
     const double* row = rows.first;
@@ -306,7 +306,7 @@ ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights)
     }
 }
 
-// Two rows that belong together, as values and their rates.
+// Two related rows, e.g. values and their rates.
 template <int L>
 struct RowPair {
     Row<L> first, second;
