@@ -359,7 +359,7 @@ inline void bind_records(nb::module_& m) {
                 size_t shape[2] = {lanes, lanes};
                 return nb::ndarray<nb::numpy, const double>(shapes.first, 2, shape, self);
             },
-            "What mode m does to body j [1/sqrt(kg)], (lanes, lanes).");
+            "Displacement of body j by mode m [1/sqrt(kg)], (lanes, lanes).");
     record<MeshFriction>(m, "MeshFriction")
         .FIELD(MeshFriction, drag)
         .FIELD(MeshFriction, lost)
@@ -380,7 +380,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Node, meshes)
         .FIELD(Node, friction);
     nb::class_<ContactModes>(m, "ContactModes")
-        .def_prop_ro("count", &ContactModes::count, "Contact states kept.")
+        .def_prop_ro("count", &ContactModes::count, "Number of stored contact states.")
         .def(
             "state",
             [](ContactModes& self, size_t n) -> ContactState& { return self.states.at(n); },

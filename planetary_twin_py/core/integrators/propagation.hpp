@@ -376,7 +376,7 @@ void update_last_node(const Model& model, Integrator& integrator) {
     move_to<L>(model, integrator, last);
 }
 
-// The other nodes, which another sweep asks for.
+// The other nodes, for another sweep.
 template <int L>
 void update_other_nodes(const Model& model, Integrator& integrator) {
     for (std::int64_t n = 0; n < integrator.run.nodes.count - 1; ++n)

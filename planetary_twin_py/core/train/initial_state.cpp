@@ -300,7 +300,7 @@ void trim(const Model& model, const double* drags, State& state) {
     if (train.axes == 1 || effect[0][0] == 0.0 || effect[1][1] == 0.0) {
         for (std::int64_t a = 0; a < train.axes; ++a)
             if (effect[a][a] != 0.0) state.trim[a] += drags[a] / effect[a][a];
-        return;  // no machine holds the other speeds
+        return;  // no machine controls the other speeds
     }
     double determinant = effect[0][0] * effect[1][1] - effect[0][1] * effect[1][0];
     state.trim[0] += (drags[0] * effect[1][1] - drags[1] * effect[0][1]) / determinant;

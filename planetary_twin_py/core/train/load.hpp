@@ -20,7 +20,7 @@ struct alignas(64) Load {
     double inertia[AXES][AXES];  // of the whole train at the motors [kg m^2]
     double proportional[AXES];   // speed loop, at the motor [N m s/rad]
     double trim_gain[MACHINES][AXES];  // speed loop, torque per trim [N m/rad]
-    double load_proportional;          // speed loop, at a load that holds the speed [N m s/rad]
+    double load_proportional;          // speed loop, at a load with speed control [N m s/rad]
     std::int64_t port[MACHINES];       // BY_MACHINE, BY_TORQUE or BY_MOTION
     std::int64_t since_seconds;        // the instant at which `torque` and `speed` are given
     double since;                      // and the time since whole seconds [s]
