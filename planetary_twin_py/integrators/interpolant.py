@@ -44,10 +44,10 @@ class Waves(NamedTuple):
 def new_waves(rows: int, meshes: int, bearings: int = 0, tilting: bool = False) -> Waves:
     """Room for `rows` samples; without bearings, axes are held and have no columns."""
     of_axes = (2 * bearings, 2 * bearings, 2 * MEMBERS, 2 * meshes) if bearings else (0,) * 4
-    tilting = SAMPLE_TILTING * bearings if tilting else 0
+    of_tilting = SAMPLE_TILTING * bearings if tilting else 0
     return Waves(
         np.empty(rows),
-        *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes, tilting)),
+        *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes, of_tilting)),
     )
 
 

@@ -80,12 +80,12 @@ class AxesSums:
 
     def statistics(self) -> AxesStatistics:
         """Statistics of all samples added, of which there is at least one."""
-        moved, tilting = self._moved / self._count, self._tilting / self._count
+        moved, tilted = self._moved / self._count, self._tilting / self._count
         displaced, force, thrust, moment = self._peaks
         tilting = None
-        if tilting.shape[1]:
+        if tilted.shape[1]:
             tilting = TiltingStatistics(
-                tilting[:, 0], tilting[:, 1:3], tilting[:, 3], thrust, tilting[:, 4:], moment
+                tilted[:, 0], tilted[:, 1:3], tilted[:, 3], thrust, tilted[:, 4:], moment
             )
         return AxesStatistics(moved[:, :2], displaced, moved[:, 2:], force, tilting)
 

@@ -163,7 +163,7 @@ class QuasiStaticEngine:
         out.bearing_force[:] = found.bearing_force.reshape(rows, -1)
         out.orbit[:] = found.orbit.reshape(rows, -1)
         out.flank_force[:] = found.flank_force.reshape(rows, -1)
-        out.closing_side[:] = samples.closing_side.reshape(rows, -1)
+        out.tilting[:] = samples.tilting.reshape(rows, -1)
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
