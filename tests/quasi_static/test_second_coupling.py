@@ -7,7 +7,13 @@ import pytest
 from power_flows import DIFFERENTIALS, flow_name, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import NEGLIGIBLE_FORCE, first_guess, frame_cycle_rate, settle, turn_to
+from planetary_twin_py._core import (
+    NEGLIGIBLE_FORCE,
+    first_guess,
+    frame_cycle_rate,
+    solve_equilibrium,
+    turn_to,
+)
 from planetary_twin_py.dynamics.bodies import SECOND_MOTOR, base_radii
 from planetary_twin_py.quasi_static.engine import QuasiStaticEngine
 
@@ -53,7 +59,7 @@ def torques(flow, stiffness, backwards):
     found = []
     for time in times[::-1] if backwards else times:
         turn_to(model, engine._origin, time, run.state)
-        settle(model, 1e-6, run)
+        solve_equilibrium(model, 1e-6, run)
         found.append(float(run.torque[SECOND_MOTOR]))
     return np.array(found[::-1] if backwards else found)
 
