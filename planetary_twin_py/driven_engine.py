@@ -77,12 +77,12 @@ class DrivenEngine(Engine):
             Angles, speeds and torques of both shafts.
         """
         shown: PortStates = self._core.PortStates()
-        march = self.march
+        integrator = self.integrator
         if ticks == self._ports_set:  # the last step had other ports: read from a next one
-            march, sample = self.march.copy(), new_samples(self.train, 1)
+            integrator, sample = self.integrator.copy(), new_samples(self.train, 1)
             after = instant_of_ticks(ticks + 1)
-            self._core.advance(self.model, march, after, NEVER, sampling(1, 1.0), sample)
-        self._core.read_ports(self.model, march, instant_of_ticks(ticks), shown)
+            self._core.advance(self.model, integrator, after, NEVER, sampling(1, 1.0), sample)
+        self._core.read_ports(self.model, integrator, instant_of_ticks(ticks), shown)
         return shown
 
     def apply_command(self, begin: int, end: int, command: Command) -> None:
@@ -102,7 +102,7 @@ class DrivenEngine(Engine):
             raise self._failure
         try:
             accepted = self._core.apply_command(
-                self.model, self.march, begin, end, *command, self._linear, self.port_ranges
+                self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges
             )
         except ArithmeticError as reason:
             self._fail(reason)
@@ -146,7 +146,7 @@ class DrivenEngine(Engine):
         if self._failure is not None:
             raise self._failure
         outcome = self._core.step_ports(
-            self.model, self.march, begin, end, *command, self._linear, self.port_ranges,
+            self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges,
             self._limits.record, reached, out,
         )  # fmt: skip
         if outcome == REFUSED:

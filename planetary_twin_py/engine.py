@@ -48,7 +48,7 @@ from .integrators.clock import (
 from .integrators.interpolant import Samples, Waves, new_samples
 from .runaway import Limits, RunawayError
 from .scene import OperatingPoint, Scene
-from .step_scale import POINTS, StepScale, new_march
+from .step_scale import POINTS, StepScale, new_integrator
 from .tolerance import check_tolerance
 from .window_jobs import WindowJob, WindowJobs
 
@@ -79,10 +79,10 @@ class Engine:
         self.train = build_train(scene)
         self._core = library(scene)
         self.model: Model = self._core.Model(train=self.train)
-        self.march = new_march(self._core, method)
-        # Parts of the march that every window reads, because each look-up costs time.
-        self._end, self._scratch = self.march.end, self.march.scratch
-        self._periodic, self._last = self.march.periodic, self.march.last
+        self.integrator = new_integrator(self._core, method)
+        # Parts of the integrator that every window reads, because each look-up costs time.
+        self._end, self._scratch = self.integrator.end, self.integrator.scratch
+        self._periodic, self._last = self.integrator.periodic, self.integrator.last
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(scene, self.train)
         self._failure: RunawayError | None = None
@@ -99,17 +99,17 @@ class Engine:
         self._pause = SETTLING / bandwidth(scene)
         self._load(scene.operating_point)
         state, self.start_warning = start_state(scene, self.model)
-        self.march.begin = self.march.end = state
+        self.integrator.begin = self.integrator.end = state
         self._prepare()
 
     def _prepare(self) -> None:
         """Call all functions of a window once; at time zero this changes nothing."""
-        self._core.begin_step(self.model, self.march)
-        self.march.end = self.march.begin  # tooth pairs may have started to stick
+        self._core.begin_step(self.model, self.integrator)
+        self.integrator.end = self.integrator.begin  # tooth pairs may have started to stick
         self.advance(0.0, 1, 1.0, 0)
         self.books(0.0)
         self.pop_mesh_sums(0.0)
-        self._core.cut(self.model, self.march, instant(0.0))
+        self._core.cut(self.model, self.integrator, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
@@ -123,20 +123,20 @@ class Engine:
         if self._given:  # values given at ports do not depend on the operating point
             keep_given(self.model.load, load)
         self.model.load, self._given = load, ports.given
-        control, scale = self.march.control, self._scale
+        control, scale = self.integrator.control, self._scale
         control.tolerance = self.tolerance
         control.deflection = scale.deflection(point)
-        control.yielding = scale.yielding(self.model.load)
-        control.quickness = scale.quickness
+        control.acceleration_deflection = scale.acceleration_deflection(self.model.load)
+        control.speed_per_deflection = scale.speed_per_deflection
         points = next(n for least, n in POINTS if self.tolerance > least)
-        if self.march.run.nodes.count != points:
-            self.march.run.nodes = self._core.radau(points)
+        if self.integrator.run.nodes.count != points:
+            self.integrator.run.nodes = self._core.radau(points)
         control.changed = True
         self._allow_periodic()
 
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""
-        periodic = self.march.periodic
+        periodic = self.integrator.periodic
         rippled = self.model.load.ripple != 0.0
         if rippled not in self._cycles:
             may_repeat = self._may_repeat and not self.scene.drive.ports.given
@@ -188,7 +188,7 @@ class Engine:
 
         def part_to(at: Instant, rows: Waves, closes: bool) -> WindowJob:
             return WindowJob(
-                self.model, self.march, at, sampling(first + done, rate), self._limits.record,
+                self.model, self.integrator, at, sampling(first + done, rate), self._limits.record,
                 report, first + done, rate, rows, end, closes,
             )  # fmt: skip
 
@@ -216,7 +216,7 @@ class Engine:
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
-        self._core.begin_window(self.model, self.march, end)
+        self._core.begin_window(self.model, self.integrator, end)
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
@@ -233,7 +233,7 @@ class Engine:
         if self._failure is not None:
             raise self._failure
         try:
-            self._core.advance(self.model, self.march, instant(until), NEVER, at, samples)
+            self._core.advance(self.model, self.integrator, instant(until), NEVER, at, samples)
             self._check(samples)
         except ArithmeticError as reason:
             self._fail(reason)
@@ -273,9 +273,9 @@ class Engine:
 
     def _end_step(self, time: float | Fraction) -> None:
         """End the last step at `time` [s], the end of the last window, and the ledger with it."""
-        self._core.cut(self.model, self.march, instant(time))
-        clear(self.march.sums.total)
-        self.march.sums.taken = self.march.control.step  # what lies before `time`
+        self._core.cut(self.model, self.integrator, instant(time))
+        clear(self.integrator.sums.total)
+        self.integrator.sums.taken = self.integrator.control.step  # what lies before `time`
         self._shown = None
 
     @property
@@ -291,12 +291,12 @@ class Engine:
     @property
     def control(self) -> Control:
         """Step control and counters."""
-        return self.march.control
+        return self.integrator.control
 
     @property
     def repeats(self) -> bool:
         """Whether mesh cycles are repeated, see core/integrators/periodic.hpp."""
-        return bool(self._periodic.playing)
+        return bool(self._periodic.replaying)
 
     @property
     def powers(self) -> np.ndarray:
@@ -309,7 +309,7 @@ class Engine:
         The last step ends after `time`: a copy of it is made again, so that it ends there. The
         run itself goes on as if nothing had been asked.
         """
-        ended, ledger = self.march.copy(), np.empty(LEDGER)
+        ended, ledger = self.integrator.copy(), np.empty(LEDGER)
         self._core.cut(self.model, ended, instant(time))
         kinetic, elastic = self._core.stored(self.model, ended.end, ended.scratch)
         self._core.pop_energy_ledger(ended, ledger)
@@ -321,7 +321,7 @@ class Engine:
         `time` is the end of the last window.
         """
         taken = self._core.MeshSums()
-        self._core.pop_mesh_sums(self.model, self.march, instant(time), taken)
+        self._core.pop_mesh_sums(self.model, self.integrator, instant(time), taken)
         return mesh_sums(taken, int(self.train.meshes))
 
 

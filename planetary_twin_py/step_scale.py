@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from ._core import METHODS, Load, March, PointLaws, Train, deflection_at
+from ._core import METHODS, Integrator, Load, PointLaws, Train, deflection_at
 from .dynamics.point_laws import record_of
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import lightest_body
@@ -35,7 +35,7 @@ class StepScale:
         self._shares = np.abs(static_torques(scene)[::2])
         motors = train.coupling[: 2 * len(self._shares) : 2, 0]
         self._own = train.mass[motors] * train.radius[motors] ** 2
-        self.quickness = math.sqrt(2.0 * self._stiffness / lightest_body(train))
+        self.speed_per_deflection = math.sqrt(2.0 * self._stiffness / lightest_body(train))
 
     def deflection(self, point: OperatingPoint) -> float:
         """Deflection of the meshes under the torques of steady running.
@@ -48,7 +48,7 @@ class StepScale:
         """
         return deflection_at(self._laws, record_of(point))
 
-    def yielding(self, load: Load) -> np.ndarray:
+    def acceleration_deflection(self, load: Load) -> np.ndarray:
         """Deflection of the meshes per acceleration of each input.
 
         The inertia of a motor itself does not load the meshes.
@@ -64,7 +64,7 @@ class StepScale:
         return self._per_torque * torque / self._stiffness
 
 
-def new_march(core: ModuleType, method: str) -> March:
+def new_integrator(core: ModuleType, method: str) -> Integrator:
     """Make the state of the integrator before its first step.
 
     Args:
@@ -74,9 +74,9 @@ def new_march(core: ModuleType, method: str) -> March:
     Returns:
         The state.
     """
-    march: March = core.March()
-    control = march.control
+    integrator: Integrator = core.Integrator()
+    control = integrator.control
     control.step = control.next_step = control.next_stiff = FIRST_STEP
     control.longest = LONGEST_STEP
     control.method = METHODS[method]
-    return march
+    return integrator

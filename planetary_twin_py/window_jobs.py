@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import NamedTuple
 
 from . import _core
-from ._core import Limits, March, Model, Report, WindowEnd
+from ._core import Integrator, Limits, Model, Report, WindowEnd
 from .integrators.clock import Instant, Sampling
 from .integrators.interpolant import Waves
 from .runaway import RunawayError
@@ -21,7 +21,7 @@ class WindowJob(NamedTuple):
     """A window, or a part of one; arguments of `_core.run_window`."""
 
     model: Model
-    march: March
+    integrator: Integrator
     until: Instant
     samples: Sampling
     limits: Limits

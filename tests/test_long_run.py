@@ -56,8 +56,8 @@ def turns_after(scene, hours):
 def aged(scene, hours=HOURS, sample_rate=50_000.0):
     """A twin of the scene after so many hours, and the turns that its inputs have made."""
     twin, turns = pt.Twin(scene, sample_rate), turns_after(scene, hours)
-    march = twin._engine.march
-    for state in (march.begin, march.end):
+    integrator = twin._engine.integrator
+    for state in (integrator.begin, integrator.end):
         state.seconds += 3600 * hours
         state.turns[: len(turns)] += turns
     twin._ticks += 3600 * hours * TICKS
@@ -179,7 +179,7 @@ def test_the_ledger_of_a_window_begins_at_zero_after_any_history():
     """Else 1e-3 J of a step would be added to the 2e10 J of a thousand hours."""
     twin = pt.Twin(PAPER)
     added = [twin.advance(0.01) for _ in range(10)]
-    assert not twin._engine.march.end.energy.any()
+    assert not twin._engine.integrator.end.energy.any()
     whole = pt.Twin(PAPER).advance(0.1)
     parts = np.mean([window.machine_power for window in added], axis=0)
     assert parts == pytest.approx(whole.machine_power, rel=5e-3)

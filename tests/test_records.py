@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from planetary_twin_py import _core
-from planetary_twin_py._core import Equilibrium, Evaluation, March, Model, Problem, State, Train
+from planetary_twin_py._core import (
+    Equilibrium,
+    Evaluation,
+    Integrator,
+    Model,
+    Problem,
+    State,
+    Train,
+)
 
 CACHE_LINE = 64  # [bytes] vector registers that straddle two lines take twice as long to load
 RECORDS = [kind for _, kind in inspect.getmembers(_core, inspect.isclass) if hasattr(kind, "raw")]
@@ -29,7 +37,7 @@ def large_fields(record, name=""):
             yield from large_fields(value, f"{name}{field}.")
 
 
-@pytest.mark.parametrize("kind", [Evaluation, Model, March, Equilibrium, Problem])
+@pytest.mark.parametrize("kind", [Evaluation, Model, Integrator, Equilibrium, Problem])
 def test_what_fills_a_cache_line_begins_with_one(kind):
     places = dict(large_fields(kind()))
     assert len(places) > 5

@@ -64,7 +64,7 @@ def test_a_copy_that_fails_is_named_and_left_out_and_stops_no_other():
 
 def test_a_state_that_is_not_finite_is_the_failure_of_its_copy():
     twins = pt.Twins([PAPER, PAPER], workers=2)
-    twins[0]._engine.march.end.v[:] = np.nan
+    twins[0]._engine.integrator.end.v[:] = np.nan
     broken, sound = twins.advance(0.01)
     assert broken is None and list(twins.failures) == [0]
     assert_same(sound, pt.Twin(PAPER).advance(0.01))

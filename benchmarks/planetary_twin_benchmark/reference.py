@@ -1,8 +1,8 @@
 """A converged reference: SciPy's DOP853 from event to event.
 
 This explicit Runge-Kutta method of order 8 has its own error control and event location (Brent's
-method on its own interpolant). It shares the equations of motion with the march, but no step, step
-control, interpolant or event location.
+method on its own interpolant). It shares the equations of motion with the integrator, but no step,
+step control, interpolant or event location.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from planetary_twin_py._core import (
     accept,
     begin_step,
     body_speed,
+    contact_event,
     cycle_shift,
-    departure,
     forces,
     observe,
 )
@@ -60,12 +60,12 @@ class Reference:
 
     def __init__(self, scene: Scene) -> None:
         self._engine = Engine(scene, 1e-8)
-        self._model, self._march = self._engine.model, self._engine.march
+        self._model, self._integrator = self._engine.model, self._engine.integrator
         self._bodies, self._axes = int(self._engine.train.bodies), int(self._engine.train.axes)
         self._trim = np.zeros(AXES)
         self._work = Evaluation()
-        self._x = np.zeros_like(self._march.begin.x)
-        self._v = np.zeros_like(self._march.begin.v)
+        self._x = np.zeros_like(self._integrator.begin.x)
+        self._v = np.zeros_like(self._integrator.begin.v)
 
     def run(self, duration: float, sample_rate: float) -> np.ndarray:
         """Samples (samples, QUANTITIES, meshes) at whole multiples of 1/sample_rate [s]."""
@@ -73,10 +73,10 @@ class Reference:
         samples = np.zeros((count, QUANTITIES, int(self._engine.train.meshes)))
         taken = 0
         while taken < count:
-            begin_step(self._model, self._march)
+            begin_step(self._model, self._integrator)
             stretch = self._stretch()
             while taken < count:
-                wait = delay(self._march.begin, instant((taken + 1) / sample_rate))
+                wait = delay(self._integrator.begin, instant((taken + 1) / sample_rate))
                 if wait > stretch.t[-1]:
                     break
                 self._observe(stretch.sol, wait, samples[taken])
@@ -90,7 +90,7 @@ class Reference:
         SciPy checks flanks at the ends of its steps, and misses those that meet and separate within
         a step; such an interval is repeated with an end at that time.
         """
-        begin, n = self._march.begin, self._bodies
+        begin, n = self._integrator.begin, self._bodies
         start = np.concatenate([begin.x[:n], begin.v[:n], begin.trim[: self._axes]])
         flanks, edges = self._flanks(start), self._edges()
         end: float | None = self._longest()
@@ -108,8 +108,8 @@ class Reference:
         )  # fmt: skip
 
     def _longest(self) -> float:
-        slew = self._march.constants.slew[: self._axes]
-        gap = (self._model.load.target_speed - self._march.begin.set_speed)[: self._axes]
+        slew = self._integrator.constants.slew[: self._axes]
+        gap = (self._model.load.target_speed - self._integrator.begin.set_speed)[: self._axes]
         return min([LONGEST, *(gap[slew != 0.0] / slew[slew != 0.0])])
 
     def _unpack(self, y: np.ndarray) -> None:
@@ -117,11 +117,13 @@ class Reference:
         self._x[:n], self._v[:n], self._trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
 
     def _derivative(self, t: float, y: np.ndarray) -> np.ndarray:
-        n, train, march = self._bodies, self._engine.train, self._march
+        n, train, integrator = self._bodies, self._engine.train, self._integrator
         self._unpack(y)
-        begin = march.begin
-        forces(self._model, begin, march.constants, self._x, self._v, t, self._trim, self._work)
-        set_speed = begin.set_speed + march.constants.slew * t
+        begin = integrator.begin
+        forces(
+            self._model, begin, integrator.constants, self._x, self._v, t, self._trim, self._work
+        )
+        set_speed = begin.set_speed + integrator.constants.slew * t
         lag = [
             set_speed[a] - body_speed(train, begin, self._v, train.coupling[2 * a, 0])
             for a in range(self._axes)
@@ -135,32 +137,40 @@ class Reference:
         detects changes of sign only.
         """
         meshes = range(int(self._engine.train.meshes))
-        beyond = [max(0.0, -2.0 * self._departure(i, 0.0, start)) for i in meshes]
-        return [_ending(lambda t, y, i=i: self._departure(i, t, y) + beyond[i]) for i in meshes]
+        beyond = [max(0.0, -2.0 * self._contact_event(i, 0.0, start)) for i in meshes]
+        return [_ending(lambda t, y, i=i: self._contact_event(i, t, y) + beyond[i]) for i in meshes]
 
     def _edges(self) -> list[Event]:
         """An event for every closed mesh, whose next tooth pair enters or leaves."""
-        closed = np.flatnonzero(self._march.begin.side[: int(self._engine.train.meshes)] != OPEN)
+        closed = np.flatnonzero(
+            self._integrator.begin.side[: int(self._engine.train.meshes)] != OPEN
+        )
         return [_ending(lambda t, y, i=i: self._to_edge(i, t, y)) for i in closed]
 
-    def _departure(self, i: int, t: float, y: np.ndarray) -> float:
+    def _contact_event(self, i: int, t: float, y: np.ndarray) -> float:
         advance, pace = self._mesh_cycles(t, y)
-        march = self._march
-        stand = (advance, pace, 0.0)
+        integrator = self._integrator
+        position = (advance, pace, 0.0)
         return float(
-            departure(self._model, march.begin, march.constants, i, self._x, self._v, stand)
+            contact_event(
+                self._model, integrator.begin, integrator.constants, i, self._x, self._v, position
+            )
         )
 
     def _mesh_cycles(self, t: float, y: np.ndarray) -> tuple[float, float]:
         """Mesh cycles since the start of the interval, and their rate [1/s]."""
         self._unpack(y)
-        train, rate = self._engine.train, float(self._march.constants.cycle_rate)
-        shift = cycle_shift(train, self._x) - cycle_shift(train, self._march.begin.x)
+        train, rate = self._engine.train, float(self._integrator.constants.cycle_rate)
+        shift = cycle_shift(train, self._x) - cycle_shift(train, self._integrator.begin.x)
         return rate * t + shift, rate + cycle_shift(train, self._v)
 
     def _to_edge(self, i: int, t: float, y: np.ndarray) -> float:
         """Mesh cycles to the next edge."""
-        train, begin, moment = self._engine.train, self._march.begin, self._march.constants
+        train, begin, moment = (
+            self._engine.train,
+            self._integrator.begin,
+            self._integrator.constants,
+        )
         side, segment, kind = int(begin.side[i]), begin.segment[i], train.kind[i]
         cycle = moment.start[i] + side * self._mesh_cycles(t, y)[0]
         if side * moment.cycle_rate >= 0.0:
@@ -169,21 +179,30 @@ class Reference:
 
     def _observe(self, solution: Any, delay: float, out: np.ndarray) -> None:
         self._unpack(solution(delay))
-        march = self._march
-        observe(self._model, march.begin, march.constants, self._x, self._v, delay, self._work, out)
+        integrator = self._integrator
+        observe(
+            self._model,
+            integrator.begin,
+            integrator.constants,
+            self._x,
+            self._v,
+            delay,
+            self._work,
+            out,
+        )
 
     def _finish(self, stretch: Any) -> None:
-        """Pass the end of the interval to the march, which changes contacts and segments."""
-        begin, end, n = self._march.begin, self._march.end, self._bodies
+        """Pass the end of the interval to the integrator, which changes contacts and segments."""
+        begin, end, n = self._integrator.begin, self._integrator.end, self._bodies
         y, length = stretch.y[:, -1], float(stretch.t[-1])
-        self._march.end = begin
+        self._integrator.end = begin
         end.x[:n], end.v[:n], end.trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
         run_on(begin, end, length)
-        self._march.control.step = length
-        end.set_speed = begin.set_speed + self._march.constants.slew * length
+        self._integrator.control.step = length
+        end.set_speed = begin.set_speed + self._integrator.constants.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)
         meshes = int(self._engine.train.meshes)
         met = [i for i, times in enumerate(stretch.t_events[:meshes]) if len(times)]
-        accept(self._model, self._march, met[0] if met else -1)
-        self._march.control.changed = True
+        accept(self._model, self._integrator, met[0] if met else -1)
+        self._integrator.control.changed = True

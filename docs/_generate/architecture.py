@@ -42,7 +42,7 @@ DYNAMICS = Box(
 MODAL = Box("modal/", "natural modes", 680, 196, 164, MODEL)
 STATIC = Box("quasi_static/", "rigid motion, equilibrium", 16, 286, 190, RUN)
 MARCH = Box(
-    "core/integrators/", "one step: collocation, rosenbrock; march: events", 220, 286, 420, RUN
+    "core/integrators/", "one step: collocation, rosenbrock; integrator: events", 220, 286, 420, RUN
 )
 TWIN = Box("twin.py", "stepped live", 220, 376, 200, RUN)
 WHOLE = Box("simulation.py  batch.py", "a whole run; many", 440, 376, 200, RUN)

@@ -22,8 +22,8 @@ class _Joint(NamedTuple):
 
     body: tuple[int, int]  # indices of the rotating body, and of the one that it rotates against
     planet: int = NO_PLANET  # whose pin loads it
-    idle: float = 0.0  # f0 dm^3 [m^3]
-    rubbing: float = 0.0  # f1 dm [m]
+    no_load_factor: float = 0.0  # f0 dm^3 [m^3]
+    load_factor: float = 0.0  # f1 dm [m]
     coulomb: float = 0.0  # [N m]
     viscous: float = 0.0  # [N m s/rad]
 
@@ -36,8 +36,8 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "joints": len(joints),
         "joint_body": np.array([joint.body for joint in joints], dtype=int).reshape(-1, 2),
         "joint_planet": np.array([joint.planet for joint in joints], dtype=int),
-        "joint_idle": np.array([joint.idle for joint in joints]),
-        "joint_rubbing": np.array([joint.rubbing for joint in joints]),
+        "joint_no_load_factor": np.array([joint.no_load_factor for joint in joints]),
+        "joint_load_factor": np.array([joint.load_factor for joint in joints]),
         "joint_coulomb": np.array([joint.coulomb for joint in joints]),
         "joint_viscous": np.array([joint.viscous for joint in joints]),
         "pin_share": _pin_share(scene),

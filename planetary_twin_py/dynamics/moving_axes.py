@@ -206,7 +206,7 @@ def _fill_tilting(scene: Scene, bodies: Bodies, moving: MovingAxes) -> None:
     for name, axis in zip(bearing_names(scene), moving.tilting, strict=False):
         kind = name.split("_")[0]
         support, r = getattr(supports, kind), radii[kind]
-        axis.lift = bodies.place[f"{name}.z"]
+        axis.axial = bodies.place[f"{name}.z"]
         axis.place = [bodies.place[f"{name}.{motion}"] for motion in tilts_of(name)]
         axis.lever, axis.turns = 1.0 / r, bodies.place[name]
         axis.axial_stiffness, axis.tilting_stiffness = support.axial, support.tilting * r**2

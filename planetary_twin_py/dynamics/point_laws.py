@@ -25,7 +25,7 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
     """
     control, mesh = scene.drive.speed_control, scene.mesh
     gains = speed_loop_gains(scene, train, bandwidth(scene))
-    play, least = mesh.flanks(1.0, scene.gearset.pressure_angle)
+    half_backlash_factor, least = mesh.flanks(1.0, scene.gearset.pressure_angle)
     started, torques = control.start_speed, parts(scene)
     return PointLaws(
         constant=Load(
@@ -38,7 +38,7 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
             load_proportional=gains.load_proportional,
             port=port,
         ),
-        play=play,
+        half_backlash_factor=half_backlash_factor,
         from_zero=least == 0.0,
         torque=static_torques(scene),
         ratio=train.ratio[train.coupling[: len(scene.drive.ports), 0]],

@@ -12,7 +12,7 @@ from ..dynamics.cycle import common_cycles, turns_per_cycle
 from ..dynamics.point_laws import record_of
 from ..runaway import Limits
 from ..scene import Scene
-from ..step_scale import POINTS, new_march
+from ..step_scale import POINTS, new_integrator
 from ..tolerance import TOLERANCES
 from .variables import Variable
 
@@ -34,8 +34,11 @@ def build_records(scene: Scene, tolerance: float) -> Exported:
         ValueError: the tolerance is out of range, or the scene cannot be built.
     """
     engine = DrivenEngine(scene, tolerance)
-    control, own = new_march(_core, "auto").control.copy(), engine.march
-    control.yielding, control.quickness = own.control.yielding, own.control.quickness
+    control, own = new_integrator(_core, "auto").control.copy(), engine.integrator
+    control.acceleration_deflection, control.speed_per_deflection = (
+        own.control.acceleration_deflection,
+        own.control.speed_per_deflection,
+    )
     least, points = zip(*POINTS, strict=True)
     exported = Exported(
         model=engine.model,

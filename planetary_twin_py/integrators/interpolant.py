@@ -10,7 +10,7 @@ from .._core import AXES, QUANTITIES, Train
 
 MEMBERS = 3  # sun, ring, carrier
 SAMPLE_AXES = 4  # components of what a bearing shows in the plane
-SAMPLE_LEAN = 6  # and beyond it
+SAMPLE_TILTING = 6  # and beyond it
 
 
 class Samples(NamedTuple):
@@ -24,7 +24,7 @@ class Samples(NamedTuple):
     moved: np.ndarray  # (room, bearings, 4) displacement [m], force on the bearing [N]
     # Where axes tilt: axial displacement [m], tilts [rad], axial force [N] and moments [N m] on the
     # bearing; else without columns.
-    lean: np.ndarray  # (room, bearings, 6 or 0)
+    tilting: np.ndarray  # (room, bearings, 6 or 0)
 
 
 class Waves(NamedTuple):
@@ -38,15 +38,16 @@ class Waves(NamedTuple):
     bearing_force: np.ndarray  # (rows, 2 bearings), on the bearing [N]
     orbit: np.ndarray  # (rows, 6) of sun, ring and carrier in the housing [m]
     flank_force: np.ndarray  # (rows, 2 meshes) of drive, then of coast flanks [N]
-    lean: np.ndarray  # (rows, 6 bearings) of axes that tilt, see `Samples`
+    tilting: np.ndarray  # (rows, 6 bearings) of axes that tilt, see `Samples`
 
 
 def new_waves(rows: int, meshes: int, bearings: int = 0, tilting: bool = False) -> Waves:
     """Room for `rows` samples; without bearings, axes are held and have no columns."""
     of_axes = (2 * bearings, 2 * bearings, 2 * MEMBERS, 2 * meshes) if bearings else (0,) * 4
-    lean = SAMPLE_LEAN * bearings if tilting else 0
+    of_tilting = SAMPLE_TILTING * bearings if tilting else 0
     return Waves(
-        np.empty(rows), *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes, lean))
+        np.empty(rows),
+        *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes, of_tilting)),
     )
 
 
@@ -70,5 +71,5 @@ def new_samples(train: Train, room: int) -> Samples:
         np.zeros((room, bodies)),
         np.zeros((room, 2)),
         np.zeros((room, bearings_of(train), SAMPLE_AXES)),
-        np.zeros((room, bearings_of(train), SAMPLE_LEAN if tilts(train) else 0)),
+        np.zeros((room, bearings_of(train), SAMPLE_TILTING if tilts(train) else 0)),
     )

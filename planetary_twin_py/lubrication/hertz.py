@@ -1,4 +1,4 @@
-"""Elastic line contact (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.45)."""
+"""Elastic line contact (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.43)."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ class AxesSums:
 
     def __init__(self) -> None:
         self._count = 0
-        self._moved, self._lean = np.zeros(()), np.zeros(())
+        self._moved, self._tilting = np.zeros(()), np.zeros(())
         self._peaks = np.zeros(())
         self._last: np.ndarray | None = None  # squares of the last two samples
 
@@ -70,9 +70,9 @@ class AxesSums:
         """
         self._count += len(samples.moved)
         self._moved = self._moved + samples.moved.sum(axis=0)
-        self._lean = self._lean + samples.lean.sum(axis=0)
-        moved, lean = samples.moved, samples.lean
-        vectors = moved[:, :, :2], moved[:, :, 2:], lean[:, :, 3:4], lean[:, :, 4:]
+        self._tilting = self._tilting + samples.tilting.sum(axis=0)
+        moved, tilting = samples.moved, samples.tilting
+        vectors = moved[:, :, :2], moved[:, :, 2:], tilting[:, :, 3:4], tilting[:, :, 4:]
         squares = np.stack([(part * part).sum(axis=2) for part in vectors], axis=1)
         joined = squares if self._last is None else np.concatenate([self._last, squares])
         self._last = joined[-2:]
@@ -80,12 +80,12 @@ class AxesSums:
 
     def statistics(self) -> AxesStatistics:
         """Statistics of all samples added, of which there is at least one."""
-        moved, lean = self._moved / self._count, self._lean / self._count
+        moved, tilted = self._moved / self._count, self._tilting / self._count
         displaced, force, thrust, moment = self._peaks
         tilting = None
-        if lean.shape[1]:
+        if tilted.shape[1]:
             tilting = TiltingStatistics(
-                lean[:, 0], lean[:, 1:3], lean[:, 3], thrust, lean[:, 4:], moment
+                tilted[:, 0], tilted[:, 1:3], tilted[:, 3], thrust, tilted[:, 4:], moment
             )
         return AxesStatistics(moved[:, :2], displaced, moved[:, 2:], force, tilting)
 

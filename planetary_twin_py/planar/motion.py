@@ -127,7 +127,7 @@ def axes_motion(
         _orbits(library(scene), moved, angle),
         np.stack([forces[:, drive], forces[:, _other_flanks(drive, flanks)]], axis=1),
         _shares(mesh_force[: scene.gearset.planets]),
-        tilting_motion(samples.lean),
+        tilting_motion(samples.tilting),
     )
 
 
@@ -152,7 +152,9 @@ def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMot
         waves.orbit.reshape(rows, len(CENTRAL), 2),
         waves.flank_force.reshape(rows, 2, len(mesh_force)),
         _shares(mesh_force[:planets]),
-        tilting_motion(waves.lean.reshape(rows, len(names), waves.lean.shape[1] // len(names))),
+        tilting_motion(
+            waves.tilting.reshape(rows, len(names), waves.tilting.shape[1] // len(names))
+        ),
     )
 
 

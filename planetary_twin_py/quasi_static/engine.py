@@ -91,13 +91,18 @@ class QuasiStaticEngine:
         load: Load = record_in(self._core, build_load(self.scene, point, self.train))
         oil: Oil = record_in(self._core, build_oil(self.scene, point))
         model: Model = self._core.Model(train=self.train, oil=oil, load=load)
-        lean = (
+        closing_side = (
             DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
         )
-        check_second_coupling(self._core, model, tolerance, lean, origin)
-        ledger = Ledger(self._core, model, tolerance, lean, origin, energy)
-        self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
-        self._origin, self._run = origin.copy(), self._core.first_guess(lean)
+        check_second_coupling(self._core, model, tolerance, closing_side, origin)
+        ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy)
+        self.model, self.tolerance, self._closing_side, self._ledger = (
+            model,
+            tolerance,
+            closing_side,
+            ledger,
+        )
+        self._origin, self._run = origin.copy(), self._core.first_guess(closing_side)
         self._both_flanks = self.control.both_flanks  # before this operating point
 
     def advance(
@@ -120,7 +125,7 @@ class QuasiStaticEngine:
             self._limits.check_deflection(samples, self.model.load)
         except ArithmeticError as reason:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
-        self._core.roll(self.model, self._origin, instant(until))
+        self._core.advance_origin(self.model, self._origin, instant(until))
         self.reached = Fraction(until)
         self._count()
         return samples
@@ -158,7 +163,7 @@ class QuasiStaticEngine:
         out.bearing_force[:] = found.bearing_force.reshape(rows, -1)
         out.orbit[:] = found.orbit.reshape(rows, -1)
         out.flank_force[:] = found.flank_force.reshape(rows, -1)
-        out.lean[:] = samples.lean.reshape(rows, -1)
+        out.tilting[:] = samples.tilting.reshape(rows, -1)
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
@@ -172,7 +177,7 @@ class QuasiStaticEngine:
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
-        samples, run = new_samples(self.train, 1), self._core.first_guess(self._lean)
+        samples, run = new_samples(self.train, 1), self._core.first_guess(self._closing_side)
         at = instant(time)
         self._core.sample_equilibrium(self.model, self.tolerance, self._origin, run, at, samples, 0)
         return samples

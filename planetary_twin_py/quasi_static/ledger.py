@@ -35,12 +35,12 @@ class Ledger:
         core: build of the core with the model.
         model: the train at this operating point.
         tolerance: relative error of the losses of a mesh cycle.
-        lean: side of the teeth that carries the mean torque.
+        closing_side: side of the teeth that carries the mean torque.
         origin: position of the motors.
         energy: ledger so far (LEDGER,).
 
     Raises:
-        ValueError: see `settle` and `divide_cycle`.
+        ValueError: see `solve_equilibrium` and `divide_cycle`.
     """
 
     def __init__(
@@ -48,12 +48,12 @@ class Ledger:
         core: ModuleType,
         model: Model,
         tolerance: float,
-        lean: int,
+        closing_side: int,
         origin: State,
         energy: np.ndarray,
     ) -> None:
         self._core = core
-        self._model, self._tolerance, self._lean = model, tolerance, lean
+        self._model, self._tolerance, self._closing_side = model, tolerance, closing_side
         self._mark = origin.copy()
         self._popped = Instant(origin.seconds, origin.time)
         self._totals, self._peak = (
@@ -61,7 +61,7 @@ class Ledger:
             np.zeros((self._core.PEAKS, self._core.MESHES)),
         )
         self._totals[ENERGY] = energy
-        self._run = self._core.first_guess(lean)
+        self._run = self._core.first_guess(closing_side)
         self._repeated_both_flanks = 0
         self._repeats = _repeats(model)
         self._edges = self._corners(origin)
@@ -165,18 +165,22 @@ class Ledger:
         edges = np.unique(np.concatenate([[0.0, 1.0], ahead]))
         edges = edges[np.append(np.diff(edges) > SAME, True)]
         edges[0], edges[-1] = 0.0, 1.0
-        run = self._core.first_guess(self._lean)
+        run = self._core.first_guess(self._closing_side)
         cycle = self._core.divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
         return cycle, int(run.both_flanks)
 
     def _corners(self, origin: State) -> np.ndarray:
         """Mesh cycles of the frame at which the ramp of a tooth pair begins or ends."""
-        train, load, run = self._model.train, self._model.load, self._core.first_guess(self._lean)
+        train, load, run = (
+            self._model.train,
+            self._model.load,
+            self._core.first_guess(self._closing_side),
+        )
         self._core.turn_to(self._model, origin, 0.0, run.state)
-        self._core.settle(self._model, self._tolerance, run)
+        self._core.solve_equilibrium(self._model, self._tolerance, run)
         shift = self._core.cycle_shift(train, run.state.x)
         reverses = load.ripple >= abs(load.torque[MOTOR])
-        sides = (DRIVE_SIDE, COAST_SIDE) if reverses else (self._lean,)
+        sides = (DRIVE_SIDE, COAST_SIDE) if reverses else (self._closing_side,)
         corners = []
         for i in range(train.meshes):
             kind = train.kind[i]
@@ -203,7 +207,7 @@ class Ledger:
 
         It starts from a new guess and changes no state.
         """
-        run = self._core.first_guess(self._lean)
+        run = self._core.first_guess(self._closing_side)
         return self._core.integrate(self._model, self._tolerance, self._mark, run, (begin, end))
 
     def power(self, time: Instant) -> np.ndarray:
@@ -213,12 +217,12 @@ class Ledger:
     def _rates(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Time derivative of the totals at `time`, and the peaks at that instant."""
         run, rates, peak = (
-            self._core.first_guess(self._lean),
+            self._core.first_guess(self._closing_side),
             np.zeros(self._core.TOTALS),
             np.zeros((self._core.PEAKS, self._core.MESHES)),
         )
         self._core.turn_to(self._model, self._mark, delay(self._mark, time), run.state)
-        shown = self._core.settle(self._model, self._tolerance, run)
+        shown = self._core.solve_equilibrium(self._model, self._tolerance, run)
         train = self._model.train
         self._core.add_rates(train, run.evaluation.power, shown, 1.0, rates)
         peak[:2, : train.meshes] = np.abs(shown[[DTE, MESH_FORCE]])

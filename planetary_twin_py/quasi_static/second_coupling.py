@@ -3,8 +3,9 @@
 The torque T of the second motor follows from the torque balance with friction, so it changes with
 the position c in the mesh cycle and twists the coupling: the motor is at c + g T(c), where
 g = z/(2 pi k), with z mesh cycles per turn of that motor and the stiffness k. If |g dT/dc| < 1, a
-position of the motors determines one position of the teeth, and the iteration of `settle`
-converges. Otherwise the teeth would jump between equilibria, which is not a quasi-static motion.
+position of the motors determines one position of the teeth, and the iteration of
+`solve_equilibrium` converges. Otherwise the teeth would jump between equilibria, which is not a
+quasi-static motion.
 """
 
 from __future__ import annotations
@@ -19,20 +20,20 @@ MOST_FEEDBACK = 0.5  # |g dT/dc|; the rest is for runout and faults, which chang
 
 
 def check_second_coupling(
-    core: ModuleType, model: Model, tolerance: float, lean: int, origin: State
+    core: ModuleType, model: Model, tolerance: float, closing_side: int, origin: State
 ) -> None:
     """Refuse a coupling of the second motor that is too soft, if there is a second motor.
 
     Args:
         core: build of the core with the model.
         model: the train at an operating point.
-        tolerance: see `settle`.
-        lean: side of the teeth that carries the mean torque.
+        tolerance: see `solve_equilibrium`.
+        closing_side: side of the teeth that carries the mean torque.
         origin: position of the motors.
 
     Raises:
         ValueError: it is too soft in steady running at the target speeds or at the speeds of
-            `origin`; or see `settle`.
+            `origin`; or see `solve_equilibrium`.
     """
     if model.train.axes < 2:
         return
@@ -41,7 +42,7 @@ def check_second_coupling(
     stiffness = float(train.coupling_stiffness[SECOND_MOTOR] * train.radius[member] ** 2)
     winding = abs(float(train.cycles[1])) / (2.0 * math.pi * stiffness)
     for speed in (model.load.target_speed, origin.set_speed):
-        feedback = winding * core.steepest_torque(model, tolerance, lean, origin, speed)
+        feedback = winding * core.steepest_torque(model, tolerance, closing_side, origin, speed)
         if feedback > MOST_FEEDBACK:
             raise ValueError(
                 f"drive.second_input.coupling_stiffness = {stiffness:g} N m/rad: too soft for "

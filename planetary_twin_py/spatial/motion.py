@@ -25,15 +25,15 @@ class TiltingMotion(NamedTuple):
     """Moment of each body on its bearing about two directions [N m], (samples, bodies, 2)."""
 
 
-def tilting_motion(lean: np.ndarray) -> TiltingMotion | None:
+def tilting_motion(tilting: np.ndarray) -> TiltingMotion | None:
     """Axial motion and tilts from samples.
 
     Args:
-        lean: `lean` of `integrators.interpolant.Samples`, (samples, bodies, 6).
+        tilting: `tilting` of `integrators.interpolant.Samples`, (samples, bodies, 6).
 
     Returns:
         Motion and loads; None if the axes do not tilt.
     """
-    if not lean.shape[2]:
+    if not tilting.shape[2]:
         return None
-    return TiltingMotion(lean[:, :, 0], lean[:, :, 1:3], lean[:, :, 3], lean[:, :, 4:])
+    return TiltingMotion(tilting[:, :, 0], tilting[:, :, 1:3], tilting[:, :, 3], tilting[:, :, 4:])

@@ -60,24 +60,24 @@ def references():
     ],
 )
 def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
-    """At random states within the segments that steps of the march begin in."""
+    """At random states within the segments that steps of the integrator begin in."""
     scene, random = load_scene(base).replace(**changes), np.random.default_rng(7)
     engine, problem, out = Engine(scene, 1e-5), Problem(scene), Evaluation()
-    train, march, n = engine.train, engine.march, problem.bodies
+    train, integrator, n = engine.train, engine.integrator, problem.bodies
     start, own = problem.record.start, problem.record.state
     motors, meshes = train.coupling[: 2 * problem.axes : 2, 0], problem.meshes
     rigid, radius = train.ratio[:n], train.radius[:n]
     compared = 0
     for until in np.sort(random.uniform(1e-4, 0.02, 60)):
         engine.advance(until, 1, 1.0, 0)
-        march.control.changed = True
-        begin_step(engine.model, march)
-        begin = march.begin
+        integrator.control.changed = True
+        begin_step(engine.model, integrator)
+        begin = integrator.begin
         x, v = np.array(begin.x), np.array(begin.v)
         x[:n] += random.normal(0.0, 1e-9, n)
         v[:n] += random.normal(0.0, 1e-4, n)
         x[motors] = v[motors] = 0.0  # they are the frame, and their speed the damping's
-        forces(engine.model, begin, march.constants, x, v, 0.0, begin.trim, out)
+        forces(engine.model, begin, integrator.constants, x, v, 0.0, begin.trim, out)
 
         ahead = 2.0 * np.pi * (begin.turns + begin.fraction) - start.speed * begin.time
         faster = begin.speed - start.speed
@@ -92,7 +92,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
         if not np.array_equal(own.side, begin.side) or not np.array_equal(
             own.segment[:meshes][closed], begin.segment[:meshes][closed]
         ):
-            continue  # the march begins many steps at an edge
+            continue  # the integrator begins many steps at an edge
         compared += 1
         acceleration = out.force[:n] / train.mass[:n]
         lag = begin.set_speed - begin.speed

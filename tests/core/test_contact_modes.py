@@ -49,14 +49,14 @@ def stiffness_matrix(train, state):
 )
 def test_modes_have_unit_mass_and_diagonalise_the_stiffness(changes):
     engine = run(0.005, **changes)
-    train, known = engine.train, engine.march.run.known
+    train, known = engine.train, engine.integrator.run.known
     n = train.bodies
     assert known.count > 1
     for k in range(known.count):
         state = known.state(k)
-        form, square = state.form[:n, :n], state.square[:n]
-        assert form @ np.diag(train.mass[:n]) @ form.T == pytest.approx(np.eye(n), abs=1e-12)
-        modal = form @ stiffness_matrix(train, state) @ form.T
+        shapes, square = state.shapes[:n, :n], state.square[:n]
+        assert shapes @ np.diag(train.mass[:n]) @ shapes.T == pytest.approx(np.eye(n), abs=1e-12)
+        modal = shapes @ stiffness_matrix(train, state) @ shapes.T
         assert modal == pytest.approx(np.diag(square), abs=1e-12 * square.max())
         assert (np.diff(square) >= 0.0).all()
 

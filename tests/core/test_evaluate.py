@@ -7,7 +7,7 @@ import pytest
 
 from planetary_twin_py._core import (
     CREEPING,
-    ROOM,
+    PAIR_CAPACITY,
     SLOWEST_ROLLING,
     Model,
     ToothPairs,
@@ -158,7 +158,7 @@ def test_slope_is_the_growth_of_friction_with_sliding_at_the_same_rolling(tracti
 
 
 def test_as_many_pairs_as_there_is_room_for():
-    model, values = model_of(*LAWS[0]), random_pairs(ROOM, np.random.default_rng(6))
+    model, values = model_of(*LAWS[0]), random_pairs(PAIR_CAPACITY, np.random.default_rng(6))
     pairs = pairs_of(values)
     evaluate(model, pairs)
     assert np.isfinite(pairs.friction).all()

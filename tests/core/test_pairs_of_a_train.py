@@ -5,7 +5,7 @@ import pytest
 
 from planetary_twin_py._core import (
     BODIES,
-    ROOM,
+    PAIR_CAPACITY,
     Evaluation,
     StepConstants,
     evaluate,
@@ -22,7 +22,7 @@ from planetary_twin_py.scene import load_scene
 def at_start(scene):
     """Model and state of a run at its start."""
     engine = Engine(scene, 1e-4)
-    return engine.model, engine.march.begin.copy()
+    return engine.model, engine.integrator.begin.copy()
 
 
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "differential"])
@@ -62,7 +62,7 @@ def test_bristles_stay_with_their_teeth_through_a_whole_cycle(kind):
     others = [k for k in range(slots * meshes) if k % meshes != mesh]
     count = int(train.segments[kind])
     for segment in range(count):
-        share = np.zeros(ROOM)
+        share = np.zeros(PAIR_CAPACITY)
         share[others] = 0.25
         own = [p * meshes + mesh for p in range(int(train.present[kind, segment]))]
         share[own] = 0.5 + np.arange(len(own)) / 8

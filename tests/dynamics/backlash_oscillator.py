@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from planetary_twin_py._core import DRIVE_SIDE, TOTAL, March, Model, advance, cut, radau
+from planetary_twin_py._core import DRIVE_SIDE, TOTAL, Integrator, Model, advance, cut, radau
 from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
 from planetary_twin_py.integrators.clock import NEVER, Instant, instant, sampling
 from planetary_twin_py.integrators.interpolant import new_samples
@@ -25,7 +25,7 @@ class Oscillator:
 
     def __init__(self, zeta=0.05, mean=0.1, alternating=0.05, tolerance=1e-6):
         self.zeta, self.alternating = zeta, alternating
-        self.model, self.march = Model(), March()
+        self.model, self.integrator = Model(), Integrator()
         train, load = self.model.train, self.model.load
         train.bodies, train.meshes, train.axes, train.machines = 2, 1, 1, 2
         train.mass[:3] = 1.0, 1e30, 1.0
@@ -49,12 +49,12 @@ class Oscillator:
         load.half_backlash = load.offset = load.release = 1.0
         load.torque[LOAD_MACHINE] = mean
         load.slew_rate = 1.0
-        self.march.run.nodes = radau(5)
-        control = self.march.control
-        control.tolerance, control.deflection, control.quickness = tolerance, 1.0, 1.0
+        self.integrator.run.nodes = radau(5)
+        control = self.integrator.control
+        control.tolerance, control.deflection, control.speed_per_deflection = tolerance, 1.0, 1.0
         control.next_step = control.next_stiff = control.step = 1e-3
         control.longest = 0.2
-        for state in (self.march.begin, self.march.end):
+        for state in (self.integrator.begin, self.integrator.end):
             state.side[0] = DRIVE_SIDE
             state.x[MASS] = 1.0 + mean
         self.set(0.1)
@@ -63,19 +63,23 @@ class Oscillator:
         """Change the frequency ratio."""
         self.ratio = ratio
         size = self.alternating * ratio / math.hypot(ratio, 2.0 * self.zeta)
-        cut(self.model, self.march, Instant(self.march.end.seconds, self.march.end.time))
+        cut(
+            self.model,
+            self.integrator,
+            Instant(self.integrator.end.seconds, self.integrator.end.time),
+        )
         self.model.train.line_tangential[0, 0] = self.error = size
-        self.march.end.speed[0] = self.march.end.set_speed[0] = ratio
+        self.integrator.end.speed[0] = self.integrator.end.set_speed[0] = ratio
         self.model.load.target_speed[0] = ratio
 
     def run(self, periods):
         """Squeeze x over `periods`, PER_PERIOD samples each."""
         rate = PER_PERIOD * self.ratio / (2.0 * math.pi)
-        first = math.ceil((self.march.end.seconds + self.march.end.time) * rate) + 1
+        first = math.ceil((self.integrator.end.seconds + self.integrator.end.time) * rate) + 1
         count = periods * PER_PERIOD
         samples = new_samples(self.model.train, count + 1)
         until = instant((first + count) / rate)
-        advance(self.model, self.march, until, NEVER, sampling(first, rate), samples)
+        advance(self.model, self.integrator, until, NEVER, sampling(first, rate), samples)
         angle = 2.0 * math.pi * samples.turns[:, 0] + samples.angle[:, MOTOR]
         return (samples.mesh[:, 0, 0] - self.error * np.sin(angle))[:count]
 

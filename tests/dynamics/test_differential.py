@@ -75,7 +75,7 @@ def test_both_speeds_can_change_at_one_instant():
 
 def test_angles_stay_exact_through_many_turns_of_both_motors():
     twin = pt.Twin(SCENE)
-    for end in (twin._engine.march.end, twin._engine.march.begin):
+    for end in (twin._engine.integrator.end, twin._engine.integrator.begin):
         end.turns[:] = 123_456_789_000.0, 987_654_321_001.0
     twin.advance(1e-3)
     angle = dict(zip(twin.bodies, twin.advance(1e-6).angle, strict=True))

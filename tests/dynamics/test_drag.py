@@ -33,8 +33,8 @@ def test_loss_of_planet_bearings_follows_palmgren_at_the_pin_load():
     only = {"planet_bearing": LOSSES["planet_bearing"]}
     run = pt.simulate(scene_of(FLOWS[0], losses=only), 0.1)
     idle = 1e-7 * 8.0 * (89.888 * 1500.0) ** (2 / 3) * 10.0**3
-    rubbing = 1e-3 * 2 * 1750.0 * 10.0
-    expected = 3 * (idle + rubbing) * 1e-3 * 1500.0 * math.pi / 30
+    friction_force = 1e-3 * 2 * 1750.0 * 10.0
+    expected = 3 * (idle + friction_force) * 1e-3 * 1500.0 * math.pi / 30
     assert run.bearing_loss[run.time > 0.02].mean() == pytest.approx(expected, rel=0.01)
 
 
@@ -43,11 +43,11 @@ def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
     """400 N from the sun and 300 N from the ring: against one another where flanks differ."""
     rough = {"planet_bearing": {"mean_diameter": "10 mm", "f0": 0.0, "f1": 1e-3}}
     engine, out = Engine(scene_of(FLOWS[0], losses=rough), 1e-3), Evaluation()
-    state, train = engine.march.end, engine.train
+    state, train = engine.integrator.end, engine.train
     planets = train.meshes // 2
     for k, (side, push) in enumerate(zip(sides, (400.0, 300.0), strict=True)):
         state.side[k * planets : (k + 1) * planets] = side
-        out.now.push[k * planets : (k + 1) * planets] = push / math.cos(math.radians(21.34))
+        out.now.normal_force[k * planets : (k + 1) * planets] = push / math.cos(math.radians(21.34))
     apply_drag(engine.model, state, np.zeros(BODIES), out)
     torque = 3 * 1e-3 * load * 0.010
     assert out.power[BEARING] == pytest.approx(torque * 1500.0 * math.pi / 30, rel=1e-6)
@@ -96,8 +96,8 @@ def test_drag_passes_through_standstill_as_bearings_do():
     for speed in (-50.0, -SLOWEST_TURN / math.sqrt(3.0), 0.0, SLOWEST_TURN / math.sqrt(3.0), 50.0):
         engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
         out, train = Evaluation(), engine.train
-        apply_drag(engine.model, engine.march.end, np.zeros(BODIES), out)
-        found.append(float(out.rubbing[train.sun] * train.radius[train.sun]))
+        apply_drag(engine.model, engine.integrator.end, np.zeros(BODIES), out)
+        found.append(float(out.friction_force[train.sun] * train.radius[train.sun]))
     assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)
 
 

@@ -24,7 +24,7 @@ from planetary_twin_py.engine import Engine
 
 def random_moment(engine, random):
     """Bodies anywhere, moving at random, meshes on the side this takes them to."""
-    train, state, moment = engine.train, engine.march.begin, StepConstants()
+    train, state, moment = engine.train, engine.integrator.begin, StepConstants()
     bodies = int(train.bodies)
     x, v = np.zeros_like(state.x), np.zeros_like(state.v)
     x[:bodies] = random.normal(0.0, 1e-5, bodies)
@@ -88,7 +88,9 @@ def test_turning_everything_together_meets_no_friction(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out, bodies = Evaluation(), int(engine.train.bodies)
     forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, np.zeros(2), out)
-    torque = (out.rubbing * engine.train.radius)[: bodies + 1]  # the last is that on the ground
+    torque = (out.friction_force * engine.train.radius)[
+        : bodies + 1
+    ]  # the last is that on the ground
     assert np.abs(torque).max() > 0.0
     assert torque.sum() == pytest.approx(0.0, abs=1e-12 * np.abs(torque).sum())
 
@@ -160,7 +162,7 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
             "load", "friction", "boundary", "viscous", "slope", "rolling", "rolling_power"
         ):  # fmt: skip
             assert (columns[name][idle] == 0.0).all(), name
-        for values in (out.now.push, out.now.lost, out.now.work, out.dragging.power):
+        for values in (out.now.normal_force, out.now.lost, out.now.work, out.dragging.power):
             assert (values[:meshes][is_open] == 0.0).all()
         assert (out.dragging.torque[:, :meshes][:, is_open] == 0.0).all()
         assert np.isfinite(out.force).all() and np.isfinite(out.power).all()

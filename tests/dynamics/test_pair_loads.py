@@ -20,7 +20,7 @@ TURN = 30 * 2e-3  # [s] of the sun, which meets each of its teeth once a turn
 
 def model_loads(engine, scene):
     """Angles; forces (meshes,), positions and loads (meshes, pairs) in the model's own state."""
-    model, state, train = engine.model, engine.march.end, engine.train
+    model, state, train = engine.model, engine.integrator.end, engine.train
     moment, work = StepConstants(), Evaluation()
     set_step_constants(model, state, moment)
     forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
@@ -33,7 +33,7 @@ def model_loads(engine, scene):
     shift = np.array([train.shift[kind, segment, :slots] for kind, segment in rows])
     positions = moment.start[:meshes, None] + shift
     angles = {name: np.array([value]) for name, value in zip(bodies.names, angle, strict=True)}
-    return angles, (state.side * work.now.push)[shown], positions[shown], loads[shown]
+    return angles, (state.side * work.now.normal_force)[shown], positions[shown], loads[shown]
 
 
 def loads_at(places, positions, loads):

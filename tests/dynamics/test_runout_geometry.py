@@ -20,7 +20,7 @@ from planetary_twin_py._core import (
     OPEN,
     State,
     StepConstants,
-    departure,
+    contact_event,
     form_error,
     place_lines,
     set_step_constants,
@@ -168,13 +168,13 @@ def test_the_play_breathes_by_the_radial_part():
 @pytest.mark.parametrize("shift", [-2e-7, 1e-7])
 def test_an_open_mesh_closes_where_the_nearer_of_its_flanks_is(turn, shift):
     engine = Engine(SCENE.replace(**{"mesh.runout.sun": SIZE}, backlash="3 um"), 1e-3)
-    model, state, moment = engine.model, engine.march.end, StepConstants()
+    model, state, moment = engine.model, engine.integrator.end, StepConstants()
     state.side[:] = OPEN
     state.x[:] = 0.0
     state.x[model.train.sun] = shift
     state.fraction[0] = turn
     set_step_constants(model, state, moment)
-    found = departure(model, state, moment, 0, state.x, np.zeros(BODIES), (0.0, 0.0, 0.0))
+    found = contact_event(model, state, moment, 0, state.x, np.zeros(BODIES), (0.0, 0.0, 0.0))
     drive, coast = (modelled(model.train, 0, flank, turn) for flank in (1, -1))
     nearest = min(1.5e-6 - shift + drive, 1.5e-6 + shift - coast)
     assert found == pytest.approx(nearest, abs=1e-3 * SIZE)  # the shift turns the sun a little

@@ -49,7 +49,7 @@ def natural_frequencies(flow, **changes):
     model = engine.model
     model.train.coupling_stiffness[:] = 0.0
     bare = int(model.train.bodies - model.train.machines)
-    stiffness = stiffness_matrix(model, engine.march.begin, bare)
+    stiffness = stiffness_matrix(model, engine.integrator.begin, bare)
     assert stiffness == pytest.approx(stiffness.T, abs=1e-6 * stiffness.max())
     squares = eigvalsh(stiffness, np.diag(model.train.mass[:bare]))
     return np.sqrt(np.maximum(squares, 0.0)) / (2 * math.pi)

@@ -48,8 +48,14 @@ def test_interpolated_samples_are_those_that_are_computed_from_the_same_step(sce
         at = time + (n + 1) * period / INSTANTS
         for kept, one in zip(shown, engine.sample(at), strict=True):
             kept[n] = one[0]
-        # The march stands on the step that was played last.
-        sample(engine.model, engine.march, delay(engine.march.begin, instant(at)), computed, n)
+        # The integrator is at the step that was replayed last.
+        sample(
+            engine.model,
+            engine.integrator,
+            delay(engine.integrator.begin, instant(at)),
+            computed,
+            n,
+        )
     assert engine.repeats
     for q in range(QUANTITIES):
         largest = np.nanmax(np.abs(computed.mesh[:, q]))
@@ -61,7 +67,9 @@ def test_interpolated_samples_are_those_that_are_computed_from_the_same_step(sce
     angles = np.abs(turned + shown.angle - computed.angle)
     assert (angles <= 2.0 * SHARE * tolerance * deflection + 1e-12).all()
     speeds = np.abs(shown.speed - computed.speed)
-    assert (speeds <= 2.0 * SHARE * tolerance * deflection * engine.control.quickness).all()
+    assert (
+        speeds <= 2.0 * SHARE * tolerance * deflection * engine.control.speed_per_deflection
+    ).all()
     assert shown.mesh.shape == (INSTANTS, QUANTITIES, meshes)
 
 

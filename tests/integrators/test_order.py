@@ -12,7 +12,7 @@ from planetary_twin_py._core import (
     radau,
     set_step,
     sweep,
-    visit_nodes,
+    update_nodes,
 )
 from planetary_twin_py.engine import Engine
 from planetary_twin_py.scene import load_scene
@@ -25,13 +25,13 @@ DISPLACED = np.array([3.0, -2.0, 1.0, 2.0, -1.0]) * 1e-7  # [m] from balance
 SMOOTH = {"mesh.damping.law": "viscous", "lubrication.sliding_threshold": 1.0}
 
 
-def march(points, steps):
+def integrator(points, steps):
     """Displaced bodies after SPAN in equal steps with so many nodes, and the events on the way."""
     scene = load_scene("paper").replace(**SMOOTH)
     engine = Engine(scene, TIGHT)
     engine.advance(START, 1, 1.0, 0)
     engine.change(scene.operating_point, TIGHT, START)
-    model, run = engine.model, engine.march
+    model, run = engine.model, engine.integrator
     run.run.nodes = radau(points)
     run.end.x[: len(DISPLACED)] += DISPLACED
     count = run.control
@@ -40,10 +40,10 @@ def march(points, steps):
         begin_step(model, run)
         enter(model, run)
         set_step(model, run, SPAN / steps)
-        visit_nodes(model, run)
+        update_nodes(model, run)
         for _ in range(SWEEPS):
             sweep(model, run, True)
-            visit_nodes(model, run)
+            update_nodes(model, run)
         end_within(model, run, SPAN / steps)
         accept(model, run, NO_MESH)
     begin_step(model, run)  # in the frame of the motor
@@ -53,7 +53,7 @@ def march(points, steps):
 
 @pytest.fixture(scope="module")
 def exact():
-    return march(5, 32)
+    return integrator(5, 32)
 
 
 @pytest.mark.exhaustive
@@ -65,6 +65,6 @@ def test_the_stretch_has_no_event(exact):
 @pytest.mark.parametrize(("points", "counts"), [(3, [4, 6, 8, 12]), (4, [3, 4, 6, 8])])
 def test_global_error_falls_with_the_order_of_the_quadrature(points, counts, exact):
     """Radau's points are exact for powers up to 2 s - 2, and collocation inherits their order."""
-    errors = [np.abs(march(points, count)[0] - exact[0]).max() for count in counts]
+    errors = [np.abs(integrator(points, count)[0] - exact[0]).max() for count in counts]
     order = np.polyfit(np.log(SPAN / np.array(counts)), np.log(errors), 1)[0]
     assert order == pytest.approx(2 * points - 1, abs=0.5)

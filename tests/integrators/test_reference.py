@@ -24,7 +24,7 @@ def evenly(planets):
 
 def absolute(engine):
     """Angles, speeds and the speed loop's integral at the end of the last step, sides."""
-    train, state = engine.train, engine.march.end
+    train, state = engine.train, engine.integrator.end
     bodies = int(train.bodies)
     place = np.append(body_names(engine.scene).place, [bodies - 2, bodies - 1])
     with_ground = slice(bodies + 1)
@@ -39,14 +39,14 @@ def errors(scene, begin, duration, tolerances):
     """Difference of all transmission errors from the reference over their rms, per tolerance."""
     source = Engine(scene, 1e-6)
     source.advance(begin, 1, RATE, 0)
-    start = source.march.end.time
+    start = source.integrator.end.time
     first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
     times = np.arange(first, last + 1) / RATE
     exact, flank_events = Reference(scene).transmission_errors(*absolute(source), times - start)
     result, place = [], mesh_names(scene).place
     for tolerance in tolerances:
         engine = Engine(scene, tolerance)
-        engine.march.end = source.march.end
+        engine.integrator.end = source.integrator.end
         mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE, place]
         result.append(np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)))
     return result, flank_events

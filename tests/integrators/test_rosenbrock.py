@@ -11,11 +11,11 @@ from planetary_twin_py.scene import load_scene
 SPAN = 4e-5  # [s] within one segment of all meshes
 
 
-def march(steps):
+def integrator(steps):
     """Bodies displaced from balance, after SPAN in equal steps."""
     scene = scene_of(FLOWS[0], **{"lubrication.friction": False, "mesh.damping.law": "viscous"})
     engine = Engine(scene, 1e-4)
-    model, run = engine.model, engine.march
+    model, run = engine.model, engine.integrator
     run.end.x[:5] += np.array([3.0, -2.0, 1.0, 2.0, -1.0]) * 1e-6
     work, h = Workspace(), SPAN / steps
     run.control.changed = True
@@ -33,15 +33,15 @@ def march(steps):
 
 @pytest.mark.exhaustive
 def test_global_error_falls_with_the_third_power_of_the_step():
-    exact = march(4096)
+    exact = integrator(4096)
     counts = np.array([16, 24, 32, 48, 64])
-    errors = [np.abs(march(count) - exact).max() for count in counts]
+    errors = [np.abs(integrator(count) - exact).max() for count in counts]
     order = np.polyfit(np.log(SPAN / counts), np.log(errors), 1)[0]
     assert order == pytest.approx(3.0, abs=0.2)
 
 
 def test_a_state_that_is_not_finite_ends_the_run_instead_of_stalling_it():
     engine = Engine(load_scene("paper"), 1e-3)
-    engine.march.end.x[0] = np.nan
+    engine.integrator.end.x[0] = np.nan
     with pytest.raises(ArithmeticError, match="no finite state"):
         engine.advance(0.01, 1, 1e4, 100)

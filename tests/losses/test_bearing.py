@@ -32,7 +32,9 @@ def test_torque_of_a_roller_bearing_in_a_train_is_that_of_its_catalogued_frictio
     bearing = {"mean_diameter": "60 mm", "f0": 2.0, "f1": 3e-4}
     train = build_train(pt.load_scene("paper").replace(losses={"planet_bearing": bearing}))
     load, speed = 6200.0, pt.rpm(1000)
-    found = bearing_torque(train.joint_idle[0], train.joint_rubbing[0], 20e-6, speed, load)
+    found = bearing_torque(
+        train.joint_no_load_factor[0], train.joint_load_factor[0], 20e-6, speed, load
+    )
     assert found == pytest.approx(0.0011 * load * 0.020, rel=0.1)
 
 

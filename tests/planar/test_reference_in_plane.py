@@ -17,7 +17,7 @@ RATE = 50_000.0
 
 def absolute(engine, reference):
     """Coordinates, speeds and integral of the speed loop at the end of the last step, and sides."""
-    train, state = engine.train, engine.march.end
+    train, state = engine.train, engine.integrator.end
     planets, place = engine.scene.gearset.planets, build_bodies(engine.scene).place
     names = [
         "sun",
@@ -46,7 +46,7 @@ def errors(scene, begin, duration, tolerances):
     """Difference of the DTE of all flanks from the reference over their rms, per tolerance."""
     source = Engine(scene, 1e-6)
     source.advance(begin, 1, RATE, 0)
-    start = source.march.end.time
+    start = source.integrator.end.time
     first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
     times = np.arange(first, last + 1) / RATE
     reference = PlanarReference(scene)
@@ -54,7 +54,7 @@ def errors(scene, begin, duration, tolerances):
     found = []
     for tolerance in tolerances:
         engine = Engine(scene, tolerance)
-        engine.march.end = source.march.end
+        engine.integrator.end = source.integrator.end
         mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
         found.append(np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)))
     return found, flank_events

@@ -55,7 +55,7 @@ def expected(scene):
 def equations(scene):
     """Masses and derivatives of the forces by x and v, in the coordinates of the run."""
     engine = Engine(scene, 1e-6)
-    model, state, train = engine.model, engine.march.end, engine.train
+    model, state, train = engine.model, engine.integrator.end, engine.train
     step, out, trim = axes.StepConstants(), axes.Evaluation(), np.zeros(2)
     axes.set_step_constants(model, state, step)
     count = int(train.bodies)
@@ -109,7 +109,7 @@ def test_a_run_rings_at_the_frequency_of_its_mode(flow, speed, mode):
     scene = ringing(flow, 3, speed)
     wanted, x, v = swing(scene, mode, 1e-9)
     engine = Engine(scene, 1e-8, "collocation")
-    state = engine.march.end
+    state = engine.integrator.end
     state.x[: len(x)] += x
     state.v[: len(v)] += v
     engine.control.changed = True

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from planetary_twin_py._core import Springs, planet_force, ring_force, share, windup_at
+from planetary_twin_py._core import Springs, planet_force, ring_force, solve_windup, windup_at
 
 MESH = 1e8  # [N/m] of both meshes
 
@@ -59,7 +59,7 @@ def test_planets_and_their_copies_carry_the_total_together(total, play):
         )
         for p in range(planets):
             springs.steps[p] = steps_of(springs.friction[p], (play, play), (play, play))
-        w = share(total, planets, springs)
+        w = solve_windup(total, planets, springs)
         forces = [
             force
             for p in range(planets)

@@ -7,7 +7,13 @@ import pytest
 from power_flows import DIFFERENTIALS, flow_name, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import DITHER, first_guess, frame_cycle_rate, settle, turn_to
+from planetary_twin_py._core import (
+    NEGLIGIBLE_FORCE,
+    first_guess,
+    frame_cycle_rate,
+    solve_equilibrium,
+    turn_to,
+)
 from planetary_twin_py.dynamics.bodies import SECOND_MOTOR, base_radii
 from planetary_twin_py.quasi_static.engine import QuasiStaticEngine
 
@@ -46,14 +52,14 @@ def torques(flow, stiffness, backwards):
     The engine is that of a stiff coupling, whose model is then given the soft one.
     """
     engine = QuasiStaticEngine(differential(flow, 1e6), 1e-4)
-    model, run = engine.model, first_guess(engine._lean)
+    model, run = engine.model, first_guess(engine._closing_side)
     model.train.coupling_stiffness[SECOND_MOTOR] *= stiffness / 1e6
     period = 1.0 / abs(frame_cycle_rate(model.train, engine._origin))
     times = np.linspace(0.0, period, 401)
     found = []
     for time in times[::-1] if backwards else times:
         turn_to(model, engine._origin, time, run.state)
-        settle(model, 1e-6, run)
+        solve_equilibrium(model, 1e-6, run)
         found.append(float(run.torque[SECOND_MOTOR]))
     return np.array(found[::-1] if backwards else found)
 
@@ -61,7 +67,9 @@ def torques(flow, stiffness, backwards):
 @FLOWS
 def test_from_the_least_stiffness_on_the_equilibrium_is_one_and_well_below_it_is_not(flow):
     least = least_stiffness(flow)
-    exact = 3 * DITHER * base_radii(scene_of(flow))["ring"]  # friction of three planets' meshes
+    exact = (
+        3 * NEGLIGIBLE_FORCE * base_radii(scene_of(flow))["ring"]
+    )  # friction of three planets' meshes
     there, back = (torques(flow, least, backwards) for backwards in (False, True))
     assert there == pytest.approx(back, abs=exact)
     there, back = (torques(flow, least / 5.0, backwards) for backwards in (False, True))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from planetary_twin.audience import full_name
+from planetary_twin.subscription_wait import full_name
 from planetary_twin.telemetry import STALL
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from planetary_twin_msgs.srv import Step

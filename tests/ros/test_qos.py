@@ -37,7 +37,7 @@ VOLATILE = {
 KEPT = {"latched": QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)}
 
 
-class Audience:
+class Subscriptions:
     """Subscribers with every profile to topics."""
 
     def __init__(
@@ -64,15 +64,15 @@ def test_every_subscriber_receives_messages_or_the_reason_why_not(peer: Peer, st
     process = start("planetary_twin.simulation", "--ros-args", "-p", "clock:=true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 10)
-    streams = Audience(peer, STREAMS, VOLATILE)
-    late = Audience(peer, LATCHED, KEPT)
-    wrong = Audience(peer, STREAMS, KEPT)
+    streams = Subscriptions(peer, STREAMS, VOLATILE)
+    late = Subscriptions(peer, LATCHED, KEPT)
+    wrong = Subscriptions(peer, STREAMS, KEPT)
     peer.until(lambda: streams.received == streams.seats)
     peer.until(lambda: late.received == late.seats)
     peer.until(lambda: wrong.refused == wrong.seats)
     assert not (streams.refused or late.refused or wrong.received)
     # A late volatile subscriber receives the next change.
-    changes = Audience(peer, {f"{TWIN}/operating_point": OperatingPoint}, VOLATILE)
+    changes = Subscriptions(peer, {f"{TWIN}/operating_point": OperatingPoint}, VOLATILE)
     values = itertools.cycle((1.1, 1.2))
 
     def changed() -> bool:

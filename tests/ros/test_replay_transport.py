@@ -19,6 +19,7 @@ from planetary_twin_msgs.srv import Seek, Step
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
 from planetary_twin_py.recording.ros2.bag import BagWriter
@@ -128,6 +129,9 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     assert reached.success and reached.simulated_time == pytest.approx(0.5)
     assert reached.stamp == Time(sec=BEGIN // 10**9, nanosec=500_000_000)
     expect(peer, states, 2, 51)
+    for given in ({"command": JointState(name=["a"])}, {"commands": [JointState(name=["a"])]}):
+        refused = peer.call(Step, f"{NODE}/step", Step.Request(duration=0.5, **given))
+        assert not refused.success and "must be empty" in refused.message
     peer.until(lambda: len(clock) == 51)
     times = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
     assert times == [STAMPED + k * PERIOD for k in range(51)]

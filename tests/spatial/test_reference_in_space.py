@@ -22,7 +22,7 @@ def absolute_in_space(engine, reference):
     plane, sides = absolute(engine, reference)
     middle = len(plane) // 2
     place, radii = build_bodies(engine.scene).place, tilting_radii(engine.scene)
-    state, more = engine.march.end, []
+    state, more = engine.integrator.end, []
     for name in ("sun", "ring", "carrier", *(f"planet_{i + 1}" for i in range(reference.n))):
         more += [(f"{name}.z", 1.0)]
         more += [(f"{name}.{tilt}", radii[name.split("_")[0]]) for tilt in tilts_of(name)]
@@ -41,7 +41,7 @@ def test_steady_running_converges_to_the_reference(flow):
     scene = spatial(flow, helix=0.2, **ERRORS)
     source = Engine(scene, 1e-6)
     source.advance(1e-3, 1, RATE, 0)
-    start = source.march.end.time
+    start = source.integrator.end.time
     first, last = math.floor(start * RATE) + 1, round(3e-3 * RATE)
     times = np.arange(first, last + 1) / RATE
     reference = SpatialReference(scene)
@@ -49,6 +49,6 @@ def test_steady_running_converges_to_the_reference(flow):
     exact, _ = reference.transmission_errors(*begin, times - start)
     for tolerance, allowed in ((1e-4, 5e-4), (1e-6, 2e-5)):
         engine = Engine(scene, tolerance)
-        engine.march.end = source.march.end
+        engine.integrator.end = source.integrator.end
         mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
         assert np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)) < allowed

@@ -27,7 +27,7 @@ class Rattle:
     def __init__(self, begin=BEGIN, span=SPAN):
         self.source = Engine(SCENE, 1e-6)
         self.source.advance(begin, 1, RATE, 0)
-        self.start = self.source.march.end.time
+        self.start = self.source.integrator.end.time
         self.first = math.floor(self.start * RATE) + 1
         self.count = round(span * RATE)
         self.times = (self.first + np.arange(self.count)) / RATE - self.start
@@ -58,7 +58,7 @@ class Rattle:
     def own(self, tolerance):
         """Error of the twin's integrator from the same state."""
         engine = Engine(SCENE, tolerance)
-        engine.march.end = self.source.march.end
+        engine.integrator.end = self.source.integrator.end
         until = self.start + self.times[-1]
         return self.error(engine.advance(until, self.first, RATE, self.count).mesh[:, DTE])
 

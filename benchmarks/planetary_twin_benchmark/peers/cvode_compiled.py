@@ -46,7 +46,7 @@ def _cvode(method: int) -> Solver:
         with sundials.cvode(setting) as (memory, vector, _):
             for k in range(0, len(times), CHUNK):
                 part = slice(k, k + CHUNK)
-                status = own.march(memory, vector, times[part], states[part])
+                status = own.integrate(memory, vector, times[part], states[part])
                 if status < 0:
                     raise SolverError(f"CVODE returned {status}")
                 deadline.check()

@@ -21,10 +21,10 @@ CHUNK = 50  # samples between two looks at the clock
 
 
 # (problem, times, steps between two of them, y, samples), see the core.
-March = Callable[[Record, np.ndarray, int, np.ndarray, np.ndarray], None]
+Integrate = Callable[[Record, np.ndarray, int, np.ndarray, np.ndarray], None]
 
 
-def _fixed_step(march: March) -> Solver:
+def _fixed_step(integrate: Integrate) -> Solver:
     def solve(
         problem: Problem, times: np.ndarray, tolerance: float, deadline: Deadline
     ) -> np.ndarray:
@@ -32,7 +32,7 @@ def _fixed_step(march: March) -> Solver:
         instants = np.concatenate([[0.0], times])
         steps = math.ceil(times[0] / (tolerance * problem.mesh_period))
         for k in range(0, len(times), CHUNK):
-            march(problem.record, instants[k : k + CHUNK + 1], steps, y, states[k : k + CHUNK])
+            integrate(problem.record, instants[k : k + CHUNK + 1], steps, y, states[k : k + CHUNK])
             deadline.check()
             if not np.isfinite(y).all():
                 raise SolverError("unstable")

@@ -1,6 +1,6 @@
 #pragma once
 
-// NumPy arrays as arguments and answers.
+// NumPy arrays as arguments and results.
 
 #include <algorithm>
 #include <cstdint>
@@ -53,13 +53,13 @@ inline Sampling sampling_of(const SamplingTuple& values) {
     return {std::get<0>(values), std::get<1>(values), std::get<2>(values), std::get<3>(values)};
 }
 
-// planetary_twin_py's Samples: mesh, turns, angle, speed, drag, moved.
+// planetary_twin_py's Samples: mesh, turns, angle, speed, drag, moved, tilting.
 using SamplesTuple = std::tuple<Array, Array, Array, Array, Array, Array, Array>;
 
 inline Samples samples_of(const SamplesTuple& arrays) {
-    auto& [mesh, turns, angle, speed, drag, moved, lean] = arrays;
+    auto& [mesh, turns, angle, speed, drag, moved, tilting] = arrays;
     if (mesh.ndim() != 3 || turns.ndim() != 2 || angle.ndim() != 2 || moved.ndim() != 3 ||
-        lean.ndim() != 3)
+        tilting.ndim() != 3)
         throw std::invalid_argument("samples: arrays of a wrong shape");
     Samples samples{static_cast<std::int64_t>(mesh.shape(0)),
                     static_cast<std::int64_t>(mesh.shape(1)),
@@ -74,15 +74,15 @@ inline Samples samples_of(const SamplesTuple& arrays) {
                     nullptr,
                     static_cast<std::int64_t>(moved.shape(1)),
                     moved.data(),
-                    lean.size() > 0 ? lean.data() : nullptr};
+                    tilting.size() > 0 ? tilting.data() : nullptr};
     std::size_t rows = mesh.shape(0);
     check_size("samples.turns", turns.size(), rows * turns.shape(1));
     check_size("samples.angle", angle.size(), rows * angle.shape(1));
     check_size("samples.speed", speed.size(), rows * angle.shape(1));
     check_size("samples.drag", drag.size(), rows * SAMPLE_DRAGS);
     check_size("samples.moved", moved.size(), rows * moved.shape(1) * SAMPLE_AXES);
-    if (lean.size() > 0)
-        check_size("samples.lean", lean.size(), rows * moved.shape(1) * SAMPLE_LEAN);
+    if (tilting.size() > 0)
+        check_size("samples.tilting", tilting.size(), rows * moved.shape(1) * SAMPLE_TILTING);
     return samples;
 }
 

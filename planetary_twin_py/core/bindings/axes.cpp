@@ -1,7 +1,7 @@
-// The core with room for axes that move, as a part of the module.
+// The core for moving axes, as a part of the module.
 //
 // This file and those it calls are compiled with MOVING_AXES, and `gearbox` by another name, see
-// CMakeLists.txt: classes and functions have the names of those for axes that are held.
+// CMakeLists.txt: classes and functions have the same names as for fixed axes.
 
 #include "bindings/parts.hpp"
 #include "bindings/records.hpp"
@@ -9,7 +9,7 @@
 namespace gearbox {
 
 void bind_axes(nb::module_& core) {
-    nb::module_ m = core.def_submodule("axes", "The core with room for axes that move.");
+    nb::module_ m = core.def_submodule("axes", "The core for moving axes.");
     bind_records(m);
     bind_train(m);
     bind_initial_state(m);

@@ -1,4 +1,4 @@
-// The march of a run, for `planetary_twin_py.engine`.
+// Integration of a run, for `planetary_twin_py.engine`.
 
 #include <nanobind/stl/pair.h>
 
@@ -7,8 +7,8 @@
 #include "bindings/unlocked.hpp"
 #include "integrators/collocated_step.hpp"
 #include "integrators/collocation.hpp"
+#include "integrators/integrator.hpp"
 #include "integrators/interpolant.hpp"
-#include "integrators/march.hpp"
 #include "integrators/oscillator.hpp"
 #include "integrators/periodic.hpp"
 #include "integrators/propagation.hpp"
@@ -25,30 +25,30 @@ namespace {
 
 using namespace nb::literals;
 
-void py_one_step(const Model& model, March& march, double longest) {
-    run_unlocked([&] { one_step(model, march, longest); });
+void py_one_step(const Model& model, Integrator& integrator, double longest) {
+    run_unlocked([&] { one_step(model, integrator, longest); });
 }
 
-void py_advance(const Model& model, March& march, const InstantTuple& until,
+void py_advance(const Model& model, Integrator& integrator, const InstantTuple& until,
                 const InstantTuple& bound, const SamplingTuple& samples, const SamplesTuple& out) {
     Samples room = samples_of(out);
     if (room.rows < 1) throw std::invalid_argument("samples: no room for the one at the end");
     --room.rows;
     run_unlocked([&] {
-        advance(model, march, instant_of(until), instant_of(bound), sampling_of(samples), room,
+        advance(model, integrator, instant_of(until), instant_of(bound), sampling_of(samples), room,
                 room.only(room.rows));
     });
 }
 
-void py_cut(const Model& model, March& march, const InstantTuple& until) {
-    run_unlocked([&] { cut(model, march, instant_of(until)); });
+void py_cut(const Model& model, Integrator& integrator, const InstantTuple& until) {
+    run_unlocked([&] { cut(model, integrator, instant_of(until)); });
 }
 
-void py_sample(const Model& model, March& march, double delay, const SamplesTuple& out,
+void py_sample(const Model& model, Integrator& integrator, double delay, const SamplesTuple& out,
                std::int64_t row) {
     Samples room = samples_of(out);
     if (row < 0 || row >= room.rows) throw std::invalid_argument("samples: no such row");
-    run_unlocked([&] { sample(model, march, delay, room, row); });
+    run_unlocked([&] { sample(model, integrator, delay, room, row); });
 }
 
 Nodes py_radau(int points) {
@@ -59,59 +59,63 @@ Nodes py_radau(int points) {
     return nodes;
 }
 
-void bind_march(nb::module_& m) {
-    m.def("begin_step", &begin_step, "model"_a, "march"_a, nb::call_guard<Unlocked>(),
+void bind_integrator(nb::module_& m) {
+    m.def("begin_step", &begin_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
           "Start a new step where the last one ended.");
-    m.def("one_step", &py_one_step, "model"_a, "march"_a, "longest"_a,
+    m.def("one_step", &py_one_step, "model"_a, "integrator"_a, "longest"_a,
           "Make one accepted step of at most `longest` seconds, ending on the first event.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
-    m.def("accept", &accept, "model"_a, "march"_a, "mesh"_a, nb::call_guard<Unlocked>(),
-          "Let the step stand; `mesh` changes its contact at its end (-1: none).");
-    m.def("advance", &py_advance, "model"_a, "march"_a, "until"_a, "bound"_a, "samples"_a, "out"_a,
+    m.def("accept", &accept, "model"_a, "integrator"_a, "mesh"_a, nb::call_guard<Unlocked>(),
+          "Accept the step; the contact of `mesh` changes at its end (-1: of no mesh).");
+    m.def("advance", &py_advance, "model"_a, "integrator"_a, "until"_a, "bound"_a, "samples"_a,
+          "out"_a,
           "Integrate to `until`, and fill `out` with `samples` and one at `until`.\n\n"
           "No step that is made passes `bound`.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
-    m.def("cut", &py_cut, "model"_a, "march"_a, "until"_a,
-          "Take back what lies beyond `until`, which is within the last step.\n\n"
+    m.def("cut", &py_cut, "model"_a, "integrator"_a, "until"_a,
+          "Repeat the last step so that it ends at `until`, which lies within it.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
-    m.def("count_step", &count_step, "model"_a, "march"_a, nb::call_guard<Unlocked>(),
-          "Let the last step count as far as it has not been taken.");
-    m.def("count_until", &count_until, "model"_a, "march"_a, "delay"_a, nb::call_guard<Unlocked>(),
-          "Let the last step count up to `delay` seconds after its start.");
-    m.def("interpolate", &interpolate, "model"_a, "march"_a, "delay"_a, nb::call_guard<Unlocked>(),
-          "Fill x and v of `march.dense`, `delay` seconds into the last step.");
-    m.def("sample", &py_sample, "model"_a, "march"_a, "delay"_a, "out"_a, "row"_a,
-          "Write what the train shows `delay` seconds into the last step to a row of `out`.");
+    m.def("count_step", &count_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
+          "Add the part of the last step that is not counted yet to the sums.");
+    m.def("count_until", &count_until, "model"_a, "integrator"_a, "delay"_a,
+          nb::call_guard<Unlocked>(),
+          "Add the last step up to `delay` seconds after its start to the sums.");
+    m.def("interpolate", &interpolate, "model"_a, "integrator"_a, "delay"_a,
+          nb::call_guard<Unlocked>(),
+          "Fill x and v of `integrator.dense`, `delay` seconds into the last step.");
+    m.def("sample", &py_sample, "model"_a, "integrator"_a, "delay"_a, "out"_a, "row"_a,
+          "Write the sample `delay` seconds after the start of the last step to a row of `out`.");
 }
 
-// Parts of a step, for tests of their order.
+// Parts of a step, for tests of the order of convergence.
 void bind_parts_of_steps(nb::module_& m) {
     m.def(
         "enter",
-        [](const Model& model, March& march) {
-            with_lanes(model.train, [&](auto lanes) { enter<lanes>(model, march); });
+        [](const Model& model, Integrator& integrator) {
+            with_lanes(model.train, [&](auto lanes) { enter<lanes>(model, integrator); });
         },
-        "model"_a, "march"_a, "Express the start of a step in the modes of its contacts.");
+        "model"_a, "integrator"_a, "Express the start of a step in the modes of its contacts.");
     m.def(
         "set_step",
-        [](const Model& model, March& march, double h) {
-            with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h); });
+        [](const Model& model, Integrator& integrator, double h) {
+            with_lanes(model.train, [&](auto lanes) { set_step<lanes>(integrator.run, h); });
         },
-        "model"_a, "march"_a, "h"_a, "Free motions at the nodes of a step of `h` seconds.");
+        "model"_a, "integrator"_a, "h"_a, "Free motions at the nodes of a step of `h` seconds.");
     m.def(
-        "visit_nodes",
-        [](const Model& model, March& march) {
-            with_lanes(model.train, [&](auto lanes) { visit_nodes<lanes>(model, march); });
+        "update_nodes",
+        [](const Model& model, Integrator& integrator) {
+            with_lanes(model.train, [&](auto lanes) { update_nodes<lanes>(model, integrator); });
         },
-        "model"_a, "march"_a, "Answer the rest as it is now, at all nodes.");
+        "model"_a, "integrator"_a, "Compute the response to the present remainder at all nodes.");
     m.def(
         "sweep",
-        [](const Model& model, March& march, bool with_friction) {
-            with_lanes(model.train, [&](auto lanes) { sweep<lanes>(model, march, with_friction); });
+        [](const Model& model, Integrator& integrator, bool with_friction) {
+            with_lanes(model.train,
+                       [&](auto lanes) { sweep<lanes>(model, integrator, with_friction); });
         },
-        "model"_a, "march"_a, "with_friction"_a, "Evaluate the rest at all nodes.");
-    m.def("end_within", &end_within, "model"_a, "march"_a, "h"_a,
-          "Let the step of collocation end after `h` seconds, on its own motion.");
+        "model"_a, "integrator"_a, "with_friction"_a, "Evaluate the remainder at all nodes.");
+    m.def("end_within", &end_within, "model"_a, "integrator"_a, "h"_a,
+          "End the collocation step after `h` seconds, without computing it again.");
     m.def("rosenbrock_step", &rosenbrock_step, "model"_a, "state"_a, "constants"_a, "h"_a,
           "first"_a, "out"_a, "work"_a,
           "Advance `state` by `h` seconds into `out` by Rosenbrock's method.");
@@ -124,7 +128,7 @@ void bind_oscillator(nb::module_& m) {
             DecayRates rates = decay_rates(square, damping);
             return std::make_tuple(rates.rate, rates.slow, rates.fast);
         },
-        "square"_a, "damping"_a, "Angular rate, and both decays [1/s].");
+        "square"_a, "damping"_a, "Angular frequency and both decay rates [1/s].");
     m.def(
         "wave",
         [](double damping, double rate, double slow, double fast, double t) {
@@ -133,7 +137,7 @@ void bind_oscillator(nb::module_& m) {
         },
         "damping"_a, "rate"_a, "slow"_a, "fast"_a, "t"_a,
         "Free motions from (1, 0) and (0, 1) after `t` seconds.");
-    m.def("radau", &py_radau, "points"_a, "Radau's points, so many of them.");
+    m.def("radau", &py_radau, "points"_a, "Radau points; `points` is their number.");
 }
 
 }  // namespace
@@ -143,7 +147,7 @@ void bind_integrators(nb::module_& m) {
     for (auto [name, method] : METHODS) methods[name] = static_cast<int>(method);
     m.attr("METHODS") = methods;
     m.attr("NO_MESH") = NO_MESH;
-    bind_march(m);
+    bind_integrator(m);
     bind_parts_of_steps(m);
     bind_oscillator(m);
 }

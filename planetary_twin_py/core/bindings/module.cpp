@@ -10,8 +10,8 @@ namespace gearbox {
 extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
 }
 
-// One module for each level of x86-64 (CMake names it); Python sees one place for all of them, so
-// what was pickled on one machine is found on another.
+// One module for each level of x86-64 (CMake names it); all have the same name in Python, so
+// objects pickled on one machine can be loaded on another.
 NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";

@@ -22,7 +22,7 @@ void check_states(const Problem& problem, const ConstArray& y, const Array& dy) 
     check_size("dy", dy.size(), size_of(problem));
 }
 
-// No interpreter lock is given back: that would take longer than the function.
+// The interpreter lock is kept: releasing it would take longer than the function.
 void py_derivative(Problem& problem, double t, const ConstArray& y, const Array& dy) {
     check_states(problem, y, dy);
     derivative(problem, t, y.data(), dy.data());
@@ -50,18 +50,18 @@ double py_show(Problem& problem, const ConstArray& times, const ConstArray& stat
     return lost / static_cast<double>(count);
 }
 
-template <FixedStep march>
+template <FixedStep method>
 void py_fixed_step(Problem& problem, const ConstArray& times, std::int64_t steps, const Array& y,
                    const Array& samples) {
     std::size_t size = size_of(problem);
     check_size("y", y.size(), size);
     check_size("times", times.size(), samples.size() / size + 1);
     Unlocked release;
-    march(problem, times.data(), steps, y.data(), samples.data(),
-          static_cast<std::int64_t>(samples.size() / size));
+    method(problem, times.data(), steps, y.data(), samples.data(),
+           static_cast<std::int64_t>(samples.size() / size));
 }
 
-// What CVODE calls, and where it finds its problem.
+// A function that CVODE calls, and its problem.
 class CvodeProblem {
 public:
     CvodeProblem(Problem& problem, std::uintptr_t numbers, std::uintptr_t advance)
@@ -70,12 +70,13 @@ public:
 
     std::uintptr_t data() const { return reinterpret_cast<std::uintptr_t>(own_.get()); }
 
-    int march(std::uintptr_t memory, std::uintptr_t vector, const ConstArray& times,
-              const Array& samples) const {
+    int integrate(std::uintptr_t memory, std::uintptr_t vector, const ConstArray& times,
+                  const Array& samples) const {
         check_size("samples", samples.size(), times.size() * size_of(*own_->problem));
         Unlocked release;
-        return cvode_march(*own_, reinterpret_cast<void*>(memory), reinterpret_cast<void*>(vector),
-                           times.data(), samples.data(), static_cast<std::int64_t>(times.size()));
+        return cvode_integrate(*own_, reinterpret_cast<void*>(memory),
+                               reinterpret_cast<void*>(vector), times.data(), samples.data(),
+                               static_cast<std::int64_t>(times.size()));
     }
 
 private:
@@ -96,8 +97,8 @@ void bind_foreign(nb::module_& m) {
             "function", [](nb::handle) { return address<&cvode_function>(); },
             "Address of a CVRhsFn.")
         .def_prop_ro("data", &CvodeProblem::data, "Address of its user data.")
-        .def("march", &CvodeProblem::march, nb::arg("memory"), nb::arg("vector"), nb::arg("times"),
-             nb::arg("samples"),
+        .def("integrate", &CvodeProblem::integrate, nb::arg("memory"), nb::arg("vector"),
+             nb::arg("times"), nb::arg("samples"),
              "Fill samples (times, size) up to the last of the times; 0, or what CVODE returned.");
     m.def("cyrk_function", &address<&cyrk_function>,
           "Address of the right-hand side as CyRK calls it.");
@@ -121,7 +122,7 @@ void bind_peers(nb::module_& m) {
           "[W].");
     m.def("runge_kutta_4", &py_fixed_step<runge_kutta_4>, nb::arg("problem"), nb::arg("times"),
           nb::arg("steps"), nb::arg("y"), nb::arg("samples"),
-          "Take y from times[0] on; samples[k] is y at times[k + 1], `steps` steps later.");
+          "Integrate y from times[0]; samples[k] is y at times[k + 1], `steps` steps later.");
     m.def("semi_implicit_euler", &py_fixed_step<semi_implicit_euler>, nb::arg("problem"),
           nb::arg("times"), nb::arg("steps"), nb::arg("y"), nb::arg("samples"),
           "As `runge_kutta_4`.");

@@ -27,7 +27,7 @@ struct GivenValues {
     Given position[PORTS];
 };
 
-// A value that is not given acts as before; one that is no number is out of range.
+// A value that is not given does not change; NaN is out of range.
 double value_of(const Given& given) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     if (!given) return std::numeric_limits<double>::quiet_NaN();
@@ -35,7 +35,7 @@ double value_of(const Given& given) {
 }
 
 // A command from `now` on, whose positions are reached after `duration` seconds.
-Command command_of(const Model& model, March& march, const Instant& now, double duration,
+Command command_of(const Model& model, Integrator& integrator, const Instant& now, double duration,
                    const GivenValues& given) {
     Command command = NO_COMMAND;
     double position[PORTS];
@@ -45,7 +45,7 @@ Command command_of(const Model& model, March& march, const Instant& now, double 
         position[port] = value_of(given.position[port]);
     }
     if (given.position[MOTOR] || given.position[LOAD_MACHINE])
-        approach(model, march, now, duration, position, command);
+        approach(model, integrator, now, duration, position, command);
     return command;
 }
 
@@ -78,8 +78,8 @@ double seconds(std::int64_t ticks) {
     return static_cast<double>(ticks) / static_cast<double>(TICKS);
 }
 
-// Whether the ports accept the command, which then acts.
-bool py_apply_command(Model& model, March& march, std::int64_t begin, std::int64_t end,
+// Apply the command if the ports accept it; return whether they do.
+bool py_apply_command(Model& model, Integrator& integrator, std::int64_t begin, std::int64_t end,
                       const Given& input_torque, const Given& output_torque,
                       const Given& input_speed, const Given& output_speed,
                       const Given& input_position, const Given& output_position, bool linear,
@@ -89,13 +89,13 @@ bool py_apply_command(Model& model, March& march, std::int64_t begin, std::int64
                             {input_position, output_position}};
     const Instant now = instant_of(begin);
     const double duration = seconds(end - begin);
-    const Command command = command_of(model, march, now, duration, given);
-    if (check(model.load, ranges, command) != Answer::OBEYED) return false;
-    run_unlocked([&] { apply_command(model, march, now, command, linear ? duration : 0.0); });
+    const Command command = command_of(model, integrator, now, duration, given);
+    if (check(model.load, ranges, command) != Answer::ACCEPTED) return false;
+    run_unlocked([&] { apply_command(model, integrator, now, command, linear ? duration : 0.0); });
     return true;
 }
 
-int py_step_ports(Model& model, March& march, std::int64_t begin, std::int64_t end,
+int py_step_ports(Model& model, Integrator& integrator, std::int64_t begin, std::int64_t end,
                   const Given& input_torque, const Given& output_torque, const Given& input_speed,
                   const Given& output_speed, const Given& input_position,
                   const Given& output_position, bool linear, const PortRanges& ranges,
@@ -104,11 +104,12 @@ int py_step_ports(Model& model, March& march, std::int64_t begin, std::int64_t e
                             {input_speed, output_speed},
                             {input_position, output_position}};
     PortStep step{begin, end,
-                  command_of(model, march, instant_of(begin), seconds(end - begin), given), linear};
-    if (check(model.load, ranges, step.command) != Answer::OBEYED)
+                  command_of(model, integrator, instant_of(begin), seconds(end - begin), given),
+                  linear};
+    if (check(model.load, ranges, step.command) != Answer::ACCEPTED)
         return static_cast<int>(Outcome::REFUSED);
     Unlocked unlocked;
-    return static_cast<int>(step_ports(model, march, step, limits, reached, out));
+    return static_cast<int>(step_ports(model, integrator, step, limits, reached, out));
 }
 
 }  // namespace
@@ -121,25 +122,26 @@ void bind_ports(nb::module_& m) {
     m.attr("REFUSED") = static_cast<int>(Outcome::REFUSED);
     record<PortRanges>(m, "PortRanges").FIELD(PortRanges, torque).FIELD(PortRanges, speed);
     bind_port_states(m);
-    m.def("step_ports", &py_step_ports, "model"_a, "march"_a, "begin"_a, "end"_a, "input_torque"_a,
-          "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
-          "output_position"_a, "linear"_a, "ranges"_a, "limits"_a, "reached"_a, "out"_a,
+    m.def("step_ports", &py_step_ports, "model"_a, "integrator"_a, "begin"_a, "end"_a,
+          "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a,
+          "input_position"_a, "output_position"_a, "linear"_a, "ranges"_a, "limits"_a, "reached"_a,
+          "out"_a,
           "Apply the command at `begin` [ticks], and integrate to `end`; returns the outcome.\n\n"
           "`None`: the value does not change.");
     m.def(
-        "apply_command", &py_apply_command, "model"_a, "march"_a, "begin"_a, "end"_a,
+        "apply_command", &py_apply_command, "model"_a, "integrator"_a, "begin"_a, "end"_a,
         "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
         "output_position"_a, "linear"_a, "ranges"_a,
-        "Let a command act from `begin` [ticks] on; with `linear`, its values are reached at "
+        "Apply a command from `begin` [ticks] on; with `linear`, its values are reached at "
         "`end`.\n\nPositions are always reached at `end`. Returns whether the ports accept it.\n\n"
         "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def(
         "read_ports",
-        [](const Model& model, March& march, const InstantTuple& time, PortStates& out) {
-            read_ports(model, march, instant_of(time), out);
+        [](const Model& model, Integrator& integrator, const InstantTuple& time, PortStates& out) {
+            read_ports(model, integrator, instant_of(time), out);
         },
-        "model"_a, "march"_a, "time"_a, "out"_a,
-        "Fill `out` with what the ports show at `time`, within the last step.");
+        "model"_a, "integrator"_a, "time"_a, "out"_a,
+        "Fill `out` with the state of the ports at `time`, within the last step.");
 }
 
 }  // namespace gearbox

@@ -25,7 +25,7 @@ using Steps = std::tuple<double, double, double>;
 
 using Shown = double[QUANTITIES][MESHES];
 
-// (QUANTITIES, meshes), without the room beyond.
+// (QUANTITIES, meshes), without unused entries.
 auto shown_array(const Shown& shown, std::int64_t meshes) {
     double packed[QUANTITIES * MESHES];
     for (int q = 0; q < QUANTITIES; ++q)
@@ -33,11 +33,11 @@ auto shown_array(const Shown& shown, std::int64_t meshes) {
     return new_array(packed, {std::size_t(QUANTITIES), std::size_t(meshes)});
 }
 
-auto py_settle(const Model& model, double tolerance, Equilibrium& run) {
+auto py_solve_equilibrium(const Model& model, double tolerance, Equilibrium& run) {
     Shown shown;
     {
         Unlocked release;
-        settle(model, tolerance, run, shown);
+        solve_equilibrium(model, tolerance, run, shown);
     }
     return shown_array(shown, model.train.meshes);
 }
@@ -105,11 +105,11 @@ void py_add_rates(const Train& train, const ConstArray& power, const ConstArray&
     add_rates(train, power.data(), room, weight, out.data());
 }
 
-double py_steepest_torque(const Model& model, double tolerance, std::int64_t lean,
+double py_steepest_torque(const Model& model, double tolerance, std::int64_t closing_side,
                           const State& origin, const ConstArray& speed) {
     check_size("speed", speed.size(), AXES);
     Unlocked release;
-    return steepest_torque(model, tolerance, lean, origin, speed.data());
+    return steepest_torque(model, tolerance, closing_side, origin, speed.data());
 }
 
 template <double inverse(double, double, double, const double*)>
@@ -139,8 +139,8 @@ void bind_planet_load(nb::module_& m) {
         },
         nb::arg("springs"), nb::arg("p"), nb::arg("w"),
         "Force [N] of planet p on the ring at a wind-up [m], and its growth with it.");
-    m.def("share", &share, nb::arg("total"), nb::arg("planets"), nb::arg("springs"),
-          "The wind-up [m] at which the planets have `total` [N] on the ring.");
+    m.def("solve_windup", &solve_windup, nb::arg("total"), nb::arg("planets"), nb::arg("springs"),
+          "Wind-up [m] at which the forces of the planets on the ring add up to `total` [N].");
 }
 
 }  // namespace
@@ -148,28 +148,30 @@ void bind_planet_load(nb::module_& m) {
 void bind_quasi_static(nb::module_& m) {
     m.attr("TOTALS") = TOTALS;
     m.attr("PEAKS") = PEAKS;
-    m.attr("DITHER") = DITHER;
+    m.attr("NEGLIGIBLE_FORCE") = NEGLIGIBLE_FORCE;
     bind_planet_load(m);
     m.def(
-        "first_guess", [](std::int64_t lean) { return first_guess(lean); }, nb::arg("lean"),
-        "An equilibrium still to be found, the teeth on the side `lean`.");
-    m.def("settle", &py_settle, nb::arg("model"), nb::arg("tolerance"), nb::arg("run"),
-          "Bring `run` into equilibrium; what the meshes show (QUANTITIES, meshes).");
+        "first_guess", [](std::int64_t closing_side) { return first_guess(closing_side); },
+        nb::arg("closing_side"),
+        "Initial guess of an equilibrium; open meshes close on `closing_side`.");
+    m.def("solve_equilibrium", &py_solve_equilibrium, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("run"),
+          "Solve for the equilibrium of `run`; quantities of the meshes (QUANTITIES, meshes).");
     m.def(
         "turn_to",
         [](const Model& model, const State& origin, double after, State& state) {
             turn_to(model, origin, after, state);
         },
         nb::arg("model"), nb::arg("origin"), nb::arg("after"), nb::arg("state"),
-        "Put `state` where the motors are `after` seconds after `origin`.");
+        "Set `state` to the position of the motors `after` seconds after `origin`.");
     m.def("weight_energy", &weight_energy, nb::arg("train"), nb::arg("state"),
           "Potential energy of the weight of bodies whose axes move [J].");
     m.def("join_flanks", &join_flanks, nb::arg("train"), nb::arg("sums"),
-          "Let both entries of every mesh have forces, films and losses of both flanks.");
+          "Give both entries of every mesh the forces, films and losses of both flanks.");
     m.def(
-        "roll",
+        "advance_origin",
         [](const Model& model, State& origin, const InstantTuple& until) {
-            roll(model, origin, instant_of(until));
+            advance_origin(model, origin, instant_of(until));
         },
         nb::arg("model"), nb::arg("origin"), nb::arg("until"),
         "Move `origin` to the last whole second before `until`.");
@@ -182,18 +184,18 @@ void bind_quasi_static(nb::module_& m) {
           "the panel before each (m, PEAKS, MESHES).");
     m.def("follow", &py_follow, nb::arg("model"), nb::arg("tolerance"), nb::arg("mark"),
           nb::arg("run"), nb::arg("edges"), nb::arg("until"), nb::arg("stop"), nb::arg("totals"),
-          nb::arg("peak"), "Move `mark` panel by panel, as long as they end by `until`.");
+          nb::arg("peak"), "Integrate from `mark`, which moves, panel by panel, up to `until`.");
     m.def("sample_equilibrium", &py_sample, nb::arg("model"), nb::arg("tolerance"),
           nb::arg("origin"), nb::arg("run"), nb::arg("at"), nb::arg("out"), nb::arg("row"),
           "Write the sample at an instant into a row of `out`.");
     m.def("sample_equilibria", &py_sample_all, nb::arg("model"), nb::arg("tolerance"),
           nb::arg("origin"), nb::arg("run"), nb::arg("samples"), nb::arg("out"),
-          "Fill all rows of `out`; `origin` moves along.");
+          "Fill all rows of `out`; `origin` is advanced.");
     m.def("add_rates", &py_add_rates, nb::arg("train"), nb::arg("power"), nb::arg("shown"),
           nb::arg("weight"), nb::arg("out"),
-          "Add what grows at one instant, times `weight` [s], to the totals `out` (TOTALS,).");
+          "Add the rates at one instant, times `weight` [s], to the totals `out` (TOTALS,).");
     m.def("steepest_torque", &py_steepest_torque, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("lean"), nb::arg("origin"), nb::arg("speed"),
+          nb::arg("closing_side"), nb::arg("origin"), nb::arg("speed"),
           "Largest change of the second motor's torque per mesh cycle [N m].");
 }
 

@@ -11,7 +11,7 @@ namespace gearbox {
 
 constexpr const char* NO_FINITE_STATE = "no finite state can be reached, however short the step";
 
-// Run without the interpreter's lock; what cannot go on is an ArithmeticError.
+// Run without the interpreter's lock; NoFiniteState becomes an ArithmeticError.
 template <class Function>
 void run_unlocked(Function&& function) {
     bool finite = true;

@@ -33,7 +33,7 @@ struct extents<Element[count]> {
     }
 };
 
-// NumPy view of an array that `owner` keeps alive; the type stub tells what it holds.
+// NumPy view of an array that `owner` keeps alive; the type stub states its element type.
 template <class Array>
 auto view(Array& array, nb::handle owner) {
     std::vector<size_t> shape;
@@ -43,7 +43,7 @@ auto view(Array& array, nb::handle owner) {
                                           shape.data(), owner);
 }
 
-// Copy values into an array; they may be fewer than its room.
+// Copy values into an array; they may be fewer than its entries.
 inline void fill(nb::handle room, nb::handle values) {
     nb::object numpy = nb::module_::import_("numpy");
     nb::object array = numpy.attr("asarray")(values);

@@ -5,7 +5,7 @@
 #include "bindings/record.hpp"
 #include "integrators/contact_modes_record.hpp"
 #include "integrators/control.hpp"
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "integrators/nodes.hpp"
 #include "integrators/periodic_record.hpp"
 #include "integrators/propagation_records.hpp"
@@ -70,9 +70,9 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Load, speed)
         .FIELD(Load, acceleration)
         .FIELD(Load, arrives)
-        .FIELD(Load, onward);
+        .FIELD(Load, speed_after);
     record<TiltingAxis>(m, "TiltingAxis")
-        .FIELD(TiltingAxis, lift)
+        .FIELD(TiltingAxis, axial)
         .FIELD(TiltingAxis, place)
         .FIELD(TiltingAxis, lever)
         .FIELD(TiltingAxis, turns)
@@ -180,8 +180,8 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Train, joints)
         .FIELD(Train, joint_body)
         .FIELD(Train, joint_planet)
-        .FIELD(Train, joint_idle)
-        .FIELD(Train, joint_rubbing)
+        .FIELD(Train, joint_no_load_factor)
+        .FIELD(Train, joint_load_factor)
         .FIELD(Train, joint_coulomb)
         .FIELD(Train, joint_viscous)
         .FIELD(Train, pin_share)
@@ -245,12 +245,12 @@ inline void bind_records(nb::module_& m) {
         .FIELD(StepConstants, faulty);
     record<MeshesNow>(m, "MeshesNow")
         .FIELD(MeshesNow, advance)
-        .FIELD(MeshesNow, pace)
+        .FIELD(MeshesNow, cycle_rate)
         .FIELD(MeshesNow, following)
         .FIELD(MeshesNow, d)
         .FIELD(MeshesNow, rate)
         .FIELD(MeshesNow, error_rate)
-        .FIELD(MeshesNow, push)
+        .FIELD(MeshesNow, normal_force)
         .FIELD(MeshesNow, lost)
         .FIELD(MeshesNow, work)
         .FIELD(MeshesNow, stiffness)
@@ -277,7 +277,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ToothPairs, slope)
         .FIELD(ToothPairs, rolling)
         .FIELD(ToothPairs, rolling_power)
-        .FIELD(ToothPairs, held)
+        .FIELD(ToothPairs, has_bristles)
         .FIELD(ToothPairs, bristle)
         .FIELD(ToothPairs, full)
         .FIELD(ToothPairs, bristle_rate)
@@ -294,7 +294,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(OperatingPoint, torque_ripple);
     record<PointLaws>(m, "PointLaws")
         .FIELD(PointLaws, constant)
-        .FIELD(PointLaws, play)
+        .FIELD(PointLaws, half_backlash_factor)
         .FIELD(PointLaws, from_zero)
         .FIELD(PointLaws, torque)
         .FIELD(PointLaws, ratio)
@@ -306,7 +306,7 @@ inline void bind_records(nb::module_& m) {
     record<Model>(m, "Model").FIELD(Model, train).FIELD(Model, oil).FIELD(Model, load);
     record<Evaluation>(m, "Evaluation")
         .FIELD(Evaluation, force)
-        .FIELD(Evaluation, rubbing)
+        .FIELD(Evaluation, friction_force)
         .FIELD(Evaluation, power)
         .FIELD(Evaluation, now)
         .FIELD(Evaluation, pairs)
@@ -330,7 +330,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ModalMotion, modes)
         .FIELD(ModalMotion, step)
         .FIELD(ModalMotion, per_step)
-        .FIELD(ModalMotion, pace)
+        .FIELD(ModalMotion, fastest_rate)
         .FIELD(ModalMotion, square)
         .FIELD(ModalMotion, damping)
         .FIELD(ModalMotion, rate)
@@ -345,21 +345,21 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ContactState, key)
         .FIELD(ContactState, follower)
         .FIELD(ContactState, step)
-        .FIELD(ContactState, pull)
+        .FIELD(ContactState, contraction)
         .FIELD(ContactState, varies)
         .FIELD(ContactState, stiffness)
         .FIELD(ContactState, square)
         .FIELD(ContactState, shaft_damping)
         .FIELD(ContactState, mesh_damping)
         .def_prop_ro(
-            "form",
+            "shapes",
             [](nb::handle_t<ContactState> self) {
-                MatrixRows form = nb::inst_ptr<ContactState>(self)->matrices.form();
-                auto lanes = static_cast<size_t>(form.lanes);
+                MatrixRows shapes = nb::inst_ptr<ContactState>(self)->matrices.shapes();
+                auto lanes = static_cast<size_t>(shapes.lanes);
                 size_t shape[2] = {lanes, lanes};
-                return nb::ndarray<nb::numpy, const double>(form.first, 2, shape, self);
+                return nb::ndarray<nb::numpy, const double>(shapes.first, 2, shape, self);
             },
-            "What mode m does to body j [1/sqrt(kg)], (lanes, lanes).");
+            "Displacement of body j by mode m [1/sqrt(kg)], (lanes, lanes).");
     record<MeshFriction>(m, "MeshFriction")
         .FIELD(MeshFriction, drag)
         .FIELD(MeshFriction, lost)
@@ -375,12 +375,12 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Node, d)
         .FIELD(Node, rate)
         .FIELD(Node, spin)
-        .FIELD(Node, rubbing)
+        .FIELD(Node, friction_force)
         .FIELD(Node, power)
         .FIELD(Node, meshes)
         .FIELD(Node, friction);
     nb::class_<ContactModes>(m, "ContactModes")
-        .def_prop_ro("count", &ContactModes::count, "Contact states kept.")
+        .def_prop_ro("count", &ContactModes::count, "Number of stored contact states.")
         .def(
             "state",
             [](ContactModes& self, size_t n) -> ContactState& { return self.states.at(n); },
@@ -393,7 +393,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Propagation, damper)
         .FIELD(Propagation, start)
         .FIELD(Propagation, force)
-        .FIELD(Propagation, rest)
+        .FIELD(Propagation, remainder)
         .FIELD(Propagation, cosine)
         .FIELD(Propagation, sine)
         .FIELD(Propagation, node)
@@ -408,7 +408,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Series, at)
         .FIELD(Series, weight)
         .FIELD(Series, d)
-        .FIELD(Series, push);
+        .FIELD(Series, normal_force);
     record<StepSums>(m, "StepSums")
         .FIELD(StepSums, step)
         .FIELD(StepSums, part)
@@ -417,7 +417,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(StepSums, series)
         .FIELD(StepSums, stale)
         .FIELD(StepSums, rates)
-        .FIELD(StepSums, push);
+        .FIELD(StepSums, normal_force);
     record<Workspace>(m, "Workspace")
         .FIELD(Workspace, ux)
         .FIELD(Workspace, uv)
@@ -430,14 +430,14 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Workspace, stiffness)
         .FIELD(Workspace, system)
         .FIELD(Workspace, row)
-        .FIELD(Workspace, drift)
+        .FIELD(Workspace, time_derivative)
         .FIELD(Workspace, evaluation)
         .FIELD(Workspace, error_x)
         .FIELD(Workspace, error_v)
-        .FIELD(Workspace, bend)
+        .FIELD(Workspace, bristle_stage)
         .FIELD(Workspace, error_bristle)
         .FIELD(Workspace, energy)
-        .FIELD(Workspace, way);
+        .FIELD(Workspace, machine_displacement);
     record<Place>(m, "Place")
         .FIELD(Place, state)
         .FIELD(Place, after)
@@ -448,7 +448,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(CycleStep, end)
         .FIELD(CycleStep, collocated)
         .FIELD(CycleStep, power)
-        .FIELD(CycleStep, rubbing)
+        .FIELD(CycleStep, friction_force)
         .FIELD(CycleStep, motion)
         .FIELD(CycleStep, sums);
     record<Periodic>(m, "Periodic")
@@ -458,10 +458,10 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Periodic, pause)
         .FIELD(Periodic, passed)
         .FIELD(Periodic, age)
-        .FIELD(Periodic, anchor_age)
-        .FIELD(Periodic, anchor)
+        .FIELD(Periodic, reference_age)
+        .FIELD(Periodic, reference)
         .FIELD(Periodic, recording)
-        .FIELD(Periodic, playing)
+        .FIELD(Periodic, replaying)
         .FIELD(Periodic, steps)
         .FIELD(Periodic, place)
         .FIELD(Periodic, known)
@@ -471,8 +471,8 @@ inline void bind_records(nb::module_& m) {
     record<Control>(m, "Control")
         .FIELD(Control, tolerance)
         .FIELD(Control, deflection)
-        .FIELD(Control, yielding)
-        .FIELD(Control, quickness)
+        .FIELD(Control, acceleration_deflection)
+        .FIELD(Control, speed_per_deflection)
         .FIELD(Control, tolerance_x)
         .FIELD(Control, tolerance_v)
         .FIELD(Control, creeping)
@@ -482,7 +482,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Control, longest)
         .FIELD(Control, method)
         .FIELD(Control, collocated)
-        .FIELD(Control, detour)
+        .FIELD(Control, fallback_steps)
         .FIELD(Control, next_stiff)
         .FIELD(Control, changed)
         .FIELD(Control, steps)
@@ -494,28 +494,28 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Control, flank_events)
         .FIELD(Control, reversals)
         .FIELD(Control, both_flanks);
-    record<March>(m, "March")
-        .FIELD(March, begin)
-        .FIELD(March, end)
-        .FIELD(March, constants)
-        .FIELD(March, scratch)
-        .FIELD(March, first)
-        .FIELD(March, last)
-        .FIELD(March, dense)
-        .FIELD(March, control)
-        .FIELD(March, work)
-        .FIELD(March, run)
-        .FIELD(March, periodic)
-        .FIELD(March, sums);
+    record<Integrator>(m, "Integrator")
+        .FIELD(Integrator, begin)
+        .FIELD(Integrator, end)
+        .FIELD(Integrator, constants)
+        .FIELD(Integrator, scratch)
+        .FIELD(Integrator, first)
+        .FIELD(Integrator, last)
+        .FIELD(Integrator, dense)
+        .FIELD(Integrator, control)
+        .FIELD(Integrator, work)
+        .FIELD(Integrator, run)
+        .FIELD(Integrator, periodic)
+        .FIELD(Integrator, sums);
     record<Equilibrium>(m, "Equilibrium")
         .FIELD(Equilibrium, state)
         .FIELD(Equilibrium, step)
         .FIELD(Equilibrium, evaluation)
         .FIELD(Equilibrium, before)
-        .FIELD(Equilibrium, lean)
+        .FIELD(Equilibrium, closing_side)
         .FIELD(Equilibrium, error)
         .FIELD(Equilibrium, stiffness)
-        .FIELD(Equilibrium, play)
+        .FIELD(Equilibrium, clearance)
         .FIELD(Equilibrium, force)
         .FIELD(Equilibrium, torque)
         .FIELD(Equilibrium, balance)

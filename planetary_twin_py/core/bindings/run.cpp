@@ -23,7 +23,8 @@ using namespace nb::literals;
 namespace {
 
 // Arrays of a waveform: time, dte, mesh force, friction; displacement, bearing force, orbit and
-// flank force, without columns where the axes are held; axial motion and tilts where these are.
+// flank force, which have no columns if the axes are fixed; axial motion and tilts, if the axes
+// tilt.
 using WaveformTuple = std::tuple<Values, Rows, Rows, Rows, Rows, Rows, Rows, Rows, Rows>;
 
 bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
@@ -32,8 +33,8 @@ bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
 
 Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int64_t first,
                      double rate, const Train& train) {
-    auto& [time, dte, mesh_force, friction, displacement, bearing_force, orbit, flank_force, lean] =
-        arrays;
+    auto& [time, dte, mesh_force, friction, displacement, bearing_force, orbit, flank_force,
+           tilting] = arrays;
     std::size_t rows = time.size(), meshes = static_cast<std::size_t>(report.meshes);
     bool sound = true;
     for (const Rows* values : {&dte, &mesh_force, &friction}) sound &= fits(*values, rows, meshes);
@@ -41,29 +42,29 @@ Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int
         auto bearings = static_cast<std::size_t>(train.moving.bearings);
         sound &= fits(displacement, rows, 2 * bearings) && fits(bearing_force, rows, 2 * bearings);
         sound &= fits(orbit, rows, 2 * MEMBERS) && fits(flank_force, rows, FLANKS * meshes);
-        sound &= fits(lean, rows, tilts(train) ? SAMPLE_LEAN * bearings : 0);
+        sound &= fits(tilting, rows, tilts(train) ? SAMPLE_TILTING * bearings : 0);
     }
     if (!sound) throw nb::value_error("waveform: arrays of a wrong shape");
-    return {
-        static_cast<std::int64_t>(rows),
-        first,
-        rate,
-        time.data(),
-        dte.data(),
-        mesh_force.data(),
-        friction.data(),
-        {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data(), lean.data()}};
+    return {static_cast<std::int64_t>(rows),
+            first,
+            rate,
+            time.data(),
+            dte.data(),
+            mesh_force.data(),
+            friction.data(),
+            {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data(),
+             tilting.data()}};
 }
 
 // Arguments of `run_window` in Python, in this order.
-using JobTuple = std::tuple<const Model*, March*, InstantTuple, SamplingTuple, const Limits*,
+using JobTuple = std::tuple<const Model*, Integrator*, InstantTuple, SamplingTuple, const Limits*,
                             const Report*, std::int64_t, double, WaveformTuple, WindowEnd*, bool>;
 
 WindowJob job_of(const JobTuple& values) {
-    auto& [model, march, until, samples, limits, report, first, rate, waveform, end, closes] =
+    auto& [model, integrator, until, samples, limits, report, first, rate, waveform, end, closes] =
         values;
     return {*model,
-            *march,
+            *integrator,
             instant_of(until),
             sampling_of(samples),
             *limits,
@@ -73,12 +74,12 @@ WindowJob job_of(const JobTuple& values) {
             closes};
 }
 
-int py_run_window(const Model& model, March& march, const InstantTuple& until,
+int py_run_window(const Model& model, Integrator& integrator, const InstantTuple& until,
                   const SamplingTuple& samples, const Limits& limits, const Report& report,
                   std::int64_t first, double rate, const WaveformTuple& out, WindowEnd& end,
                   bool closes) {
     WindowJob job{model,
-                  march,
+                  integrator,
                   instant_of(until),
                   sampling_of(samples),
                   limits,
@@ -150,27 +151,27 @@ void bind_run(nb::module_& m) {
     m.attr("NOT_FINITE") = static_cast<int>(Outcome::NOT_FINITE);
     m.attr("NO_FINITE_STATE") = NO_FINITE_STATE;
     m.def(
-        "run_window", &py_run_window, "model"_a, "march"_a, "until"_a, "samples"_a, "limits"_a,
+        "run_window", &py_run_window, "model"_a, "integrator"_a, "until"_a, "samples"_a, "limits"_a,
         "report"_a, "first"_a, "rate"_a, "out"_a, "end"_a, "closes"_a,
         "Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.\n\n"
         "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
     m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
-          "`run_window` of every job, in so many threads; the outcomes in order.");
-    m.def("begin_window", &begin_window, "model"_a, "march"_a, "end"_a,
+          "`run_window` of every job in `workers` threads; the outcomes in order.");
+    m.def("begin_window", &begin_window, "model"_a, "integrator"_a, "end"_a,
           "Begin a window: fill time, ledger, power and stored energy of `end`.");
     m.def(
         "pop_energy_ledger",
-        [](March& march, const Values& ledger) {
-            pop_energy_ledger(march, entries(ledger, LEDGER));
+        [](Integrator& integrator, const Values& ledger) {
+            pop_energy_ledger(integrator, entries(ledger, LEDGER));
         },
-        "march"_a, "ledger"_a, "Integrals of the ledger since they were last taken.");
+        "integrator"_a, "ledger"_a, "Integrals of the ledger since the last call.");
     m.def(
         "pop_mesh_sums",
-        [](const Model& model, March& march, const InstantTuple& until, MeshSums& sums) {
+        [](const Model& model, Integrator& integrator, const InstantTuple& until, MeshSums& sums) {
             Unlocked unlocked;
-            pop_mesh_sums(model, march, instant_of(until), sums);
+            pop_mesh_sums(model, integrator, instant_of(until), sums);
         },
-        "model"_a, "march"_a, "until"_a, "sums"_a,
+        "model"_a, "integrator"_a, "until"_a, "sums"_a,
         "Integrals and extremes of the meshes up to `until`, the end of the last window.");
     m.def(
         "orbits",
@@ -188,7 +189,7 @@ void bind_run(nb::module_& m) {
         "displaced"_a, "angle"_a, "out"_a,
         "Displacements of sun, ring and carrier in the housing, from those on the carrier.");
     m.def("window_figures", &window_figures, "train"_a, "report"_a, "begin"_a, "end"_a,
-          "duration"_a, "out"_a, "Figures of a window of so many seconds.");
+          "duration"_a, "out"_a, "Figures of a window of `duration` seconds.");
     bind_statistics(m);
 }
 

@@ -28,7 +28,7 @@ void bind_places(nb::module_& m) {
     m.attr("TERMS") = TERMS;
     m.attr("LINES") = LINES;
     m.attr("FAULTS") = FAULTS;
-    m.attr("ROOM") = ROOM;
+    m.attr("PAIR_CAPACITY") = PAIR_CAPACITY;
     m.attr("JOINTS") = JOINTS;
     m.attr("DRIVE_SIDE") = DRIVE_SIDE;
     m.attr("OPEN") = OPEN;
@@ -100,24 +100,25 @@ void bind_form(nb::module_& m) {
     m.def(
         "form_error",
         [](const Train& train, std::int64_t i, double side, const Lines& angle, double advance,
-           double pace) {
-            auto [e, rate] = form_error(train, i, side, lines(angle), advance, pace);
+           double cycle_rate) {
+            auto [e, rate] = form_error(train, i, side, lines(angle), advance, cycle_rate);
             return std::tuple(e, rate);
         },
-        "train"_a, "i"_a, "side"_a, "angle"_a, "advance"_a, "pace"_a);
+        "train"_a, "i"_a, "side"_a, "angle"_a, "advance"_a, "cycle_rate"_a);
     m.def(
         "radial_error",
-        [](const Train& train, std::int64_t i, const Lines& angle, double advance, double pace) {
-            auto [e, rate] = radial_error(train, i, lines(angle), advance, pace);
+        [](const Train& train, std::int64_t i, const Lines& angle, double advance,
+           double cycle_rate) {
+            auto [e, rate] = radial_error(train, i, lines(angle), advance, cycle_rate);
             return std::tuple(e, rate);
         },
-        "train"_a, "i"_a, "angle"_a, "advance"_a, "pace"_a);
+        "train"_a, "i"_a, "angle"_a, "advance"_a, "cycle_rate"_a);
     m.def(
-        "form_error_bend",
-        [](const Train& train, std::int64_t i, double side, const Lines& angle, double pace) {
-            return form_error_bend(train, i, side, lines(angle), pace);
+        "form_error_acceleration",
+        [](const Train& train, std::int64_t i, double side, const Lines& angle, double cycle_rate) {
+            return form_error_acceleration(train, i, side, lines(angle), cycle_rate);
         },
-        "train"_a, "i"_a, "side"_a, "angle"_a, "pace"_a);
+        "train"_a, "i"_a, "side"_a, "angle"_a, "cycle_rate"_a);
     m.def(
         "find_faults",
         [](const Train& train, const State& state, std::int64_t i, std::int64_t side, double start,
@@ -172,24 +173,26 @@ void bind_contact(nb::module_& m) {
     m.def(
         "deflection",
         [](const Train& train, const StepConstants& step, std::int64_t i, const Vector& x,
-           const Vector& v, double advance, double pace) {
+           const Vector& v, double advance, double cycle_rate) {
             auto [d, rate, e_rate] =
-                deflection(train, step, i, bodies(x), bodies(v), advance, pace);
+                deflection(train, step, i, bodies(x), bodies(v), advance, cycle_rate);
             return std::tuple(d, rate, e_rate);
         },
-        "train"_a, "step"_a, "i"_a, "x"_a, "v"_a, "advance"_a, "pace"_a);
+        "train"_a, "step"_a, "i"_a, "x"_a, "v"_a, "advance"_a, "cycle_rate"_a);
     m.def(
-        "departure",
+        "contact_event",
         [](const Model& model, const State& state, const StepConstants& step, std::int64_t i,
-           const Vector& x, const Vector& v, std::tuple<double, double, double> stand) {
-            auto [advance, pace, slack] = stand;
-            return departure(model, state, step, i, bodies(x), bodies(v), {advance, pace, slack});
+           const Vector& x, const Vector& v, std::tuple<double, double, double> position) {
+            auto [advance, cycle_rate, slack] = position;
+            return contact_event(model, state, step, i, bodies(x), bodies(v),
+                                 {advance, cycle_rate, slack});
         },
-        "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "stand"_a,
-        "Play [m] that mesh i has left before its contact changes; negative: it has changed.");
+        "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "position"_a,
+        "Gap [m] left to mesh i before its contact changes; negative: it has changed.");
     m.def("change_contact", &change_contact, "model"_a, "state"_a, "step"_a, "i"_a);
     m.def("change_segment", &change_segment, "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
-    m.def("force_drift", &force_drift, "model"_a, "state"_a, "step"_a, "i"_a, "pace"_a);
+    m.def("force_time_derivative", &force_time_derivative, "model"_a, "state"_a, "step"_a, "i"_a,
+          "cycle_rate"_a);
     m.def("stored_energy", &stored_energy, "model"_a, "state"_a, "step"_a, "i"_a);
     m.def("add_sums", &add_sums, "step"_a, "total"_a, "lanes"_a);
 }
@@ -207,7 +210,7 @@ void bind_equations(nb::module_& m) {
            const Vector& v, double delay,
            Evaluation& out) { mesh_forces(model, state, step, bodies(x), bodies(v), delay, out); },
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "out"_a,
-        "Pushes of the meshes, whose transmission errors are in out.now.");
+        "Normal forces of the meshes, whose transmission errors are in out.now.");
     m.def(
         "share_loads",
         [](const Model& model, const StepConstants& step, Evaluation& out) {
@@ -222,10 +225,11 @@ void bind_equations(nb::module_& m) {
     m.def(
         "apply_drag",
         [](const Model& model, const State& state, const Vector& v, Evaluation& out) {
-            apply_drag(model, state, bodies(v), out.now.push, out.rubbing, out.power);
+            apply_drag(model, state, bodies(v), out.now.normal_force, out.friction_force,
+                       out.power);
         },
         "model"_a, "state"_a, "v"_a, "out"_a,
-        "Add the drag of joints and discs to out.rubbing; book it in out.power.");
+        "Add the drag of joints and discs to out.friction_force, and its power to out.power.");
     m.def(
         "forces",
         [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
@@ -242,9 +246,9 @@ void bind_equations(nb::module_& m) {
             const std::size_t count = size.size();
             std::vector<double> found(3 * count);
             for (std::size_t i = 0; i < count; ++i) {
-                const Pressed at = rolling_bearing_law(bearing, clearance, size.data()[i]);
+                const BearingResponse at = rolling_bearing_law(bearing, clearance, size.data()[i]);
                 found[i] = at.energy;
-                found[count + i] = at.push;
+                found[count + i] = at.force;
                 found[2 * count + i] = at.stiffness;
             }
             return new_array(found.data(), {3, count});

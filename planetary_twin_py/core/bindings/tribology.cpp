@@ -100,8 +100,8 @@ void bind_laws(nb::module_& m) {
             return std::tuple(rate, decay, gain, slip);
         },
         "share"_a, "sliding"_a, "steady"_a, "slope"_a, "displacement"_a);
-    m.def("bearing_torque", &bearing_torque, "idle"_a, "rubbing"_a, "kinematic_viscosity"_a,
-          "speed"_a, "load"_a);
+    m.def("bearing_torque", &bearing_torque, "no_load_factor"_a, "load_factor"_a,
+          "kinematic_viscosity"_a, "speed"_a, "load"_a);
     m.def("disc_torque", &disc_torque, "radius"_a, "gap_ratio"_a, "density"_a,
           "kinematic_viscosity"_a, "speed"_a);
 }
@@ -150,20 +150,22 @@ void bind_pairs(nb::module_& m) {
     m.def("creeps", &creeps, "train"_a, "cycle_rate"_a);
     m.def(
         "place_bristles",
-        [](ToothPairs& pairs, const Vector& share) { place_bristles(pairs, entries(share, ROOM)); },
+        [](ToothPairs& pairs, const Vector& share) {
+            place_bristles(pairs, entries(share, PAIR_CAPACITY));
+        },
         "pairs"_a, "share"_a);
-    m.def("hold", &hold, "oil"_a, "pairs"_a);
+    m.def("apply_bristles", &apply_bristles, "oil"_a, "pairs"_a);
     m.def(
         "steady_bristles",
         [](const ToothPairs& pairs, const Values& share) {
-            steady_bristles(pairs, entries(share, ROOM));
+            steady_bristles(pairs, entries(share, PAIR_CAPACITY));
         },
         "pairs"_a, "share"_a);
     m.def(
         "pass_bristles",
         [](const Train& train, const Values& share, std::int64_t i, std::int64_t segment,
            std::int64_t direction) {
-            pass_bristles(train, entries(share, ROOM), i, segment, direction);
+            pass_bristles(train, entries(share, PAIR_CAPACITY), i, segment, direction);
         },
         "train"_a, "share"_a, "i"_a, "segment"_a, "direction"_a);
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-// Without the interpreter's lock, for the time of a call of the core.
+// Releases the interpreter's lock during a call of the core.
 //
-// A thread that comes back while the interpreter ends would be unwound by Python, through C++
-// frames that may not be: the process would abort. It waits for the end of the process instead.
+// Python would unwind a thread that returns while the interpreter ends, through C++ frames: the
+// process would abort. The thread waits for the end of the process instead.
 
 #include <Python.h>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "bindings/unlocked.hpp"
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 
@@ -23,7 +23,7 @@ using Lines = nb::ndarray<double, nb::shape<MESHES, LINES>, nb::c_contig, nb::de
 
 using release = nb::call_guard<Unlocked>;
 
-// The entries of an argument, of which there have to be `size` at least.
+// Data of an argument, which must have at least `size` entries.
 template <class Array>
 inline auto entries(const Array& array, std::size_t size) {
     if (array.size() < size) throw nb::value_error("an array is shorter than its room");

@@ -16,7 +16,7 @@ extern const char* const SOURCES;  // digest of the sources, of a file that the 
 
 namespace {
 
-using fmu::Complaint;
+using fmu::ErrorMessage;
 
 constexpr double SAME_INSTANT = 1e-9;  // [s] largest difference of equal communication points
 
@@ -46,7 +46,7 @@ public:
         GearboxInstance::reset();
     }
 
-    Complaint set(std::uint32_t reference, double value) override {
+    ErrorMessage set(std::uint32_t reference, double value) override {
         const Variable* variable = find(reference);
         if (!variable) return "value reference " + std::to_string(reference) + ": no such variable";
         if (variable->given == NOT_GIVEN)
@@ -61,19 +61,19 @@ public:
         return {};
     }
 
-    Complaint get(std::uint32_t reference, double& value) override {
+    ErrorMessage get(std::uint32_t reference, double& value) override {
         const Variable* variable = find(reference);
         if (!variable) return "value reference " + std::to_string(reference) + ": no such variable";
         if (variable->kind == POINT) {
             value = *field(run_.wanted, variable->index);
             return {};
         }
-        if (Complaint complaint = settle(); !complaint.empty()) return complaint;
+        if (ErrorMessage error = settle(); !error.empty()) return error;
         value = show(*variable);
         return {};
     }
 
-    Complaint set_tolerance(double tolerance) override {
+    ErrorMessage set_tolerance(double tolerance) override {
         if (!(scene_->tolerances[0] <= tolerance && tolerance <= scene_->tolerances[1]))
             return "tolerance = " + number(tolerance) + ": must be within " +
                    number(scene_->tolerances[0]) + " and " + number(scene_->tolerances[1]);
@@ -84,13 +84,13 @@ public:
 
     void begin_at(double time) override { run_.origin = time; }
 
-    Complaint start() override {
-        Complaint complaint = settle();
-        run_.running = complaint.empty();
-        return complaint;
+    ErrorMessage start() override {
+        ErrorMessage error = settle();
+        run_.running = error.empty();
+        return error;
     }
 
-    Complaint step(double from, double to) override {
+    ErrorMessage step(double from, double to) override {
         if (run_.failed) return "the run has been stopped and cannot go on";
         const double missed = from - run_.origin - time();
         if (!(std::fabs(missed) <= SAME_INSTANT))
@@ -144,7 +144,7 @@ private:
     }
 
     // Before the end of the initialisation, start the run with the present values.
-    Complaint settle() {
+    ErrorMessage settle() {
         if (run_.running || !run_.dirty) return {};
         try {
             gearbox::start(*scene_, run_);
@@ -155,7 +155,7 @@ private:
         return {};
     }
 
-    Complaint go_to(std::int64_t end) {
+    ErrorMessage go_to(std::int64_t end) {
         Outcome outcome = Outcome::NOT_FINITE;
         try {
             change_point(*scene_, run_);
@@ -202,18 +202,18 @@ private:
     }
 };
 
-std::unique_ptr<Exported> read_records(const char* path, Complaint& complaint) {
+std::unique_ptr<Exported> read_records(const char* path, ErrorMessage& error) {
     char digest[DIGEST] = {};
     auto scene = std::make_unique<Exported>();
     std::FILE* file = std::fopen(path, "rb");  // streams would ask for a newer C library
     if (!file || std::fread(digest, DIGEST, 1, file) != 1)
-        complaint = std::string(path) + ": cannot be read";
+        error = std::string(path) + ": cannot be read";
     else if (std::strncmp(digest, SOURCES, DIGEST) != 0)
-        complaint = std::string(path) + ": was written for another build of the core";
+        error = std::string(path) + ": was written for another build of the core";
     else if (std::fread(static_cast<void*>(scene.get()), sizeof(Exported), 1, file) != 1)
-        complaint = std::string(path) + ": is incomplete";
+        error = std::string(path) + ": is incomplete";
     if (file) std::fclose(file);
-    return complaint.empty() ? std::move(scene) : nullptr;
+    return error.empty() ? std::move(scene) : nullptr;
 }
 
 }  // namespace
@@ -221,7 +221,7 @@ std::unique_ptr<Exported> read_records(const char* path, Complaint& complaint) {
 }  // namespace gearbox
 
 extern "C" __attribute__((visibility("default"))) fmu::Instance* make_instance(
-    const char* records, fmu::Complaint& complaint) {
-    auto scene = gearbox::read_records(records, complaint);
+    const char* records, fmu::ErrorMessage& error) {
+    auto scene = gearbox::read_records(records, error);
     return scene ? new gearbox::GearboxInstance(std::move(scene)) : nullptr;
 }

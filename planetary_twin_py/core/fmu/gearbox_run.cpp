@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "integrators/march.hpp"
+#include "integrators/integrator.hpp"
 #include "integrators/radau.hpp"
 #include "integrators/step_control.hpp"
 #include "train/energy.hpp"
@@ -30,8 +30,8 @@ bool same(const OperatingPoint& a, const OperatingPoint& b) {
 void set_nodes(const Exported& scene, RunState& run) {
     for (int n = 0; n < NODE_CHOICES; ++n) {
         if (!(run.tolerance > scene.least_tolerance[n])) continue;
-        if (run.march.run.nodes.count != scene.points[n])
-            radau(static_cast<int>(scene.points[n]), run.march.run.nodes);
+        if (run.integrator.run.nodes.count != scene.points[n])
+            radau(static_cast<int>(scene.points[n]), run.integrator.run.nodes);
         return;
     }
 }
@@ -40,7 +40,7 @@ void set_nodes(const Exported& scene, RunState& run) {
 void load_point(const Exported& scene, RunState& run) {
     const OperatingPoint& point = run.wanted;
     Model& model = run.model;
-    Control& control = run.march.control;
+    Control& control = run.integrator.control;
     if (!run.started || point.lambda_ratio != run.point.lambda_ratio)
         prescribe(model.oil, point.lambda_ratio);
     Load load = load_at(scene.laws, point);
@@ -51,9 +51,9 @@ void load_point(const Exported& scene, RunState& run) {
     set_nodes(scene, run);
     control.changed = true;
     const Repetition& repetition = scene.repetition[load.ripple != 0.0];
-    run.march.periodic.cycles = repetition.cycles;
-    run.march.periodic.numerator = repetition.numerator;
-    run.march.periodic.denominator = repetition.denominator;
+    run.integrator.periodic.cycles = repetition.cycles;
+    run.integrator.periodic.numerator = repetition.numerator;
+    run.integrator.periodic.denominator = repetition.denominator;
     run.point = point;
 }
 
@@ -68,12 +68,12 @@ struct OneSample {
 };
 
 void fill_sample(RunState& run, OneSample& sample) {
-    advance(run.model, run.march, now(run), NEVER, {}, {}, sample.room(run.model.train));
+    advance(run.model, run.integrator, now(run), NEVER, {}, {}, sample.room(run.model.train));
 }
 
 // Mean loss of tooth friction [W] in the last step.
 double mean_loss(const Exported& scene, RunState& run, double duration) {
-    pop_mesh_sums(run.model, run.march, now(run), run.window_end.sums);
+    pop_mesh_sums(run.model, run.integrator, now(run), run.window_end.sums);
     double lost = 0.0;
     for (std::int64_t i = 0; i < scene.report.meshes; ++i)
         lost += run.window_end.sums.integral[POWER_LOSS][scene.report.mesh[i]];
@@ -83,8 +83,8 @@ double mean_loss(const Exported& scene, RunState& run, double duration) {
 // Restart the sums of the meshes and the ledger.
 void restart_sums(RunState& run) {
     OneSample sample;
-    pop_mesh_sums(run.model, run.march, now(run), run.window_end.sums);
-    begin_window(run.model, run.march, run.window_end);
+    pop_mesh_sums(run.model, run.integrator, now(run), run.window_end.sums);
+    begin_window(run.model, run.integrator, run.window_end);
     fill_sample(run, sample);
 }
 
@@ -93,8 +93,8 @@ void restart_sums(RunState& run) {
 void prepare(const Exported& scene, RunState& run) {
     run = std::move(*std::make_unique<RunState>());  // which is too large for some stacks
     run.model = scene.model;
-    run.march.control = scene.control;
-    run.march.periodic.pause = scene.pause;
+    run.integrator.control = scene.control;
+    run.integrator.periodic.pause = scene.pause;
     run.point = run.wanted = scene.point;
     run.command = NO_COMMAND;
     run.tolerance = scene.tolerance;
@@ -110,32 +110,32 @@ void start(const Exported& scene, RunState& run) {
     run.origin = origin;
     run.tolerance = tolerance;
     load_point(scene, run);
-    March& march = run.march;
+    Integrator& integrator = run.integrator;
     double speed[AXES] = {start_speed(scene.laws, run.point), run.point.second_input_speed};
     const double force = mesh_force(scene.laws, run.model.load.torque[0]);
-    march.end = initial_state(run.model, speed, force).state;
-    march.begin = march.end;
-    begin_step(run.model, march);
-    march.end = march.begin;  // tooth pairs may have started to stick
+    integrator.end = initial_state(run.model, speed, force).state;
+    integrator.begin = integrator.end;
+    begin_step(run.model, integrator);
+    integrator.end = integrator.begin;  // tooth pairs may have started to stick
     OneSample sample;
     fill_sample(run, sample);
-    stored(run.model, march.end, march.scratch);
-    pop_mesh_sums(run.model, march, now(run), run.window_end.sums);
-    cut(run.model, march, now(run));
-    begin_window(run.model, march, run.window_end);
+    stored(run.model, integrator.end, integrator.scratch);
+    pop_mesh_sums(run.model, integrator, now(run), run.window_end.sums);
+    cut(run.model, integrator, now(run));
+    begin_window(run.model, integrator, run.window_end);
     fill_sample(run, sample);
-    read_ports(run.model, march, now(run), run.shown);
+    read_ports(run.model, integrator, now(run), run.shown);
     run.started = true;
 }
 
 void change_point(const Exported& scene, RunState& run) {
     if (same(run.wanted, run.point)) return;
     if (run.stepped) restart_sums(run);
-    cut(run.model, run.march, now(run));
-    run.march.sums.total = {};
-    run.march.sums.taken = run.march.control.step;
+    cut(run.model, run.integrator, now(run));
+    run.integrator.sums.total = {};
+    run.integrator.sums.taken = run.integrator.control.step;
     load_point(scene, run);
-    begin_window(run.model, run.march, run.window_end);
+    begin_window(run.model, run.integrator, run.window_end);
     OneSample sample;
     fill_sample(run, sample);
     run.stepped = false;
@@ -144,11 +144,11 @@ void change_point(const Exported& scene, RunState& run) {
 Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
     const double duration = static_cast<double>(end - run.ticks) / static_cast<double>(TICKS);
     PortStep step{run.ticks, end, run.command, scene.linear, true};
-    if (check(run.model.load, scene.ranges, step.command) != Answer::OBEYED)
+    if (check(run.model.load, scene.ranges, step.command) != Answer::ACCEPTED)
         return Outcome::REFUSED;
     run.command = NO_COMMAND;
     const Outcome outcome =
-        step_ports(run.model, run.march, step, scene.limits, run.window_end, run.shown);
+        step_ports(run.model, run.integrator, step, scene.limits, run.window_end, run.shown);
     run.ticks = end;
     run.stepped = true;
     if (outcome == Outcome::WITHIN_LIMITS) run.tooth_loss = mean_loss(scene, run, duration);

@@ -12,7 +12,7 @@ namespace gearbox {
 // State of a run.
 struct alignas(64) RunState {
     Model model;
-    March march;
+    Integrator integrator;
     OperatingPoint point;   // present operating point
     OperatingPoint wanted;  // operating point from the next step on
     Command command;        // of the next step; NaN: no value is given

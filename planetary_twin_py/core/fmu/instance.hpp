@@ -9,7 +9,7 @@
 namespace fmu {
 
 // Error message in one line; empty: no error.
-using Complaint = std::string;
+using ErrorMessage = std::string;
 
 // State of a run; its owner deletes it.
 struct Snapshot {
@@ -21,18 +21,18 @@ public:
     virtual ~Instance() = default;
 
     // Values of variables, which are numbered by their value references.
-    virtual Complaint set(std::uint32_t variable, double value) = 0;
-    virtual Complaint get(std::uint32_t variable, double& value) = 0;
+    virtual ErrorMessage set(std::uint32_t variable, double value) = 0;
+    virtual ErrorMessage get(std::uint32_t variable, double& value) = 0;
 
     // Set the local error tolerance of the integrator, before the start.
-    virtual Complaint set_tolerance(double tolerance) = 0;
+    virtual ErrorMessage set_tolerance(double tolerance) = 0;
 
     // Set the start time [s]; then `start` ends the initialisation.
     virtual void begin_at(double time) = 0;
-    virtual Complaint start() = 0;
+    virtual ErrorMessage start() = 0;
 
     // Simulate from one communication point to another [s].
-    virtual Complaint step(double from, double to) = 0;
+    virtual ErrorMessage step(double from, double to) = 0;
 
     // Restore the state after the instantiation.
     virtual void reset() = 0;
@@ -43,6 +43,6 @@ public:
 
 // Function `make_instance` of the library of a level: reads the records of a scene. If it fails, it
 // returns null and sets the message.
-using MakeInstance = Instance* (*)(const char* records, Complaint& complaint);
+using MakeInstance = Instance* (*)(const char* records, ErrorMessage& error);
 
 }  // namespace fmu

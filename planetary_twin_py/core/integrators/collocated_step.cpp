@@ -17,147 +17,151 @@ namespace gearbox {
 
 namespace {
 
-constexpr double ON_EDGE = 1e-13;   // [s] to which a step ends on the edge of a tooth pair
-constexpr double WITHIN = 0.1;      // of the step, by which its end is moved for that at most
-constexpr double CUT_SHORT = 1e-3;  // of the step that was to be made
-constexpr double STRETCH = 1.2;     // by which a planned step is stretched to end on an event
-constexpr int LANDINGS = 3;
+constexpr double ON_EDGE = 1e-13;   // [s] tolerance of a step end at an edge of a pair
+constexpr double WITHIN = 0.1;      // of the step: largest change of its end for that
+constexpr double CUT_SHORT = 1e-3;  // of the next step
+constexpr double STRETCH = 1.2;     // factor by which a step may be lengthened to end on an event
+constexpr int MOST_CORRECTIONS = 3;
 
-// Whether Rosenbrock's method is to be taken rather than collocation over h seconds: where the
-// sweeps do not settle, or where friction reverses so fast that its steps are longer. Elsewhere
-// short steps are what the accuracy asks for.
-bool rosenbrock_is_faster(const Control& control, double h, bool settled, int restless) {
+// Whether Rosenbrock's method replaces collocation over h seconds: if the sweeps do not converge,
+// or if friction reverses so fast that steps of Rosenbrock's method are longer. Otherwise, short
+// steps are necessary for the accuracy.
+bool rosenbrock_is_faster(const Control& control, double h, bool converged, int unconverged) {
     if (control.method == COLLOCATION) return false;
-    if (!settled && (restless > 1 || h < control.next_stiff)) return true;
+    if (!converged && (unconverged > 1 || h < control.next_stiff)) return true;
     return control.slow && h < control.next_stiff;
 }
 
-// Whether the teeth are helical: at the pitch point contact lines grow to both sides.
+// Whether the teeth are helical: then a contact moves by other than one base pitch per mesh cycle.
 bool has_contact_lines(const Train& train) {
     for (std::int64_t p = 0; p < train.present[0][0]; ++p)
         if (train.travel[0][0][p] != 1.0) return true;
     return false;
 }
 
-// Free waves h seconds after the start, most often just beside the last node.
+// Free waves h seconds after the start, usually close to the last node.
 template <int L>
 void find_end_waves(Propagation& run, double h) {
     const std::int64_t last = run.nodes.count - 1;
     const double later = h - run.motion.step;
-    if (run.motion.pace * std::fabs(later) <= FEW_SHIFTED)
+    if (run.motion.fastest_rate * std::fabs(later) <= FEW_SHIFTED)
         shift_waves<L, FEW_TERMS>(run.motion, later, Row<L>(run.cosine[last]),
                                   Row<L>(run.sine[last]), run.end_cosine, run.end_sine);
     else
         waves<L>(run.motion, h, run.end_cosine, run.end_sine);
 }
 
-// Let the step end after h seconds: bodies alone.
+// End the step after h seconds: x and v of the bodies only.
 template <int L>
-void place_end(const Model& model, March& march, double h) {
-    Propagation& run = march.run;
+void place_end(const Model& model, Integrator& integrator, double h) {
+    Propagation& run = integrator.run;
     const std::int64_t last = run.nodes.count - 1;
-    march.control.step = h;
+    integrator.control.step = h;
     if (h == run.motion.step) {
         copy<L>(run.cosine[last], run.end_cosine);
         copy<L>(run.sine[last], run.end_sine);
-        copy<L>(run.node[last].x, march.end.x);
-        copy<L>(run.node[last].v, march.end.v);
+        copy<L>(run.node[last].x, integrator.end.x);
+        copy<L>(run.node[last].v, integrator.end.v);
         return;
     }
     find_end_waves<L>(run, h);
     RowPair<L> modes = modal_states<L>(run.motion, h * run.motion.per_step, Row<L>(run.end_cosine),
                                        Row<L>(run.end_sine));
-    auto [x, v] = sum_rows<L>(contacts_of(run).matrices.form(), modes);
-    x.store(march.end.x);
-    v.store(march.end.v);
-    move_given(model, march.begin, h, march.end.x, march.end.v);
+    auto [x, v] = sum_rows<L>(contacts_of(run).matrices.shapes(), modes);
+    x.store(integrator.end.x);
+    v.store(integrator.end.v);
+    move_given(model, integrator.begin, h, integrator.end.x, integrator.end.v);
 }
 
-// What else the end of the step has, once it stands.
+// Fill the rest of the state at the end of the step: trim, energy ledger and clock.
 template <int L>
-void finish_end(const Model& model, March& march) {
-    const double h = march.control.step;
-    trim_at(model, march, h, march.end.x, march.end.trim);
-    integrate_powers<L>(model.train, march, h);
-    add_given_work<L>(model, march, h);
-    advance_clock(model, march, h);
+void finish_end(const Model& model, Integrator& integrator) {
+    const double h = integrator.control.step;
+    trim_at(model, integrator, h, integrator.end.x, integrator.end.trim);
+    integrate_powers<L>(model.train, integrator, h);
+    add_given_work<L>(model, integrator, h);
+    advance_clock(model, integrator, h);
 }
 
-// Time [s] until `mesh` comes to the edge of its segment, were the pace to change on as it did
-// between the last two nodes.
-double time_by_pace(const Model& model, const March& march, std::int64_t mesh) {
+// Time [s] until `mesh` reaches the edge of its segment, if its cycle rate changes at the same rate
+// as between the last two nodes.
+double time_by_pace(const Model& model, const Integrator& integrator, std::int64_t mesh) {
     const Train& train = model.train;
-    const Propagation& run = march.run;
+    const Propagation& run = integrator.run;
     const std::int64_t last = run.nodes.count - 1;
-    double gap = time_to_edge(model, march, mesh);
+    double gap = time_to_edge(model, integrator, mesh);
     if (last == 0) return gap;
-    double pace = march.constants.cycle_rate + cycle_shift(train, march.end.v);
+    double cycle_rate = integrator.constants.cycle_rate + cycle_shift(train, integrator.end.v);
     double faster = cycle_shift(train, run.node[last].v) - cycle_shift(train, run.node[last - 1].v);
     double between = (run.nodes.abscissa[last] - run.nodes.abscissa[last - 1]) * run.motion.step;
-    return gap - 0.5 * gap * gap * faster / (between * pace);
+    return gap - 0.5 * gap * gap * faster / (between * cycle_rate);
 }
 
-// Move the end of the step to where `mesh` comes to the edge of its segment. Where the pace has
-// changed too much for that, the next steps come to the edge.
+// Move the end of the step to the instant at which `mesh` reaches the edge of its segment. If the
+// cycle rate has changed too much for that, a later step ends on the edge.
 template <int L>
-void end_step_at_edge(const Model& model, March& march, std::int64_t mesh, double h) {
-    for (int k = 0; k < LANDINGS; ++k) {
-        double gap = time_by_pace(model, march, mesh);
+void end_step_at_edge(const Model& model, Integrator& integrator, std::int64_t mesh, double h) {
+    for (int k = 0; k < MOST_CORRECTIONS; ++k) {
+        double gap = time_by_pace(model, integrator, mesh);
         if (std::fabs(gap) < ON_EDGE || !(std::fabs(gap) < WITHIN * h)) return;
         h += gap;
-        place_end<L>(model, march, h);
+        place_end<L>(model, integrator, h);
     }
 }
 
-// Let the step end where a mesh changes its contact first; that mesh, or NO_MESH.
+// End the step at the first change of contact of a mesh; return that mesh, or NO_MESH.
 template <int L>
-std::int64_t end_on_flank_event(const Model& model, March& march, double h) {
-    FlankEvent event = first_flank_event(model, march);
-    if (event.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, march, event.mesh))
-        place_end<L>(model, march, event.when);
+std::int64_t end_on_flank_event(const Model& model, Integrator& integrator, double h) {
+    FlankEvent event = first_flank_event(model, integrator);
+    if (event.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, integrator, event.mesh))
+        place_end<L>(model, integrator, event.when);
     return event.mesh;
 }
 
-// The step that did when such contacts began the last time, or that follows from the last step.
-double first_trial(March& march, double longest, double event) {
-    const ContactState& contacts = contacts_of(march.run);
-    bool known = march.control.changed && contacts.step > 0.0;
-    double h = known ? contacts.step : march.control.next_step;
+// First trial: the step that was accepted when this contact state started the last time, or the
+// step that follows from the last one.
+double first_trial(Integrator& integrator, double longest, double event) {
+    const ContactState& contacts = contacts_of(integrator.run);
+    bool known = integrator.control.changed && contacts.step > 0.0;
+    double h = known ? contacts.step : integrator.control.next_step;
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
 }
 
-// Length of a step whose error is allowed, and by how much the next may be longer; 0: none, and for
-// how many steps the other method is to take over.
+// Length of an accepted step, 0 if there is none, with its error in tolerances; then also the
+// number of steps for which Rosenbrock's method is used.
 struct Accepted {
     double step;
     double error;
-    std::int64_t detour = 0;
+    std::int64_t fallback_steps = 0;
 };
 
 template <int L>
-Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
-    Control& control = march.control;
-    const double order = static_cast<double>(march.run.nodes.count);
-    int restless = 0;
+Accepted accepted_step(const Model& model, Integrator& integrator, double h, bool fresh) {
+    Control& control = integrator.control;
+    const double order = static_cast<double>(integrator.run.nodes.count);
+    int unconverged = 0;
     while (true) {
-        if (control.method != COLLOCATION && !resolves(march.run, model.train.bodies, h))
-            return {0.0, 0.0, has_contact_lines(model.train) ? BRIEF_DETOUR : DETOUR};
-        Outcome tried = collocate<L>(model, march, h, fresh);
-        if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < ASTRAY))
+        if (control.method != COLLOCATION && !resolves(integrator.run, model.train.bodies, h))
+            return {0.0, 0.0,
+                    has_contact_lines(model.train) ? BRIEF_FALLBACK_STEPS : FALLBACK_STEPS};
+        Outcome tried = collocate<L>(model, integrator, h, fresh);
+        if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < DIVERGED))
             return {h, tried.error};
-        restless += tried.settled ? 0 : 1;
+        unconverged += tried.converged ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
-        if (h <= SHORTEST_STEP || rosenbrock_is_faster(control, shorter, tried.settled, restless))
-            return {0.0, 0.0, DETOUR};
+        if (h <= SHORTEST_STEP ||
+            rosenbrock_is_faster(control, shorter, tried.converged, unconverged))
+            return {0.0, 0.0, FALLBACK_STEPS};
         ++control.rejected;
         h = std::max(shorter, SHORTEST_STEP);
     }
 }
 
-// Powers and friction at the last node, with which the next step begins.
-void keep_last_forces(const Model& model, const March& march, Node& node, Evaluation& last) {
-    for (double& force : last.rubbing) force = 0.0;
-    find_friction_forces(model, march, node, last.rubbing);
+// Store powers and friction at the last node, which the next step uses at its start.
+void store_last_forces(const Model& model, const Integrator& integrator, Node& node,
+                       Evaluation& last) {
+    for (double& force : last.friction_force) force = 0.0;
+    find_friction_forces(model, integrator, node, last.friction_force);
     std::memcpy(last.power, node.power, sizeof last.power);
     last.power[STIFFNESS_WORK] = 0.0;
     add_mesh_power(model.train, node.meshes, last.power);
@@ -166,58 +170,62 @@ void keep_last_forces(const Model& model, const March& march, Node& node, Evalua
 }
 
 template <int L>
-std::int64_t make_step(const Model& model, March& march, double longest, const NextEvent& event) {
-    Control& control = march.control;
-    Propagation& run = march.run;
+std::int64_t make_step(const Model& model, Integrator& integrator, double longest,
+                       const NextEvent& event) {
+    Control& control = integrator.control;
+    Propagation& run = integrator.run;
     const std::int64_t last = run.nodes.count - 1;
-    enter<L>(model, march);
+    enter<L>(model, integrator);
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
-    double first = first_trial(march, longest, event.time);
-    auto [h, error, detour] = accepted_step<L>(model, march, first, fresh);
+    double first = first_trial(integrator, longest, event.time);
+    auto [h, error, fallback_steps] = accepted_step<L>(model, integrator, first, fresh);
     if (h == 0.0) {
-        control.detour = detour;
+        control.fallback_steps = fallback_steps;
         return FAILED;
     }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
-    // A step between the crowded edges of helical teeth says nothing about the steps to come.
+    // A step between close edges of helical teeth does not predict the length of later steps.
     const bool helical = has_contact_lines(model.train);
     const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) contacts_of(run).step = control.next_step;
-    store_growth<L>(model, march);
-    // There a step that may grow was short by its trial, after one between close edges, not by its
-    // error.
+    store_increment<L>(model, integrator);
+    // For helical teeth, a step whose error allows a longer one was short because of its trial
+    // length after close edges, not because of its error.
     const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);
-    if (held_back && rosenbrock_is_faster(control, h, true, 0)) control.detour = DETOUR;
-    keep_step<L>(run);
+    if (held_back && rosenbrock_is_faster(control, h, true, 0))
+        control.fallback_steps = FALLBACK_STEPS;
+    store_step<L>(run);
     control.collocated = true;
     control.changed = false;
-    march.end = march.begin;
-    place_end<L>(model, march, h);
-    if (event.mesh != NO_MESH && h == event.time) end_step_at_edge<L>(model, march, event.mesh, h);
-    keep_last_forces(model, march, run.node[last], march.last);
-    std::int64_t changing = end_on_flank_event<L>(model, march, h);
-    finish_end<L>(model, march);
-    run.past.end_seconds = march.end.seconds;
-    run.past.end_time = march.end.time;
+    integrator.end = integrator.begin;
+    place_end<L>(model, integrator, h);
+    if (event.mesh != NO_MESH && h == event.time)
+        end_step_at_edge<L>(model, integrator, event.mesh, h);
+    store_last_forces(model, integrator, run.node[last], integrator.last);
+    std::int64_t changing = end_on_flank_event<L>(model, integrator, h);
+    finish_end<L>(model, integrator);
+    run.past.end_seconds = integrator.end.seconds;
+    run.past.end_time = integrator.end.time;
     return changing;
 }
 
 }  // namespace
 
-void end_within(const Model& model, March& march, double h) {
-    march.end = march.begin;
+void end_within(const Model& model, Integrator& integrator, double h) {
+    integrator.end = integrator.begin;
     with_lanes(model.train, [&](auto lanes) {
-        place_end<lanes>(model, march, h);
-        finish_end<lanes>(model, march);
+        place_end<lanes>(model, integrator, h);
+        finish_end<lanes>(model, integrator);
     });
 }
 
-std::int64_t collocated_step(const Model& model, March& march, double longest,
+std::int64_t collocated_step(const Model& model, Integrator& integrator, double longest,
                              const NextEvent& event) {
-    return with_lanes(model.train,
-                      [&](auto lanes) { return make_step<lanes>(model, march, longest, event); });
+    return with_lanes(model.train, [&](auto lanes) {
+        return make_step<lanes>(model, integrator, longest, event);
+    });
 }
 
 }  // namespace gearbox

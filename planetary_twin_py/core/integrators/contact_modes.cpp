@@ -13,11 +13,11 @@ namespace gearbox {
 
 namespace {
 
-constexpr double FIRST_PULL = 1e4;  // [1/s]
+constexpr double FIRST_CONTRACTION = 1e4;  // [1/s]
 // Relative change of a stiffness within its segment that rounding does not explain.
 constexpr double STEADY = 1e-9;
 
-// Stiffness of every mesh with its copies; `varies` where one changes within its segment.
+// Stiffness of every mesh with its copies; `varies` is set if one changes within its segment.
 void find_stiffness(const Train& train, const State& state, ContactState& modes) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = 0.0;
@@ -42,13 +42,14 @@ void add_spring(double (*matrix)[BODIES], const std::int64_t* place, const doubl
         }
 }
 
-// Bearings that move the axes. What their forces differ from linear ones is part of the rest.
+// Number of bearings of moving axes. Deviations of their forces from linear ones are part of the
+// remainder.
 std::int64_t linear_bearings(const Train& train) {
     return MOVING ? train.moving.bearings : 0;
 }
 
-// Whether bearing b most often lets its axis float within its clearance, as that of a planet, which
-// carries the load, does not.
+// Whether the axis of bearing b usually floats within the clearance. Those of planets do not,
+// because they carry the load.
 bool floats(const Train& train, std::int64_t b) {
     return train.moving.clearance[b] > 0.0 && !on_carrier(train.moving, b);
 }
@@ -74,56 +75,56 @@ void stiffness_matrix(const Train& train, const ContactState& modes, const doubl
                    modes.stiffness[i] * train.moving.face_square, scale);
 }
 
-// What mode m does to the bodies, and to the ground beyond them: nothing.
-struct FormOfMode {
-    double way[BODIES] = {};
+// Shape of mode m: displacements of the bodies; that of the ground is zero.
+struct ModeShape {
+    double displacement[BODIES] = {};
 
-    FormOfMode(const Train& train, const ModeMatrices& matrices, std::int64_t m) {
-        std::copy_n(matrices.form()[m], train.bodies, way);
+    ModeShape(const Train& train, const ModeMatrices& matrices, std::int64_t m) {
+        std::copy_n(matrices.shapes()[m], train.bodies, displacement);
     }
 };
 
-// What mode m does to the bearings, which damp it.
+// Damping of mode m by the bearings.
 void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
-    const FormOfMode mode(train, modes.matrices, m);
-    const double* form = mode.way;
+    const ModeShape mode(train, modes.matrices, m);
+    const double* shape = mode.displacement;
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
         for (const BearingRow& row : rows_of_bearing(train, b)) {
             if (row.radial && floats(train, b)) continue;
-            double way = 0.0;
-            for (int e = 0; e < row.size; ++e) way += row.factor[e] * form[row.place[e]];
-            modes.shaft_damping[m] += row.damping * way * way;
+            double displacement = 0.0;
+            for (int e = 0; e < row.size; ++e) displacement += row.factor[e] * shape[row.place[e]];
+            modes.shaft_damping[m] += row.damping * displacement * displacement;
         }
     }
 }
 
-// What mode m does to the meshes, and what damps it.
+// Motion of the meshes in mode m, and its damping.
 void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     ModeMatrices& matrices = modes.matrices;
-    const FormOfMode mode(train, matrices, m);
-    const double* form = mode.way;
+    const ModeShape mode(train, matrices, m);
+    const double* shape = mode.displacement;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double motion = 0.0;
         for (int a = 0; a < entries_of(train); ++a)
-            motion += train.sign[i][a] * form[train.body[i][a]];
+            motion += train.sign[i][a] * shape[train.body[i][a]];
         matrices.entry(matrices.motion(), m, i) = motion;
-        matrices.entry(matrices.reach(), m, i) = std::fabs(motion);
-        matrices.entry(matrices.press(), i, m) = -train.copies[i] * motion;
+        matrices.entry(matrices.motion_magnitude(), m, i) = std::fabs(motion);
+        matrices.entry(matrices.force_to_modes(), i, m) = -train.copies[i] * motion;
         modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * motion * motion;
         if constexpr (MOVING) {
-            const double slope = slope_of(train, i, form), face = train.moving.face_square;
+            const double slope = slope_of(train, i, shape), face = train.moving.face_square;
             modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * face * slope * slope;
             continue;
         }
-        double frame = form[train.body[i][2]] * train.lever[2][i];
+        double frame = shape[train.body[i][2]] * train.lever[2][i];
         for (int g = 0; g < GEARS - 1; ++g) {
-            double spin = form[train.body[i][g]] * train.lever[g][i] - frame;
+            double spin = shape[train.body[i][g]] * train.lever[g][i] - frame;
             matrices.entry(matrices.spin(g), m, i) = spin;
-            matrices.entry(matrices.twist(g), i, m) = train.copies[i] * spin;
+            matrices.entry(matrices.torque_to_modes(g), i, m) = train.copies[i] * spin;
         }
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        double twist = form[train.coupling[c][0]] - form[train.coupling[c][1]];
+        double twist = shape[train.coupling[c][0]] - shape[train.coupling[c][1]];
         modes.shaft_damping[m] += train.coupling_damping[c] * twist * twist;
     }
     damp_by_bearings(train, modes, m);
@@ -131,7 +132,7 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
 
 void solve_modes(const Model& model, const State& state, ContactState& modes) {
     const Train& train = model.train;
-    modes.pull[0] = modes.pull[1] = FIRST_PULL;
+    modes.contraction[0] = modes.contraction[1] = FIRST_CONTRACTION;
     modes.varies = train.faults > 0 || train.lines[0] + train.lines[1] > 0;
     double scale[BODIES] = {}, squares[BODIES], matrix[BODIES][BODIES] = {};
     for (std::int64_t j = 0; j < train.bodies; ++j)
@@ -146,8 +147,8 @@ void solve_modes(const Model& model, const State& state, ContactState& modes) {
     for (std::int64_t m = 0; m < train.bodies; ++m) {
         modes.square[m] = std::max(squares[m], 0.0);
         for (std::int64_t j = 0; j < train.bodies; ++j)
-            matrices.entry(matrices.form(), m, j) = matrices.entry(matrices.share(), j, m) =
-                matrix[j][m] * scale[j];
+            matrices.entry(matrices.shapes(), m, j) =
+                matrices.entry(matrices.shapes_transposed(), j, m) = matrix[j][m] * scale[j];
         spread_mode(train, modes, m);
     }
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-// Undamped modes of the train for the meshes that are in contact and the stiffness they have.
+// Undamped modes of the train for each contact state: the meshes in contact and their stiffness.
 //
-// Between two contact events the train is nearly linear: M x'' + C x' + K x = rest. In the modes of
-// K the left side falls apart into oscillators q'' + c q' + w^2 q, whose motion is known exactly
-// whatever the step. Each contact state has its modes; they are kept, because meshing returns to
-// the same states in every cycle.
+// Between two contact events the train is nearly linear: M x'' + C x' + K x = r, with a nonlinear
+// remainder r. In the modes of K the left side decouples into oscillators q'' + c q' + w^2 q, whose
+// motion is known exactly for any step. The modes of each contact state are stored, because the
+// same states occur in every mesh cycle.
 
 #include "integrators/contact_modes_record.hpp"
 #include "train/model.hpp"
@@ -13,13 +13,13 @@
 
 namespace gearbox {
 
-inline constexpr std::int64_t CONTACT_STATES = MOVING ? 512 : 1024;  // kept at most
+inline constexpr std::int64_t CONTACT_STATES = MOVING ? 512 : 1024;  // largest number stored
 
-// Contacts of `state`, and which shafts have a motion that is given.
+// Key of the contacts of `state` and of the shafts with a given motion.
 ContactKey contact_key(const Model& model, const State& state);
 
-// Place in `known` of the modes of the contacts of `state`, which are computed once. In them, the
-// end of a shaft whose motion is given stands still.
+// Index in `known` of the modes of the contact state, which are computed once. In these modes, the
+// end of a shaft with a given motion is fixed.
 std::int64_t find_modes(const Model& model, const State& state, ContactModes& known);
 
 }  // namespace gearbox

@@ -6,17 +6,17 @@
 #include <unordered_map>
 #include <vector>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {
 
-inline constexpr int MOST_NODES = 5;  // points of collocation in a step
-inline constexpr int KEPT_STEPS = 3;  // in a contact state, of which is kept what returns
+inline constexpr int MOST_NODES = 5;    // points of collocation in a step
+inline constexpr int STORED_STEPS = 3;  // first steps in a contact state, stored for the next cycle
 
-// Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open. That
-// of the sun begins with the shafts whose motion is given. Where each flank has an entry, those of
-// the coast flanks have numbers of their own.
+// Segments of the sun meshes and of the ring meshes as one number each, 0 for open meshes. The
+// number of the sun meshes starts with the shafts whose motion is given. If each flank has an
+// entry, the coast flanks have separate numbers.
 struct ContactKey {
     std::int64_t sun;
     std::int64_t ring;
@@ -42,20 +42,20 @@ struct HashOfContacts {
     }
 };
 
-// Free waves at the nodes of a step, and what they were computed for.
-struct alignas(64) KeptWaves {
+// Free waves at the nodes of a step, and the step for which they were computed.
+struct alignas(64) StoredWaves {
     double step;         // its length, 0: none yet [s]
     std::int64_t nodes;  // and their number
     alignas(64) double cosine[MOST_NODES][BODIES];
     alignas(64) double sine[MOST_NODES][BODIES];
 };
 
-// How rest and friction grew over a step: at its nodes, and in the last row at its start.
-struct alignas(64) KeptGrowth {
+// Remainder and friction of a step: at its nodes, and in the last row at its start.
+struct alignas(64) StoredIncrement {
     double step = 0.0;  // its length, 0: none yet [s]
-    bool predictable;   // whether friction came to rest in one sweep
-    alignas(64) double rest[MOST_NODES + 1][BODIES];
-    alignas(64) double rubbing[MOST_NODES + 1][BODIES];  // [N]
+    bool predictable;   // whether friction converged in one sweep
+    alignas(64) double remainder[MOST_NODES + 1][BODIES];
+    alignas(64) double friction_force[MOST_NODES + 1][BODIES];  // [N]
 };
 
 // Bounds on a free wave and tau times its rate, together, per motion and per rate at its start.
@@ -64,11 +64,11 @@ struct alignas(64) WaveBounds {
     alignas(64) double moving[BODIES];  // [s]
 };
 
-// Matrices of the modes of a contact state, as small as the lanes in use: what steps read again and
-// again stays in the fastest memory.
+// Matrices of the modes of a contact state, with as few lanes as are used, so that they stay in the
+// fastest cache.
 class ModeMatrices {
 public:
-    // Room for so many lanes of modes and of meshes, of which the first are in use.
+    // Allocate this number of lanes for modes and meshes; the first ones are used.
     void resize(std::int64_t modes, std::int64_t meshes, std::int64_t modes_used,
                 std::int64_t meshes_used) {
         of_modes = modes;
@@ -80,18 +80,18 @@ public:
                     {});
     }
 
-    // What mode m does to the bodies, and what body j does to the modes [1/sqrt(kg)].
-    MatrixRows form() const { return {at(0), of_modes, used_modes}; }
-    MatrixRows share() const { return {at(of_modes * of_modes), of_modes, used_modes}; }
-    // What mode m does to the meshes, and its magnitude.
+    // Mode shapes, a row per mode, and transposed, a row per body [1/sqrt(kg)].
+    MatrixRows shapes() const { return {at(0), of_modes, used_modes}; }
+    MatrixRows shapes_transposed() const { return {at(of_modes * of_modes), of_modes, used_modes}; }
+    // Transmission errors in each mode, a row per mode, and their magnitudes.
     MatrixRows motion() const { return {across(0), of_meshes, used_modes}; }
-    MatrixRows reach() const { return {across(1), of_meshes, used_modes}; }
-    // What a force of mesh i and its copies does to the modes.
-    MatrixRows press() const { return {across(2), of_modes, used_meshes}; }
-    // Where axes are held: how mode m turns both gears of the meshes against the carrier
-    // [1/(m sqrt(kg))], and what torques on the gears of mesh i and its copies do to the modes.
+    MatrixRows motion_magnitude() const { return {across(1), of_meshes, used_modes}; }
+    // Modal forces of a force of mesh i and its copies.
+    MatrixRows force_to_modes() const { return {across(2), of_modes, used_meshes}; }
+    // For fixed axes: rotation of both gears of the meshes relative to the carrier in mode m [1/(m
+    // sqrt(kg))], and modal forces of torques on the gears of mesh i and its copies.
     MatrixRows spin(int gear) const { return {across(3 + gear), of_meshes, used_modes}; }
-    MatrixRows twist(int gear) const {
+    MatrixRows torque_to_modes(int gear) const {
         return {across(3 + (GEARS - 1) + gear), of_modes, used_meshes};
     }
 
@@ -121,9 +121,10 @@ private:
 // Modes of one contact state, of unit modal mass.
 struct alignas(64) ContactState {
     ContactKey key;
-    std::int64_t follower;  // the state that came next last time
-    double step;            // that did last time such a state began, 0: none yet [s]
-    double pull[2];         // by which a sweep brings the next closer, per step length [1/s]
+    std::int64_t follower;  // the state that followed the last time
+    double step;            // accepted step when this state started the last time, 0: none yet [s]
+    double contraction[2];  // contraction factor of a sweep per step length, without and with
+                            // friction [1/s]
     bool varies;            // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     ModeMatrices matrices;
@@ -131,20 +132,20 @@ struct alignas(64) ContactState {
     alignas(64) double shaft_damping[BODIES];    // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]
     double tau[2] = {-1.0, -1.0};  // damping times of both kinds of mesh, below 0: none yet [s]
-    alignas(64) double damping[BODIES];  // c [1/s], and the decay rates of these
+    alignas(64) double damping[BODIES];  // c [1/s], and below its `decay_rates`
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];
     alignas(64) double fast[BODIES];
-    WaveBounds bounds;              // with the damping time of either kind of mesh
-    KeptWaves waves[KEPT_STEPS];    // of the first steps in such a state
-    KeptGrowth growth[KEPT_STEPS];  // likewise, see the predictor
+    WaveBounds bounds;                         // with the damping time of either kind of mesh
+    StoredWaves waves[STORED_STEPS];           // of the first steps in such a state
+    StoredIncrement increments[STORED_STEPS];  // likewise, see `predictor.hpp`
 };
 
-// Modes of the contact states met so far. They never move while they are kept.
+// Modes of all contact states so far. Their addresses do not change.
 struct ContactModes {
     std::deque<ContactState> states;
     std::unordered_map<ContactKey, std::int64_t, HashOfContacts> places;
-    std::int64_t last = 0;  // state found last
+    std::int64_t last = 0;  // index of the last state
 
     std::int64_t count() const { return static_cast<std::int64_t>(states.size()); }
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// Integrals over a step of what the tooth pairs of all meshes show: films and friction.
+// Integrals of films and friction of all tooth pairs over a step.
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ struct ContactSums {
     Row<L> rolled = 0.0;                   // through the mesh [J]
 };
 
-// Films of a train without friction, under the pushes in `work`.
+// Films of a train without friction, under the mesh forces in `work`.
 inline void find_contacts(const Model& model, const StepConstants& constants, const double* v,
                           Evaluation& work) {
     share_loads(model, constants, work);
@@ -35,8 +35,8 @@ inline void find_contacts(const Model& model, const StepConstants& constants, co
 
 // Add shares and films of all pairs, times `weight` [s].
 template <int L>
-LAW void add_films(const Train& train, const ToothPairs& pairs, double weight,
-                   ContactSums<L>& sums) {
+ALWAYS_INLINE void add_films(const Train& train, const ToothPairs& pairs, double weight,
+                             ContactSums<L>& sums) {
     for (std::int64_t p = 0, first = 0; p < train.slots; ++p, first += train.meshes) {
         alignas(64) double film[L];
         for (int i = 0; i < L; ++i) film[i] = exp(pairs.log_film[first + i]);
@@ -48,15 +48,15 @@ LAW void add_films(const Train& train, const ToothPairs& pairs, double weight,
 
 // Add friction and forces of an evaluation, times `weight` [s].
 template <int L>
-LAW void add_friction(const Train& train, const Evaluation& work, double weight,
-                      ContactSums<L>& sums) {
+ALWAYS_INLINE void add_friction(const Train& train, const Evaluation& work, double weight,
+                                ContactSums<L>& sums) {
     using V = Row<L>;
     const ToothPairs& pairs = work.pairs;
-    const double rolling = weight * train.base_pitch * std::fabs(work.now.pace);
-    V push(work.now.push);
-    Mask<L> pushes = push > 0.0;
-    sums.touching += select(push == 0.0, 0.0, V(weight));
-    sums.rolled += rolling * select(pushes, push, 0.0);
+    const double rolling = weight * train.base_pitch * std::fabs(work.now.cycle_rate);
+    V normal_force(work.now.normal_force);
+    Mask<L> loaded = normal_force > 0.0;
+    sums.touching += select(normal_force == 0.0, 0.0, V(weight));
+    sums.rolled += rolling * select(loaded, normal_force, 0.0);
     if (!train.friction) return;
     V viscous(0.0);
     for (std::int64_t p = 0, first = 0; p < train.slots; ++p, first += train.meshes) {
@@ -66,42 +66,44 @@ LAW void add_friction(const Train& train, const Evaluation& work, double weight,
         sums.lost += weight * (lost + V(pairs.rolling_power + first));
     }
     sums.viscous += weight * viscous;
-    sums.clipped += select(pushes & (viscous == 0.0), V(weight), 0.0);
+    sums.clipped += select(loaded & (viscous == 0.0), V(weight), 0.0);
 }
 
 // Add shares and films at a node, times `weight` [s].
 template <int L>
-LAW void add_films(const Train& train, const Node& node, double weight, ContactSums<L>& sums) {
+ALWAYS_INLINE void add_films(const Train& train, const Node& node, double weight,
+                             ContactSums<L>& sums) {
     for (std::int64_t p = 0; p < train.slots; ++p)
         sums.share += weight * Row<L>(node.meshes.share[p]);
     sums.film += weight * Row<L>(node.friction.film);
 }
 
-// Add what friction finds at a node, times `weight` [s].
+// Add the results of `find_friction` at a node, times `weight` [s].
 template <int L>
-LAW void add_node(const Train& train, const Node& node, double weight, ContactSums<L>& sums) {
+ALWAYS_INLINE void add_node(const Train& train, const Node& node, double weight,
+                            ContactSums<L>& sums) {
     using V = Row<L>;
     const MeshFriction& friction = node.friction;
-    const double rolling = weight * train.base_pitch * std::fabs(node.meshes.pace);
-    V push(node.meshes.push);
-    Mask<L> pushes = push > 0.0;
-    sums.touching += select(push == 0.0, 0.0, V(weight));
-    sums.rolled += rolling * select(pushes, push, 0.0);
+    const double rolling = weight * train.base_pitch * std::fabs(node.meshes.cycle_rate);
+    V normal_force(node.meshes.normal_force);
+    Mask<L> loaded = normal_force > 0.0;
+    sums.touching += select(normal_force == 0.0, 0.0, V(weight));
+    sums.rolled += rolling * select(loaded, normal_force, 0.0);
     if (!train.friction) return;
     add_films(train, node, weight, sums);
     sums.boundary += weight * V(friction.boundary);
     sums.viscous += weight * V(friction.viscous);
     sums.lost += weight * V(friction.lost);
-    sums.clipped += select(pushes & (V(friction.viscous) == 0.0), V(weight), 0.0);
+    sums.clipped += select(loaded & (V(friction.viscous) == 0.0), V(weight), 0.0);
 }
 
 // Write the sums into `out`, the integrals of a MeshSums.
 template <int L>
-LAW void put_contacts(const Train& train, const Oil& oil, const ContactSums<L>& sums,
-                      double (*out)[MESHES]) {
+ALWAYS_INLINE void put_contacts(const Train& train, const Oil& oil, const ContactSums<L>& sums,
+                                double (*out)[MESHES]) {
     const double given = oil.prescribed ? oil.lambda_ratio : 0.0;
     const double per_film = oil.prescribed ? 0.0 : exp(-oil.log_roughness);
-    // Beyond the meshes stands what whole registers have read of the next pairs.
+    // Entries beyond the meshes contain values of the next pairs, because whole registers are read.
     const Mask<L> used = first_of_row<L>(train.meshes);
     auto put = [&](int row, const Row<L>& sum) { select(used, sum, 0.0).store(out[row]); };
     put(FILMED, sums.share);

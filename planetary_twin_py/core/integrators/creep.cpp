@@ -10,14 +10,16 @@ namespace gearbox {
 
 namespace {
 
-// Part of its speed against the carrier by which vibration slows a gear that may come to stick.
+// Reduction of the speed of a gear relative to the carrier by vibration, as a share of its rigid
+// speed, above which the gear may stick.
 constexpr double STICKING = 0.5;
-// The same of gears that creep. Friction that falls with the speed feeds their vibration, which
-// grows from errors however small, until it stops them.
+// The same for creeping gears. Friction that decreases with speed excites their vibration, which
+// grows from the smallest error until the gears stick.
 constexpr double SWINGING = 0.2;
 constexpr double ROUNDING = 1e-9;  // of the speeds of two motors, in their difference
 
-// Whether vibration slows a gear against the carrier by more than a part of its rigid speed.
+// Whether vibration reduces the speed of a gear relative to the carrier by more than this part of
+// its rigid speed.
 bool vibration_slows(const Train& train, const double* v, const double* rigid, double part) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t carrier = train.body[i][2];
@@ -32,9 +34,9 @@ bool vibration_slows(const Train& train, const double* v, const double* rigid, d
     return false;
 }
 
-// Whether friction may feed a vibration of creeping gears. It counts against the speed that they
-// shall reach: where they pass through standstill, any vibration exceeds that of the moment.
-bool creep_swings(const Model& model, const March& march) {
+// Whether friction may excite vibration of creeping gears. The vibration is compared with the
+// target speed: near a reversal, any vibration exceeds the present speed.
+bool creep_swings(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     double rigid[BODIES], rate = 0.0, size = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
@@ -42,39 +44,40 @@ bool creep_swings(const Model& model, const March& march) {
         rate += share;
         size += std::fabs(share);
     }
-    if (!(std::fabs(rate) > ROUNDING * size)) return false;  // they shall not turn
+    if (!(std::fabs(rate) > ROUNDING * size)) return false;  // the target is standstill
     for (int j = 0; j < BODIES; ++j) {
         rigid[j] = 0.0;
         for (std::int64_t a = 0; a < train.axes; ++a)
             rigid[j] += train.ratio[j][a] * model.load.target_speed[a];
     }
-    return vibration_slows(train, march.begin.v, rigid, SWINGING);
+    return vibration_slows(train, integrator.begin.v, rigid, SWINGING);
 }
 
 }  // namespace
 
-void hold_or_slide(const Model& model, March& march) {
-    Control& control = march.control;
-    State& begin = march.begin;
-    bool creeping = creeps(model.train, march.constants.cycle_rate);
+void select_friction_model(const Model& model, Integrator& integrator) {
+    Control& control = integrator.control;
+    State& begin = integrator.begin;
+    bool creeping = creeps(model.train, integrator.constants.cycle_rate);
     if (creeping == control.creeping) return;
     control.creeping = creeping;
     control.changed = true;
     if (creeping) {
-        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, march.first);
-        steady_bristles(march.first.pairs, begin.bristle);
+        forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim,
+               integrator.first);
+        steady_bristles(integrator.first.pairs, begin.bristle);
     }
-    march.first.pairs.held = march.last.pairs.held = creeping;
-    march.work.evaluation.pairs.held = creeping;
+    integrator.first.pairs.has_bristles = integrator.last.pairs.has_bristles = creeping;
+    integrator.work.evaluation.pairs.has_bristles = creeping;
 }
 
-void avoid_reversals(const Model& model, March& march) {
-    Control& control = march.control;
-    const double* rigid = march.constants.rigid;
+void avoid_reversals(const Model& model, Integrator& integrator) {
+    Control& control = integrator.control;
+    const double* rigid = integrator.constants.rigid;
     if (control.creeping) {
-        control.reversals += creep_swings(model, march);
-    } else if (control.slow && vibration_slows(model.train, march.begin.v, rigid, STICKING)) {
-        control.detour = DETOUR;
+        control.reversals += creep_swings(model, integrator);
+    } else if (control.slow && vibration_slows(model.train, integrator.begin.v, rigid, STICKING)) {
+        control.fallback_steps = FALLBACK_STEPS;
         ++control.reversals;
     }
 }

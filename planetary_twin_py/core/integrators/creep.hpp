@@ -1,19 +1,19 @@
 #pragma once
 
-// Gears that creep, or come to rest as they vibrate: how their friction is integrated.
+// Integration of the friction of gears that creep, or that vibration brings to rest.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
-// Let tooth pairs hold in the step that begins if the gears creep, and slide if they do not. Pairs
-// that begin to hold have the friction of the traction curve, so it does not jump.
-void hold_or_slide(const Model& model, March& march);
+// Select the friction model of the next step: bristles if the gears creep, else the traction curve.
+// The bristles start with the friction of the traction curve, so friction does not jump.
+void select_friction_model(const Model& model, Integrator& integrator);
 
-// Leave steps to Rosenbrock's method for a while where vibration may reverse friction. A polynomial
-// through friction that jumps from one sense to the other is off by more than the change of its
-// nodes shows. Vibration of creeping gears is counted only.
-void avoid_reversals(const Model& model, March& march);
+// Use Rosenbrock's method for some steps if vibration may reverse friction: the error of a
+// polynomial through friction that changes its sign is larger than its values at the nodes show.
+// For creeping gears, such steps are only counted.
+void avoid_reversals(const Model& model, Integrator& integrator);
 
 }  // namespace gearbox

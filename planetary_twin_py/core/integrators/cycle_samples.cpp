@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "capacities.hpp"
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
 #include "integrators/periodic.hpp"
 #include "mesh/add_sums.hpp"
-#include "rooms.hpp"
 #include "train/set_step_constants.hpp"
 #include "train/tilting.hpp"
 
@@ -17,14 +17,14 @@ namespace gearbox {
 namespace {
 
 constexpr int TERMS_OF_TIME = 8;
-// Chebyshev's points, where interpolation errs least, and places where it errs most.
+// Chebyshev points for interpolation, and points at which the error is largest.
 constexpr double POINTS[TERMS_OF_TIME] = {-0.98078528, -0.83146961, -0.55557023, -0.19509032,
                                           0.19509032,  0.55557023,  0.83146961,  0.98078528};
 constexpr int TRIALS = 5;
 constexpr double TRIAL[TRIALS] = {-1.0, -0.38268343, 0.0, 0.38268343, 1.0};
-constexpr double ERROR_SHARE = 0.01;  // of the tolerance, that interpolation may add
+constexpr double ERROR_SHARE = 0.01;  // of the tolerance: allowed error of interpolation
 constexpr int MOST_COLUMNS = QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS +
-                             (MOVING ? BEARINGS * (SAMPLE_AXES + SAMPLE_LEAN) : 0);
+                             (MOVING ? BEARINGS * (SAMPLE_AXES + SAMPLE_TILTING) : 0);
 
 // Coefficients of polynomials from their values at POINTS, (terms, points).
 struct FromValues {
@@ -62,7 +62,7 @@ struct Rows {
     std::int64_t columns;
 };
 
-// Place of the columns of axes that move, the last ones.
+// Index of the columns of axes that move, the last ones.
 std::int64_t place_of_axes(const Train& train) {
     return QUANTITIES * train.meshes + 2 * train.bodies + SAMPLE_DRAGS;
 }
@@ -71,15 +71,15 @@ std::int64_t columns_of_axes(const Train& train) {
     return MOVING ? train.moving.bearings * SAMPLE_AXES : 0;
 }
 
-std::int64_t columns_of_lean(const Train& train) {
-    return tilts(train) ? train.moving.bearings * SAMPLE_LEAN : 0;
+std::int64_t columns_of_tilting(const Train& train) {
+    return tilts(train) ? train.moving.bearings * SAMPLE_TILTING : 0;
 }
 
 std::int64_t columns_of(const Train& train) {
-    return place_of_axes(train) + columns_of_axes(train) + columns_of_lean(train);
+    return place_of_axes(train) + columns_of_axes(train) + columns_of_tilting(train);
 }
 
-// What an empty `Samples` of one row needs, a column after the other.
+// Samples with one row, whose arrays are consecutive in `columns`.
 Samples row_in(const Train& train, double* turns, double* columns) {
     Samples out{1,       QUANTITIES, train.meshes, train.bodies, AXES,
                 columns, turns,      nullptr,      nullptr,      nullptr};
@@ -89,13 +89,13 @@ Samples row_in(const Train& train, double* turns, double* columns) {
     if constexpr (MOVING) {
         out.bearings = train.moving.bearings;
         out.moved = columns + place_of_axes(train);
-        if (tilts(train)) out.lean = out.moved + columns_of_axes(train);
+        if (tilts(train)) out.tilting = out.moved + columns_of_axes(train);
     }
     return out;
 }
 
-// Compute samples at all places of a piece of the step on which the march stands.
-void compute_rows(const Model& model, March& march, Piece piece, Rows& rows) {
+// Compute samples at all points of a piece of the present step.
+void compute_rows(const Model& model, Integrator& integrator, Piece piece, Rows& rows) {
     const Train& train = model.train;
     double turns[AXES];
     rows.columns = columns_of(train);
@@ -104,13 +104,13 @@ void compute_rows(const Model& model, March& march, Piece piece, Rows& rows) {
         double* row = rows.value[n];
         std::fill(row, row + rows.columns, 0.0);
         Samples out = row_in(train, turns, row);
-        sample(model, march, piece.begin + 0.5 * piece.length * (1.0 + s), out, 0);
+        sample(model, integrator, piece.begin + 0.5 * piece.length * (1.0 + s), out, 0);
         for (std::int64_t j = 0; j < train.bodies; ++j)
-            out.angle[j] -= train.ratio[j][0] * (TURN * march.begin.fraction[0]);
+            out.angle[j] -= train.ratio[j][0] * (TURN * integrator.begin.fraction[0]);
     }
 }
 
-// Values at s of the first `wanted` columns.
+// Values at s of the first `wanted` columns (Horner's scheme).
 void evaluate_columns(const double* coefficient, std::int64_t columns, std::int64_t wanted,
                       double s, double* out) {
     const double* top = coefficient + (TERMS_OF_TIME - 1) * columns;
@@ -121,10 +121,12 @@ void evaluate_columns(const double* coefficient, std::int64_t columns, std::int6
     }
 }
 
-// Error that a column may have: of bodies by what the meshes yield, of others by what they show.
-void set_allowed(const Model& model, const March& march, const Rows& rows, double* allowed) {
+// Allowed error of each column: for bodies relative to the mesh deflection, for others relative to
+// their values.
+void set_allowed(const Model& model, const Integrator& integrator, const Rows& rows,
+                 double* allowed) {
     const Train& train = model.train;
-    const Control& control = march.control;
+    const Control& control = integrator.control;
     double share = ERROR_SHARE * control.tolerance;
     auto largest = [&](std::int64_t begin, std::int64_t end) {
         double found = 0.0;
@@ -141,29 +143,30 @@ void set_allowed(const Model& model, const March& march, const Rows& rows, doubl
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double yields = share * control.deflection * train.inverse_radius[j];
         allowed[bodies + j] = yields;
-        allowed[bodies + train.bodies + j] = yields * control.quickness;
+        allowed[bodies + train.bodies + j] = yields * control.speed_per_deflection;
     }
-    const std::int64_t axes = place_of_axes(train), lean = axes + columns_of_axes(train);
+    const std::int64_t axes = place_of_axes(train), tilting = axes + columns_of_axes(train);
     for (std::int64_t c = drags; c < axes; ++c) allowed[c] = share * largest(c, c + 1);
     double force = control.deflection * std::max(train.stiffness[0], train.stiffness[1]);
-    for (std::int64_t c = axes; c < lean; ++c)
+    for (std::int64_t c = axes; c < tilting; ++c)
         allowed[c] = share * ((c - axes) % SAMPLE_AXES < 2 ? control.deflection : force);
-    for (std::int64_t c = lean; c < rows.columns; ++c) {
-        const double lever = train.moving.tilting[(c - lean) / SAMPLE_LEAN].lever;
-        const double by_kind[SAMPLE_LEAN] = {control.deflection,
-                                             control.deflection * lever,
-                                             control.deflection * lever,
-                                             force,
-                                             force / lever,
-                                             force / lever};
-        allowed[c] = share * by_kind[(c - lean) % SAMPLE_LEAN];
+    for (std::int64_t c = tilting; c < rows.columns; ++c) {
+        const double lever = train.moving.tilting[(c - tilting) / SAMPLE_TILTING].lever;
+        const double by_kind[SAMPLE_TILTING] = {control.deflection,
+                                                control.deflection * lever,
+                                                control.deflection * lever,
+                                                force,
+                                                force / lever,
+                                                force / lever};
+        allowed[c] = share * by_kind[(c - tilting) % SAMPLE_TILTING];
     }
 }
 
-// Whether polynomials show at all trials what was computed there.
-bool is_accurate(const Model& model, const March& march, const Rows& rows, const double* table) {
+// Whether the polynomials agree with the computed samples at all trial points.
+bool is_accurate(const Model& model, const Integrator& integrator, const Rows& rows,
+                 const double* table) {
     double allowed[MOST_COLUMNS], found[MOST_COLUMNS];
-    set_allowed(model, march, rows, allowed);
+    set_allowed(model, integrator, rows, allowed);
     for (int n = 0; n < TRIALS; ++n) {
         const double* exact = rows.value[TERMS_OF_TIME + n];
         evaluate_columns(table, rows.columns, rows.columns, TRIAL[n], found);
@@ -183,63 +186,64 @@ void fit(const Rows& rows, double* table) {
                 table[k * rows.columns + c] += FROM_VALUES.weight[k][j] * rows.value[j][c];
 }
 
-// Fit polynomials to so many equal pieces of the step on which the march stands; in how many of
-// them they fit.
-int fit_pieces(const Model& model, March& march, int pieces, SampleTable& table) {
+// Fit polynomials to this number of equal pieces of the present step; return in how many they are
+// accurate.
+int fit_pieces(const Model& model, Integrator& integrator, int pieces, SampleTable& table) {
     std::int64_t size = TERMS_OF_TIME * columns_of(model.train);
-    std::vector<double>& coefficients = march.periodic.coefficients;
+    std::vector<double>& coefficients = integrator.periodic.coefficients;
     coefficients.resize(table.begin + static_cast<std::size_t>(pieces * size));
     table.pieces = pieces;
-    double length = march.control.step / pieces;
+    double length = integrator.control.step / pieces;
     int fitting = 0;
     for (int n = 0; n < pieces; ++n) {
         Rows rows;
         double* own = coefficients.data() + table.begin + n * size;
-        compute_rows(model, march, {n * length, length}, rows);
+        compute_rows(model, integrator, {n * length, length}, rows);
         fit(rows, own);
-        table.fits[n] = is_accurate(model, march, rows, own);
+        table.fits[n] = is_accurate(model, integrator, rows, own);
         fitting += table.fits[n];
     }
     return fitting;
 }
 
-// A few pieces may stay that no polynomial fits, as where a friction force turns its sense.
-void fit_step(const Model& model, March& march, SampleTable& table) {
+// In some pieces no polynomial may be accurate, for example where a friction force changes its
+// sign.
+void fit_step(const Model& model, Integrator& integrator, SampleTable& table) {
     int fitting = 0;
     for (int pieces = 1; pieces <= SampleTable::MOST_PIECES; pieces *= 2) {
-        fitting = fit_pieces(model, march, pieces, table);
+        fitting = fit_pieces(model, integrator, pieces, table);
         if (fitting == pieces) break;
     }
     table.all_fit = fitting == table.pieces;
 }
 
-// Make the table of a step, where it has none, from the step as it was recorded: it is the same
-// whenever that is done.
-void need_table(const Model& model, March& march, CycleStep& step) {
+// Create the table of a step, if it has none, from the recorded step, so that it does not depend on
+// when it is created.
+void need_table(const Model& model, Integrator& integrator, CycleStep& step) {
     SampleTable& table = step.samples;
     if (table.known) return;
     table.known = true;
     if (!step.collocated) return;
-    table.begin = march.periodic.coefficients.size();
-    State begin = march.begin;
-    StepConstants constants = march.constants;
-    ModalMotion motion = march.run.motion;
-    double length = march.control.step;
-    bool collocated = march.control.collocated;
-    march.begin = step.begin.state;
-    march.run.motion = step.motion;
-    march.control.step = step.end.after - step.begin.after;
-    march.control.collocated = true;
-    set_step_constants(model, march.begin, march.constants);
-    fit_step(model, march, table);
-    march.begin = begin;
-    march.constants = constants;
-    march.run.motion = motion;
-    march.control.step = length;
-    march.control.collocated = collocated;
+    table.begin = integrator.periodic.coefficients.size();
+    State begin = integrator.begin;
+    StepConstants constants = integrator.constants;
+    ModalMotion motion = integrator.run.motion;
+    double length = integrator.control.step;
+    bool collocated = integrator.control.collocated;
+    integrator.begin = step.begin.state;
+    integrator.run.motion = step.motion;
+    integrator.control.step = step.end.after - step.begin.after;
+    integrator.control.collocated = true;
+    set_step_constants(model, integrator.begin, integrator.constants);
+    fit_step(model, integrator, table);
+    integrator.begin = begin;
+    integrator.constants = constants;
+    integrator.run.motion = motion;
+    integrator.control.step = length;
+    integrator.control.collocated = collocated;
 }
 
-// A place in a step: in which of its pieces, and where there from -1 to 1.
+// A point in a step: the number of the piece, and s from -1 to 1 in it.
 struct PieceAt {
     std::int64_t number;
     double s;
@@ -276,9 +280,10 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
     if (MOVING && out.bearings > 0)
         evaluate_columns(table + place_of_axes(train), columns, columns_of_axes(train), at.s,
                          out.moved + row * columns_of_axes(train));
-    if (out.lean && out.bearings > 0)
+    if (out.tilting && out.bearings > 0)
         evaluate_columns(table + place_of_axes(train) + columns_of_axes(train), columns,
-                         columns_of_lean(train), at.s, out.lean + row * columns_of_lean(train));
+                         columns_of_tilting(train), at.s,
+                         out.tilting + row * columns_of_tilting(train));
     if (!out.turns) {
         evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
         return;
@@ -290,12 +295,13 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
     put_bodies(train, turns, values + QUANTITIES * train.meshes, out, row);
 }
 
-// From the start of the step to an instant [s], by the clock of the cycle.
+// Time from the start of the step to an instant [s], by the clock of the cycle.
 double since_begin(const Periodic& periodic, const CycleStep& step, const Instant& at) {
     return delay(periodic.start, at) - step.begin.after;
 }
 
-// Write the sample so long after the start of a step from its table, if there it fits.
+// Write the sample `passed` seconds after the start of a step from its table, if that is accurate
+// there.
 bool show_from_table(const Model& model, const Periodic& periodic, const CycleStep& step,
                      double passed, const Samples& out, std::int64_t row) {
     PieceAt piece = piece_at(step, passed);
@@ -304,20 +310,21 @@ bool show_from_table(const Model& model, const Periodic& periodic, const CycleSt
     return true;
 }
 
-// Write the samples that are due within a step of the cycle; the march stands on it if need be.
-void sample_step(const Model& model, March& march, CycleStep& step, Sampling& samples,
+// Write the samples that are due within a step of the cycle; if necessary, set the integrator to
+// that step.
+void sample_step(const Model& model, Integrator& integrator, CycleStep& step, Sampling& samples,
                  const Samples& out, std::int64_t& taken) {
-    const Periodic& periodic = march.periodic;
+    const Periodic& periodic = integrator.periodic;
     bool stands = false;
-    need_table(model, march, step);
+    need_table(model, integrator, step);
     for (; taken < out.rows; ++taken) {
         Instant at = due(samples);
         if (delay(periodic.start, at) > step.end.after) return;
         double passed = since_begin(periodic, step, at);
         if (!show_from_table(model, periodic, step, passed, out, taken)) {
-            if (!stands) continue_from(model, march, step);
+            if (!stands) continue_from(model, integrator, step);
             stands = true;
-            sample(model, march, passed, out, taken);
+            sample(model, integrator, passed, out, taken);
         }
         samples = after(samples);
     }
@@ -325,27 +332,27 @@ void sample_step(const Model& model, March& march, CycleStep& step, Sampling& sa
 
 }  // namespace
 
-void sample_cycle(const Model& model, March& march, const Instant& at, const Samples& out,
+void sample_cycle(const Model& model, Integrator& integrator, const Instant& at, const Samples& out,
                   std::int64_t row) {
-    Periodic& periodic = march.periodic;
-    CycleStep& step = played_step(periodic);
-    need_table(model, march, step);
+    Periodic& periodic = integrator.periodic;
+    CycleStep& step = replayed_step(periodic);
+    need_table(model, integrator, step);
     double passed = since_begin(periodic, step, at);
     if (!show_from_table(model, periodic, step, passed, out, row))
-        sample(model, march, passed, out, row);
+        sample(model, integrator, passed, out, row);
 }
 
-void play_window(const Model& model, March& march, const Instant& until, Sampling& samples,
-                 const Samples& out, std::int64_t& taken) {
-    Periodic& periodic = march.periodic;
+void replay_window(const Model& model, Integrator& integrator, const Instant& until,
+                   Sampling& samples, const Samples& out, std::int64_t& taken) {
+    Periodic& periodic = integrator.periodic;
     while (true) {
-        CycleStep& step = next_step(model, march, taken < out.rows ? due(samples) : until);
-        if (taken < out.rows) sample_step(model, march, step, samples, out, taken);
+        CycleStep& step = next_step(model, integrator, taken < out.rows ? due(samples) : until);
+        if (taken < out.rows) sample_step(model, integrator, step, samples, out, taken);
         if (taken == out.rows && delay(periodic.start, until) <= step.end.after) {
-            continue_from(model, march, step);
+            continue_from(model, integrator, step);
             return;
         }
-        add_sums(step.sums, march.sums.total, mesh_lanes(model.train));
+        add_sums(step.sums, integrator.sums.total, mesh_lanes(model.train));
     }
 }
 

@@ -1,27 +1,28 @@
 #pragma once
 
-// Samples of steady running that repeats, from polynomials.
+// Samples of periodic running, from polynomials.
 //
-// A repeated step shows what it showed the first time, so what it shows is computed once, at a few
-// places, and interpolated from then on. Where that would be less accurate than a hundredth of the
-// tolerance, every sample is computed. All samples of a repeated step come from here, so that they
-// do not depend on how a run is divided into windows.
+// The samples of a repeated step are those of its first pass. So they are computed once at a few
+// points and then interpolated. If the error of interpolation exceeds a hundredth of the tolerance,
+// every sample is computed. All samples of repeated steps are from this file, so that they do not
+// depend on the division of a run into windows.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
 #include "run/samples.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
-// Write the sample at an instant within the step that was played last; the march stands on it.
-void sample_cycle(const Model& model, March& march, const Instant& at, const Samples& out,
+// Write the sample at an instant within the step that was replayed last, to which the integrator is
+// set.
+void sample_cycle(const Model& model, Integrator& integrator, const Instant& at, const Samples& out,
                   std::int64_t row);
 
-// Play on to the step that ends at or after `until`, and write the samples that are due by then.
+// Replay steps until one ends at or after `until`, and write the samples that are due by then.
 //
-// The next of `samples` goes to the row `taken`; both are moved on.
-void play_window(const Model& model, March& march, const Instant& until, Sampling& samples,
-                 const Samples& out, std::int64_t& taken);
+// The next of `samples` is written to the row `taken`; both are advanced.
+void replay_window(const Model& model, Integrator& integrator, const Instant& until,
+                   Sampling& samples, const Samples& out, std::int64_t& taken);
 
 }  // namespace gearbox

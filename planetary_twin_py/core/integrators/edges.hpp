@@ -1,13 +1,13 @@
 #pragma once
 
-// Tooth pairs that enter and leave: when they will, and that they have. They do so on the edges of
-// the segments of the mesh cycle, see `mesh/tooth_pairs.py`.
+// Events of tooth pairs, which enter and leave contact at the edges of the segments of the mesh
+// cycle, see `mesh/tooth_pairs.py`: prediction of their times, and changes of segment.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "integrators/step_control.hpp"
 #include "mesh/contact_change.hpp"
 #include "mesh/cycle.hpp"
@@ -16,7 +16,7 @@
 
 namespace gearbox {
 
-// Mesh cycles within which a tooth pair counts as having entered or left.
+// Tolerance [mesh cycles] within which a mesh is at an edge.
 inline constexpr double EDGE = 1e-9;
 
 struct NextEvent {
@@ -24,24 +24,26 @@ struct NextEvent {
     std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
 };
 
-// Times [s] until the meshes come to the edges of their segments, were their pace to last.
+// Times [s] until the meshes reach the edges of their segments at constant cycle rate.
 template <int L>
-LAW void times_to_edges(const StepConstants& constants, double pace, double* times) {
+ALWAYS_INLINE void times_to_edges(const StepConstants& constants, double cycle_rate,
+                                  double* times) {
     using V = Row<L>;
-    V rate = V(constants.side) * pace;
+    V rate = V(constants.side) * cycle_rate;
     V edge = select(rate > 0.0, V(constants.high), V(constants.low));
     V time = (edge - V(constants.start)) / rate;
     select(rate == 0.0, std::numeric_limits<double>::infinity(), time).store(times);
 }
 
 // Time to the next tooth pair event or change of the set-point's slope, and the mesh.
-inline NextEvent next_event(const Model& model, const March& march) {
+inline NextEvent next_event(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
-    const State& state = march.begin;
-    const StepConstants& constants = march.constants;
-    double pace = constants.cycle_rate + cycle_shift(train, state.v), times[MESHES];
+    const State& state = integrator.begin;
+    const StepConstants& constants = integrator.constants;
+    double cycle_rate = constants.cycle_rate + cycle_shift(train, state.v), times[MESHES];
     NextEvent nearest{std::numeric_limits<double>::infinity(), NO_MESH};
-    with_mesh_lanes(train, [&](auto lanes) { times_to_edges<lanes>(constants, pace, times); });
+    with_mesh_lanes(train,
+                    [&](auto lanes) { times_to_edges<lanes>(constants, cycle_rate, times); });
     for (std::int64_t i = 0; i < train.meshes; ++i)
         if (times[i] < nearest.time) nearest = {times[i], i};
     for (std::int64_t a = 0; a < train.axes; ++a) {
@@ -53,30 +55,31 @@ inline NextEvent next_event(const Model& model, const March& march) {
     return nearest;
 }
 
-// A step of about h that does not leave a tiny one before the event.
+// A step of about h that does not leave a very short one before the event.
 inline double planned(double event, double h, double stretch) {
     if (event <= stretch * h) return event;
     return event < 2.0 * h ? 0.5 * event : h;
 }
 
 // Mesh cycles that the train has advanced over the step.
-inline double cycles_of_step(const Train& train, const March& march) {
-    double advance = march.constants.cycle_rate * march.control.step;
-    return advance + (cycle_shift(train, march.end.x) - cycle_shift(train, march.begin.x));
+inline double cycles_of_step(const Train& train, const Integrator& integrator) {
+    double advance = integrator.constants.cycle_rate * integrator.control.step;
+    return advance +
+           (cycle_shift(train, integrator.end.x) - cycle_shift(train, integrator.begin.x));
 }
 
-// Time [s] by which mesh i is short of the edge of its segment at the end of the step.
-inline double time_to_edge(const Model& model, const March& march, std::int64_t i) {
+// Time [s] from the end of the step until mesh i reaches the edge of its segment.
+inline double time_to_edge(const Model& model, const Integrator& integrator, std::int64_t i) {
     const Train& train = model.train;
-    const State& begin = march.begin;
+    const State& begin = integrator.begin;
     double side = static_cast<double>(begin.side[i]);
-    double rate = side * (march.constants.cycle_rate + cycle_shift(train, march.end.v));
+    double rate = side * (integrator.constants.cycle_rate + cycle_shift(train, integrator.end.v));
     std::int64_t edge = begin.segment[i] + (rate > 0.0 ? 1 : 0);
-    double left = train.edge[train.kind[i]][edge] - march.constants.start[i];
-    return (left - side * cycles_of_step(train, march)) / rate;
+    double left = train.edge[train.kind[i]][edge] - integrator.constants.start[i];
+    return (left - side * cycles_of_step(train, integrator)) / rate;
 }
 
-// Whether mesh i has come to the edge of its segment that lies in a direction.
+// Whether mesh i has reached the edge of its segment in this direction.
 inline bool at_edge(const Train& train, const State& end, std::int64_t i, int direction) {
     std::int64_t kind = train.kind[i], segment = end.segment[i];
     double cycle = mesh_cycle(train, end, i, end.side[i]);
@@ -85,29 +88,29 @@ inline bool at_edge(const Train& train, const State& end, std::int64_t i, int di
     return cycle <= train.edge[kind][segment] + EDGE;
 }
 
-// Change the segment of mesh i until it has come to the edge of its own no more.
-inline void pass_edge(const Model& model, March& march, std::int64_t i, int direction) {
+// Change the segment of mesh i until it is no longer at the edge of its segment.
+inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i, int direction) {
     const Train& train = model.train;
     for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
-        if (march.end.side[i] == OPEN || !at_edge(train, march.end, i, direction)) return;
-        change_segment(model, march.end, march.scratch, i, direction);
-        march.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
-        march.control.changed = true;
+        if (integrator.end.side[i] == OPEN || !at_edge(train, integrator.end, i, direction)) return;
+        change_segment(model, integrator.end, integrator.scratch, i, direction);
+        integrator.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
+        integrator.control.changed = true;
     }
 }
 
-// Change the segment of every mesh that has come to the edge of its own.
-inline void pass_edges(const Model& model, March& march) {
+// Change the segment of every mesh that has reached the edge of its segment.
+inline void pass_edges(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
-    const StepConstants& constants = march.constants;
-    double advance = cycles_of_step(train, march);
-    double pace = constants.cycle_rate + cycle_shift(train, march.end.v);
+    const StepConstants& constants = integrator.constants;
+    double advance = cycles_of_step(train, integrator);
+    double cycle_rate = constants.cycle_rate + cycle_shift(train, integrator.end.v);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double side = constants.side[i], cycle = constants.start[i] + side * advance;
-        bool forwards = side * pace > 0.0;
+        bool forwards = side * cycle_rate > 0.0;
         bool above = cycle >= constants.high[i] - EDGE, below = cycle <= constants.low[i] + EDGE;
-        if (forwards && above) pass_edge(model, march, i, 1);
-        if (side * pace < 0.0 && below) pass_edge(model, march, i, -1);
+        if (forwards && above) pass_edge(model, integrator, i, 1);
+        if (side * cycle_rate < 0.0 && below) pass_edge(model, integrator, i, -1);
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Flanks that meet or part within a step, and when.
+// Events at which flanks come into contact or separate within a step.
 
 #include <cmath>
 #include <limits>
@@ -14,25 +14,27 @@
 
 namespace gearbox {
 
-// Share of the local tolerance by which flanks may pull or pass each other.
+// Share of the local tolerance: slack of the event functions.
 inline constexpr double SLACK = 0.01;
-inline constexpr int ROUNDS = 60;    // of closing in on an event
-inline constexpr double TAME = 0.5;  // (w h)^2 + c h below which a mode does not turn round
-inline constexpr int SCANNED = 8;    // times at which flanks are looked at
+inline constexpr int ROUNDS = 60;  // iterations for the location of an event
+inline constexpr double LEAST_OSCILLATION =
+    0.5;  // (w h)^2 + c h below which a mode does not oscillate within a step
+inline constexpr int SCANNED = 8;  // number of times at which flanks are checked
 
 struct FlankEvent {
     std::int64_t mesh;  // NO_MESH: none
     double when;        // after the start of the step [s]
 };
 
-inline double slack_of(const March& march) {
-    return SLACK * march.control.tolerance_x;
+inline double slack_of(const Integrator& integrator) {
+    return SLACK * integrator.control.tolerance_x;
 }
 
-// `departure` of mesh i within the step, where no error of form moves its flanks.
+// `contact_event` of mesh i within the step, without errors of form.
 template <int L>
-double smooth_departure(const Model& model, March& march, std::int64_t i, double delay) {
-    const Propagation& run = march.run;
+double smooth_contact_event(const Model& model, Integrator& integrator, std::int64_t i,
+                            double delay) {
+    const Propagation& run = integrator.run;
     const MatrixRows motion = contacts_of(run).matrices.motion();
     auto [q, p] = modes_at<L>(run.motion, delay);
     double d = 0.0, rate = 0.0;
@@ -40,32 +42,35 @@ double smooth_departure(const Model& model, March& march, std::int64_t i, double
         d += motion[m][i] * q[m];
         rate += motion[m][i] * p[m];
     }
-    double tau = march.constants.tau[model.train.kind[i]];
-    return play_left(model.train, model.load, i, march.begin.side[i], {d, tau * rate}, {0.0, 0.0},
-                     slack_of(march));
+    double tau = integrator.constants.tau[model.train.kind[i]];
+    return remaining_gap(model.train, model.load, i, integrator.begin.side[i], {d, tau * rate},
+                         {0.0, 0.0}, slack_of(integrator));
 }
 
-// `departure` of mesh i on the interpolant.
-inline double departure_at(const Model& model, March& march, std::int64_t i, double delay) {
+// `contact_event` of mesh i on the interpolant.
+inline double contact_event_at(const Model& model, Integrator& integrator, std::int64_t i,
+                               double delay) {
     const Train& train = model.train;
-    if (march.control.collocated && train.lines[train.kind[i]] == 0)
-        return with_lanes(
-            train, [&](auto lanes) { return smooth_departure<lanes>(model, march, i, delay); });
-    interpolate(model, march, delay);
-    const double *x = march.dense.x, *v = march.dense.v;
-    double advance = march.constants.cycle_rate * delay;
-    advance += cycle_shift(train, x) - cycle_shift(train, march.begin.x);
-    double pace = march.constants.cycle_rate + cycle_shift(train, v);
-    return departure(model, march.begin, march.constants, i, x, v,
-                     {advance, pace, slack_of(march)});
+    if (integrator.control.collocated && train.lines[train.kind[i]] == 0)
+        return with_lanes(train, [&](auto lanes) {
+            return smooth_contact_event<lanes>(model, integrator, i, delay);
+        });
+    interpolate(model, integrator, delay);
+    const double *x = integrator.dense.x, *v = integrator.dense.v;
+    double advance = integrator.constants.cycle_rate * delay;
+    advance += cycle_shift(train, x) - cycle_shift(train, integrator.begin.x);
+    double cycle_rate = integrator.constants.cycle_rate + cycle_shift(train, v);
+    return contact_event(model, integrator.begin, integrator.constants, i, x, v,
+                         {advance, cycle_rate, slack_of(integrator)});
 }
 
-// Whether the step ends where the contact of mesh i changes, to within its slack.
-inline bool at_event(const Model& model, March& march, std::int64_t i) {
-    return std::fabs(departure_at(model, march, i, march.control.step)) <= slack_of(march);
+// Whether the step ends at a change of contact of mesh i, to within the slack.
+inline bool at_event(const Model& model, Integrator& integrator, std::int64_t i) {
+    return std::fabs(contact_event_at(model, integrator, i, integrator.control.step)) <=
+           slack_of(integrator);
 }
 
-// Mesh whose contact changes first within the step, and when; none: NO_MESH and the step.
-FlankEvent first_flank_event(const Model& model, March& march);
+// Mesh whose contact changes first within the step, and the time; if none, NO_MESH and the step.
+FlankEvent first_flank_event(const Model& model, Integrator& integrator);
 
 }  // namespace gearbox

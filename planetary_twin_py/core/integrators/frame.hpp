@@ -1,11 +1,12 @@
 #pragma once
 
-// The frame of the motors, in which bodies are placed, and how it turns with the clock.
+// The frame of the motors, in which the coordinates of bodies are measured, and its rotation with
+// time.
 
 #include <cmath>
 #include <numbers>
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "run/clock.hpp"
 #include "train/bearings.hpp"
 #include "train/model.hpp"
@@ -14,14 +15,14 @@ namespace gearbox {
 
 inline constexpr double TURN = 2.0 * std::numbers::pi;  // [rad]
 
-// Turn the frame with motor a; whole turns are counted apart.
+// Turn the frame with motor a; whole turns are counted separately.
 inline void turn_frame(State& state, std::int64_t a, double turns) {
     double fraction = state.fraction[a] + turns;
     state.turns[a] += std::floor(fraction);
     state.fraction[a] = fraction - std::floor(fraction);
 }
 
-// Let the frame catch up with the motors: their x and v become zero.
+// Move the frame to the motors, whose x and v become zero.
 inline void rebase(const Train& train, State& state) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
@@ -42,16 +43,16 @@ inline void rebase(const Train& train, State& state) {
     }
 }
 
-// Let clock, set-points and frame of `end` run on for h seconds.
-inline void advance_clock(const Model& model, March& march, double h) {
-    const State& begin = march.begin;
-    State& end = march.end;
+// Advance clock, set-points and frame of `end` by h seconds.
+inline void advance_clock(const Model& model, Integrator& integrator, double h) {
+    const State& begin = integrator.begin;
+    State& end = integrator.end;
     run_on(begin, end, h);
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
-        end.set_speed[a] = begin.set_speed[a] + march.constants.slew[a] * h;
+        end.set_speed[a] = begin.set_speed[a] + integrator.constants.slew[a] * h;
         turn_frame(end, a, begin.speed[a] * h / TURN);
     }
-    march.control.step = h;
+    integrator.control.step = h;
 }
 
 }  // namespace gearbox

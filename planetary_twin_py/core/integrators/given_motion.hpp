@@ -1,14 +1,14 @@
 #pragma once
 
-// Ends of shafts whose motion is given: where they are within a step. In the modes of the contacts
-// they stand still, so what the modes say of the bodies is without them.
+// Motion of the ends of shafts with given motion within a step. In the modes of a contact state
+// these ends are fixed, so the modes do not contain their motion.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
-// x and v of the end of a shaft; its speed changes evenly.
+// x and v of the end of a shaft at constant acceleration.
 struct GivenMotion {
     double place;         // at the start of the step [m]
     double speed;         // [m/s]
@@ -24,7 +24,7 @@ inline GivenMotion given_motion(const Model& model, const State& begin, std::int
             model.train.radius[body] * model.load.acceleration[machine]};
 }
 
-// Put the ends of such shafts where they are `delay` seconds after the start of the step.
+// Set x and v of the ends of such shafts to those `delay` seconds after the start of the step.
 inline void move_given(const Model& model, const State& begin, double delay, double* x, double* v) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
         if (model.load.port[c] != BY_MOTION) continue;

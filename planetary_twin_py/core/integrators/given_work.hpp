@@ -1,7 +1,7 @@
 #pragma once
 
-// The work of what is given at the ports, exactly: quadrature at the nodes of a step would miss the
-// waves of the members of shafts whose motion is given, which their torques follow.
+// Exact work of given torques and motions at the ports: quadrature at the nodes of a step would
+// miss the free waves of the members, on which the torques of shafts with given motion depend.
 
 #include "integrators/given_motion.hpp"
 #include "integrators/propagation.hpp"
@@ -16,7 +16,7 @@ struct Moments {
     double first;   // [m s^2]
 };
 
-// Of body j over h seconds, with `wave`s at their end.
+// Moments of the motion of body j over h seconds, from the free waves at the end.
 //
 // A mode is a polynomial and a free motion u, u'' + c u' + w^2 u = 0, from which the integrals of
 // u and of t u follow.
@@ -39,13 +39,13 @@ Moments moments(const Propagation& run, std::int64_t j, double h, const double* 
     V wave0 = (w0 - w1 - c * (u1 - u0)) * inverse;
     V wave1 = (u1 - u0 - h * w1 - c * (h * u1 - wave0)) * inverse;
     Mask<L> free = V(run.spring) + V(run.damper) == 0.0;
-    V share(contacts_of(run).matrices.share()[j]);
+    V share(contacts_of(run).matrices.shapes_transposed()[j]);
     return {total(share * (zeroth + select(free, 0.0, wave0))),
             total(share * (first + select(free, 0.0, wave1)))};
 }
 
-// What damping in the shaft of machine c takes by both its ends moving at once, less what the nodes
-// say of it [J]; `across` is the integral of the product of their speeds [m^2/s].
+// Energy dissipated in the shaft of machine c by the product of the speeds of its ends, minus its
+// quadrature at the nodes [J]; `across` is the integral of the product of their speeds [m^2/s].
 inline double damped_across(const Model& model, const Propagation& run, std::int64_t c,
                             const GivenMotion& end, double across) {
     const std::int64_t member = model.train.coupling[c][1];
@@ -58,32 +58,34 @@ inline double damped_across(const Model& model, const Propagation& run, std::int
 }
 
 // Impulse and work of a given torque on the shaft of machine c over h seconds. The torque is known;
-// what the nodes say of the speed lags by the last sweep.
+// the speeds at the nodes are those before the last sweep.
 template <int L>
-void add_work_of_given_torque(const Model& model, March& march, std::int64_t c, double h) {
+void add_work_of_given_torque(const Model& model, Integrator& integrator, std::int64_t c,
+                              double h) {
     const Train& train = model.train;
-    const Propagation& run = march.run;
+    const Propagation& run = integrator.run;
     const std::int64_t body = train.coupling[c][0];
-    const double torque = march.constants.torque[c], rate = model.load.torque_rate[c];
-    const double x = march.end.x[body], passed = march.constants.rigid[body] * h;
-    double turned = passed + (x - march.begin.x[body]) * train.inverse_radius[body];
+    const double torque = integrator.constants.torque[c], rate = model.load.torque_rate[c];
+    const double x = integrator.end.x[body], passed = integrator.constants.rigid[body] * h;
+    double turned = passed + (x - integrator.begin.x[body]) * train.inverse_radius[body];
     double later = 0.0;  // integral of time times speed [rad s]
     if (rate != 0.0) {
-        Moments way = moments<L>(run, body, h, run.end_cosine, run.end_sine);
-        later = 0.5 * passed * h + (h * x - way.zeroth) * train.inverse_radius[body];
+        Moments own = moments<L>(run, body, h, run.end_cosine, run.end_sine);
+        later = 0.5 * passed * h + (h * x - own.zeroth) * train.inverse_radius[body];
     }
     double impulse = h * (torque + 0.5 * rate * h), work = torque * turned + rate * later;
-    march.end.energy[IMPULSE + c] = march.begin.energy[IMPULSE + c] + impulse;
-    march.end.energy[WORK + c] = march.begin.energy[WORK + c] + work;
+    integrator.end.energy[IMPULSE + c] = integrator.begin.energy[IMPULSE + c] + impulse;
+    integrator.end.energy[WORK + c] = integrator.begin.energy[WORK + c] + work;
 }
 
 // Impulse and work at the end of the shaft of machine c, whose motion is given, over h seconds.
 template <int L>
-void add_work_of_given_motion(const Model& model, March& march, std::int64_t c, double h) {
+void add_work_of_given_motion(const Model& model, Integrator& integrator, std::int64_t c,
+                              double h) {
     const Train& train = model.train;
-    const State& begin = march.begin;
-    State& after = march.end;
-    const Propagation& run = march.run;
+    const State& begin = integrator.begin;
+    State& after = integrator.end;
+    const Propagation& run = integrator.run;
     const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
     const GivenMotion end = given_motion(model, begin, c);
     const double k = train.coupling_stiffness[c], damper = train.coupling_damping[c];
@@ -103,12 +105,13 @@ void add_work_of_given_motion(const Model& model, March& march, std::int64_t c, 
     after.energy[DAMPING] += damped_across(model, run, c, end, across);
 }
 
-// Book impulse and work at the ports at which torque or motion is given, h seconds into the step.
+// Add impulse and work at the ports with given torque or motion to the ledger, h seconds after the
+// start of the step.
 template <int L>
-void add_given_work(const Model& model, March& march, double h) {
+void add_given_work(const Model& model, Integrator& integrator, double h) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
-        if (model.load.port[c] == BY_TORQUE) add_work_of_given_torque<L>(model, march, c, h);
-        if (model.load.port[c] == BY_MOTION) add_work_of_given_motion<L>(model, march, c, h);
+        if (model.load.port[c] == BY_TORQUE) add_work_of_given_torque<L>(model, integrator, c, h);
+        if (model.load.port[c] == BY_MOTION) add_work_of_given_motion<L>(model, integrator, c, h);
     }
 }
 

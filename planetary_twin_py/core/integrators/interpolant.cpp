@@ -15,18 +15,18 @@ namespace gearbox {
 
 namespace {
 
-void sample_drag(const Model& model, March& march, const double* v, const double (*shown)[MESHES],
-                 double* out) {
-    Evaluation& work = march.work.evaluation;
+void sample_drag(const Model& model, Integrator& integrator, const double* v,
+                 const double (*shown)[MESHES], double* out) {
+    Evaluation& work = integrator.work.evaluation;
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
-        work.now.push[i] = std::fabs(shown[MESH_FORCE][i]);
+        work.now.normal_force[i] = std::fabs(shown[MESH_FORCE][i]);
     for (double& power : work.power) power = 0.0;
-    apply_drag(model, march.begin, v, work.now.push, work.rubbing, work.power);
+    apply_drag(model, integrator.begin, v, work.now.normal_force, work.friction_force, work.power);
     out[0] = work.power[BEARING];
     out[1] = work.power[CHURNING];
 }
 
-// The largest magnitudes so far; a NaN stays.
+// Update a largest magnitude; NaN is kept.
 void note_peak(double value, double& peak) {
     if (std::fabs(value) > peak || std::isnan(value)) peak = std::fabs(value);
 }
@@ -50,27 +50,30 @@ void sample_bodies(const Train& train, const State& begin, const double* x, cons
     }
 }
 
-// Write a sample from what the meshes show and the motion of the bodies.
-void write_sample(const Model& model, March& march, const double (*shown)[MESHES], const double* x,
-                  const double* v, double delay, const Samples& out, std::int64_t row) {
+// Write a sample from the quantities of the meshes and the motion of the bodies.
+void write_sample(const Model& model, Integrator& integrator, const double (*shown)[MESHES],
+                  const double* x, const double* v, double delay, const Samples& out,
+                  std::int64_t row) {
     const Train& train = model.train;
     double* mesh = out.mesh_row(row);
     for (std::int64_t q = 0; q < out.quantities; ++q)
         for (std::int64_t i = 0; i < train.meshes; ++i) mesh[q * out.meshes + i] = shown[q][i];
-    if (out.peaks) note_peaks(train, march.begin, shown, v, *out.peaks);
+    if (out.peaks) note_peaks(train, integrator.begin, shown, v, *out.peaks);
     if (out.drag && train.joints + train.discs > 0)
-        sample_drag(model, march, v, shown, out.drag + row * SAMPLE_DRAGS);
-    if (out.turns) sample_bodies(train, march.begin, x, v, delay, out, row);
-    if constexpr (MOVING) sample_axes(train, march.begin, x, v, out, row);
+        sample_drag(model, integrator, v, shown, out.drag + row * SAMPLE_DRAGS);
+    if (out.turns) sample_bodies(train, integrator.begin, x, v, delay, out, row);
+    if constexpr (MOVING) sample_axes(train, integrator.begin, x, v, out, row);
 }
 
-// What `observe` fills, from a node and its friction.
+// The quantities of `observe`, from a node and its friction.
 template <int L>
-void show_node(const Model& model, const March& march, const Node& node, double (*shown)[MESHES]) {
+void show_node(const Model& model, const Integrator& integrator, const Node& node,
+               double (*shown)[MESHES]) {
     using V = Row<L>;
     const Oil& oil = model.oil;
     const MeshFriction& friction = node.friction;
-    V side(march.constants.side), force = larger(V(node.meshes.push), V(0.0)), share(0.0);
+    V side(integrator.constants.side), force = larger(V(node.meshes.normal_force), V(0.0)),
+                                       share(0.0);
     const Mask<L> open = side == 0.0;
     for (std::int64_t p = 0; p < model.train.slots; ++p) share += V(node.meshes.share[p]);
     V film(friction.film), lambda = film * exp(-oil.log_roughness);
@@ -78,7 +81,7 @@ void show_node(const Model& model, const March& march, const Node& node, double 
     constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
     copy<L>(node.d, shown[DTE]);
     (side * force).store(shown[MESH_FORCE]);
-    (force * (model.train.base_pitch * std::fabs(node.meshes.pace))).store(shown[MESH_POWER]);
+    (force * (model.train.base_pitch * std::fabs(node.meshes.cycle_rate))).store(shown[MESH_POWER]);
     select(open, NONE, film).store(shown[FILM]);
     select(open, NONE, lambda).store(shown[LAMBDA]);
     const double friction_acts = model.train.friction ? 1.0 : 0.0;
@@ -87,41 +90,41 @@ void show_node(const Model& model, const March& march, const Node& node, double 
     (friction_acts * V(friction.lost)).store(shown[POWER_LOSS]);
 }
 
-// Samples of a step by collocation, at most MOST_INSTANTS.
+// Samples of a collocation step, at most MOST_INSTANTS.
 template <int L>
-void sample_collocated(const Model& model, March& march, const double* delays, int count,
+void sample_collocated(const Model& model, Integrator& integrator, const double* delays, int count,
                        const Samples& out, std::int64_t row) {
-    show_friction<L>(model, march, delays, count);
+    show_friction<L>(model, integrator, delays, count);
     for (int n = 0; n < count; ++n) {
-        const Node& node = march.run.shown[n];
+        const Node& node = integrator.run.shown[n];
         alignas(64) double shown[QUANTITIES][MESHES];
-        show_node<MESH_LANES<L>>(model, march, node, shown);
-        write_sample(model, march, shown, node.x, node.v, delays[n], out, row + n);
+        show_node<MESH_LANES<L>>(model, integrator, node, shown);
+        write_sample(model, integrator, shown, node.x, node.v, delays[n], out, row + n);
     }
 }
 
-void sample_stiff(const Model& model, March& march, double delay, const Samples& out,
+void sample_stiff(const Model& model, Integrator& integrator, double delay, const Samples& out,
                   std::int64_t row) {
-    const State& dense = march.dense;
-    interpolate(model, march, delay);
-    Evaluation& work = march.work.evaluation;
+    const State& dense = integrator.dense;
+    interpolate(model, integrator, delay);
+    Evaluation& work = integrator.work.evaluation;
     place_bristles(work.pairs, dense.bristle);
     alignas(64) double shown[QUANTITIES][MESHES];
-    observe(model, march.begin, march.constants, dense.x, dense.v, delay, work, shown,
+    observe(model, integrator.begin, integrator.constants, dense.x, dense.v, delay, work, shown,
             out.quantities > FILM);
-    write_sample(model, march, shown, dense.x, dense.v, delay, out, row);
+    write_sample(model, integrator, shown, dense.x, dense.v, delay, out, row);
 }
 
 }  // namespace
 
-void sample(const Model& model, March& march, const double* delays, int count, const Samples& out,
-            std::int64_t row) {
-    if (!march.control.collocated) {
-        for (int n = 0; n < count; ++n) sample_stiff(model, march, delays[n], out, row + n);
+void sample(const Model& model, Integrator& integrator, const double* delays, int count,
+            const Samples& out, std::int64_t row) {
+    if (!integrator.control.collocated) {
+        for (int n = 0; n < count; ++n) sample_stiff(model, integrator, delays[n], out, row + n);
         return;
     }
     with_lanes(model.train, [&](auto lanes) {
-        sample_collocated<lanes>(model, march, delays, count, out, row);
+        sample_collocated<lanes>(model, integrator, delays, count, out, row);
     });
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-// Sweeps that come to rest where friction damps axes that move.
+// Acceleration of the sweeps where friction damps moving axes.
 //
-// Within the layer in which sliding reverses, friction is a strong damper on the displacements of
-// the axes: what a sweep computes overshoots by more than what was missing, though in few
-// directions. The rest is mixed from two sweeps so that, were all linear in one direction, nothing
-// would be left (Anderson 1965, J. ACM 12, 547-560, of depth one).
+// Where sliding reverses, friction damps the displacements of the axes so strongly that sweeps
+// diverge, though in few directions. The remainder is mixed from two sweeps so that the error of a
+// problem that is linear along one direction vanishes (Anderson 1965, J. ACM 12, 547-560, depth
+// one).
 
 #include <cmath>
 
@@ -13,27 +13,27 @@
 
 namespace gearbox {
 
-// Share of what was missing that a sweep may leave without mixing. Forces at the nodes, of which
-// the energy ledger is made, belong to a rest that is not mixed.
+// Largest contraction of the error by a sweep without mixing. Forces at the nodes, from which the
+// energy ledger is computed, belong to a remainder that is not mixed.
 inline constexpr double POOR = 0.3;
 
 template <int L>
 class Mixing {
 public:
-    // Note the rest that the nodes have moved under.
+    // Store the remainder from which the motion of the nodes was computed.
     void keep(const Propagation& run) {
-        for (std::int64_t n = 0; n < run.nodes.count; ++n) copy<L>(run.rest[n], used[n]);
+        for (std::int64_t n = 0; n < run.nodes.count; ++n) copy<L>(run.remainder[n], used[n]);
     }
 
-    // Mix the rest of the last sweep with what it was before.
+    // Mix the remainder of the last sweep with the one before.
     void mix(Propagation& run) {
         using V = Row<L>;
-        // What a mode moves by under the rest of a step.
+        // Displacement of a mode by the remainder over a step.
         const double step = run.motion.step;
         V weight = 1.0 / larger(V(run.motion.square), V(1.0 / (step * step)));
         V across(0.0), along(0.0), size(0.0);
         for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-            V left = V(run.rest[n]) - V(used[n]), own = left * weight;
+            V left = V(run.remainder[n]) - V(used[n]), own = left * weight;
             size += own * own;
             if (swept == 0) continue;
             V change = (left - V(left_before[n])) * weight;
@@ -45,10 +45,10 @@ public:
         const bool slow = swept > 0 && now > POOR * size_before;
         const double length = total(along), share = length > 0.0 ? total(across) / length : 0.0;
         for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-            V rest(run.rest[n]), left = rest - V(used[n]);
+            V remainder(run.remainder[n]), left = remainder - V(used[n]);
             if (slow) {
                 V change = (left - V(left_before[n])) + (V(used[n]) - V(used_before[n]));
-                (rest - share * change).store(run.rest[n]);
+                (remainder - share * change).store(run.remainder[n]);
             }
             left.store(left_before[n]);
             copy<L>(used[n], used_before[n]);
@@ -57,8 +57,8 @@ public:
         ++swept;
     }
 
-    // By how much a sweep without mixing would bring the next closer; 0: not known.
-    double pull() const { return ratio; }
+    // Contraction of the error by a sweep without mixing; 0: not known.
+    double contraction() const { return ratio; }
 
 private:
     alignas(64) double used[MOST_NODES][BODIES];

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "capacities.hpp"
 #include "mesh/meshes_now.hpp"
-#include "rooms.hpp"
 #include "tribology/mesh_friction.hpp"
 
 namespace gearbox {
 
-// A point of collocation: how the train moves there, and what acts on it.
+// A collocation point: motion of the train, and forces on it.
 struct alignas(64) Node {
     alignas(64) double q[BODIES];  // modes
     alignas(64) double p[BODIES];
@@ -14,10 +14,10 @@ struct alignas(64) Node {
     alignas(64) double v[BODIES];
     double trim[AXES];                           // of the speed loops [rad]
     alignas(64) double d[MESHES];                // transmission errors [m], [m/s]
-    alignas(64) double rate[MESHES];             // of them
+    alignas(64) double rate[MESHES];             // of the transmission errors [m/s]
     alignas(64) double spin[GEARS - 1][MESHES];  // of both gears against the carrier [rad/s]
-    alignas(64) double rubbing[BODIES];          // friction and drag, in the modes
-    alignas(64) double power[LEDGER];            // without what meshes take and put in [W]
+    alignas(64) double friction_force[BODIES];   // friction and drag, in the modes
+    alignas(64) double power[LEDGER];            // without losses and work of the meshes [W]
     MeshesNow meshes;
     MeshFriction friction;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// What acts on the train at a node of a step by collocation.
+// Forces on the train at a node of a collocation step.
 
 #include "integrators/propagation.hpp"
 #include "mesh/mesh_forces.hpp"
@@ -9,97 +9,102 @@
 
 namespace gearbox {
 
-// Tolerance from which friction in single precision errs by less than all else.
+// Lowest tolerance for friction in single precision, whose error is negligible there.
 inline constexpr double SINGLE_PRECISION = 1e-5;
-// The same where it is shown: films then err by less than a hundredth of the tolerance, as the
-// polynomials of `cycle_samples.cpp` ask for.
+// The same for samples: errors of film thicknesses are below a hundredth of the tolerance, as
+// required by the polynomials of `cycle_samples.cpp`.
 inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 
 // Forces of the meshes at a node.
 template <int L>
-SHARED void find_forces_at_node(const Model& model, const March& march, Node& node, double delay) {
+NOINLINE void find_forces_at_node(const Model& model, const Integrator& integrator, Node& node,
+                                  double delay) {
     constexpr int M = MESH_LANES<L>;
     copy<M>(node.d, node.meshes.d);
     copy<M>(node.rate, node.meshes.rate);
-    const StepConstants& constants = march.constants;
-    place_meshes(model.train, march.begin, constants, node.x, node.v, delay, node.meshes);
-    find_mesh_forces<M>(model, march.begin, constants, node.meshes);
+    const StepConstants& constants = integrator.constants;
+    place_meshes(model.train, integrator.begin, constants, node.x, node.v, delay, node.meshes);
+    find_mesh_forces<M>(model, integrator.begin, constants, node.meshes);
     if (tilts(model.train)) tilt_flanks(model.train, constants, node.x, node.v, node.meshes);
 }
 
-// Friction and drag at a node as forces on the bodies, but for what `find_friction` has found.
-SHARED inline void find_friction_forces(const Model& model, const March& march, Node& node,
-                                        double* rubbing) {
+// Friction and drag at a node as forces on the bodies, without the results of `find_friction`.
+NOINLINE inline void find_friction_forces(const Model& model, const Integrator& integrator,
+                                          Node& node, double* friction_force) {
     const Train& train = model.train;
-    if (train.friction) add_friction_forces(train, node.friction.drag, rubbing);
+    if (train.friction) add_friction_forces(train, node.friction.drag, friction_force);
     if (train.joints + train.discs == 0) return;
     for (int e : {BEARING, CHURNING}) node.power[e] = 0.0;
-    apply_drag(model, march.begin, node.v, node.meshes.push, rubbing, node.power);
+    apply_drag(model, integrator.begin, node.v, node.meshes.normal_force, friction_force,
+               node.power);
 }
 
 // Friction and drag at a node in the modes.
 template <int L>
-LAW void find_node_friction(const Model& model, const March& march, const ContactState& contacts,
-                            Node& node) {
+ALWAYS_INLINE void find_node_friction(const Model& model, const Integrator& integrator,
+                                      const ContactState& contacts, Node& node) {
     using V = Row<L>;
     const Train& train = model.train;
-    if (train.printed_torque) print_torques(train, march.constants, node.v, node.friction.drag);
-    V rubbing(0.0);
+    if (train.printed_torque)
+        print_torques(train, integrator.constants, node.v, node.friction.drag);
+    V friction_force(0.0);
     if (MOVING || train.printed_torque || train.joints + train.discs > 0) {
         alignas(64) double on_bodies[BODIES] = {};
-        find_friction_forces(model, march, node, on_bodies);
-        rubbing = sum_rows<L>(contacts.matrices.share(), V(on_bodies));
+        find_friction_forces(model, integrator, node, on_bodies);
+        friction_force = sum_rows<L>(contacts.matrices.shapes_transposed(), V(on_bodies));
     } else if (train.friction) {
         for (int g = 0; g < GEARS - 1; ++g)
-            rubbing += sum_rows<L>(contacts.matrices.twist(g),
-                                   Row<MESH_LANES<L>>(node.friction.drag.torque[g]));
+            friction_force += sum_rows<L>(contacts.matrices.torque_to_modes(g),
+                                          Row<MESH_LANES<L>>(node.friction.drag.torque[g]));
     }
-    rubbing.store(node.rubbing);
+    friction_force.store(node.friction_force);
 }
 
-// Friction and drag at all nodes, under the forces of the meshes there.
+// Friction and drag at all nodes, from the forces of the meshes there.
 template <int L>
-void find_friction_of_nodes(const Model& model, March& march) {
+void find_friction_of_nodes(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
-    Propagation& run = march.run;
+    Propagation& run = integrator.run;
     const int count = static_cast<int>(run.nodes.count);
     if (train.friction) {
         FrictionInstant instants[MOST_NODES] = {};
         for (int n = 0; n < count; ++n) {
             Node& node = run.node[n];
-            distribute_forces<MESH_LANES<L>>(train, march.constants, node.meshes);
+            distribute_forces<MESH_LANES<L>>(train, integrator.constants, node.meshes);
             instants[n] = {&node.meshes, node.spin, &node.friction};
         }
-        find_friction(model, march.constants, instants, count,
-                      march.control.tolerance >= SINGLE_PRECISION);
+        find_friction(model, integrator.constants, instants, count,
+                      integrator.control.tolerance >= SINGLE_PRECISION);
     }
     const ContactState& contacts = contacts_of(run);
-    for (int n = 0; n < count; ++n) find_node_friction<L>(model, march, contacts, run.node[n]);
+    for (int n = 0; n < count; ++n) find_node_friction<L>(model, integrator, contacts, run.node[n]);
 }
 
 // Forces of meshes, friction and machines at a node, in the modes.
 template <int L>
-SHARED Row<L> node_force(const Model& model, const March& march, const ContactState& contacts,
-                         double delay, Node& node) {
+NOINLINE Row<L> node_force(const Model& model, const Integrator& integrator,
+                           const ContactState& contacts, double delay, Node& node) {
     using V = Row<L>;
     const Train& train = model.train;
     MachineForces forces;
     node.power[DAMPING] = node.power[WEIGHT] = 0.0;
     apply_couplings(train, node.x, node.v, forces, node.power);
-    apply_machines(model, march.begin, march.constants, node.x, node.v, delay, node.trim, forces,
-                   node.power);
+    apply_machines(model, integrator.begin, integrator.constants, node.x, node.v, delay, node.trim,
+                   forces, node.power);
     using OfMeshes = Row<MESH_LANES<L>>;
-    const MatrixRows share = contacts.matrices.share();
-    OfMeshes push = OfMeshes(march.constants.side) * OfMeshes(node.meshes.push);
-    V force = V(node.rubbing) + sum_rows<L>(contacts.matrices.press(), push);
+    const MatrixRows share = contacts.matrices.shapes_transposed();
+    OfMeshes normal_force =
+        OfMeshes(integrator.constants.side) * OfMeshes(node.meshes.normal_force);
+    V force =
+        V(node.friction_force) + sum_rows<L>(contacts.matrices.force_to_modes(), normal_force);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         force += V(share[train.coupling[c][0]]) * forces.machine[c];
         force += V(share[train.coupling[c][1]]) * forces.member[c];
     }
     if constexpr (MOVING) {
         alignas(64) double on_axes[BODIES] = {};
-        apply_axes(train, march.begin, march.constants.rigid, delay, node.x, node.v, on_axes,
-                   node.power);
+        apply_axes(train, integrator.begin, integrator.constants.rigid, delay, node.x, node.v,
+                   on_axes, node.power);
         if (tilts(train)) add_slope_moments(train, node.meshes, on_axes);
         force += sum_rows<L>(share, V(on_axes));
     }
@@ -108,24 +113,24 @@ SHARED Row<L> node_force(const Model& model, const March& march, const ContactSt
 
 // Motion and mesh forces at a time within the step.
 template <int L>
-void show_meshes(const Model& model, const March& march, double delay, Node& node) {
-    Waves<L> at = waves_at<L>(march.run.motion, delay);
-    move_node<L>(model, march, delay, at.cosine, at.sine, node);
-    find_forces_at_node<L>(model, march, node, delay);
+void show_meshes(const Model& model, const Integrator& integrator, double delay, Node& node) {
+    Waves<L> at = waves_at<L>(integrator.run.motion, delay);
+    move_node<L>(model, integrator, delay, at.cosine, at.sine, node);
+    find_forces_at_node<L>(model, integrator, node, delay);
 }
 
-// The same at so many times, at most MOST_INSTANTS, in `run.shown`, and friction with it.
+// The same at several times, at most MOST_INSTANTS, with friction, in `run.shown`.
 template <int L>
-void show_friction(const Model& model, March& march, const double* delays, int count) {
+void show_friction(const Model& model, Integrator& integrator, const double* delays, int count) {
     FrictionInstant instants[MOST_INSTANTS] = {};
     for (int n = 0; n < count; ++n) {
-        Node& node = march.run.shown[n];
-        show_meshes<L>(model, march, delays[n], node);
-        distribute_forces<MESH_LANES<L>>(model.train, march.constants, node.meshes);
+        Node& node = integrator.run.shown[n];
+        show_meshes<L>(model, integrator, delays[n], node);
+        distribute_forces<MESH_LANES<L>>(model.train, integrator.constants, node.meshes);
         instants[n] = {&node.meshes, node.spin, &node.friction};
     }
-    find_friction(model, march.constants, instants, count,
-                  march.control.tolerance >= SINGLE_PRECISION_SHOWN);
+    find_friction(model, integrator.constants, instants, count,
+                  integrator.control.tolerance >= SINGLE_PRECISION_SHOWN);
 }
 
 }  // namespace gearbox

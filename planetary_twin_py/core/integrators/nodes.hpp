@@ -8,8 +8,8 @@ struct alignas(64) Nodes {
     std::int64_t count;
     double abscissa[5];                    // in (0, 1], the last of which is 1
     alignas(64) double coefficient[5][5];  // of the powers of t (rows) from the values (columns)
-    alignas(64) double legendre[5][5];     // of Legendre's polynomials (rows) on the step, likewise
-    double smallest;  // bound on the product of the distances of any t to all points
+    alignas(64) double legendre[5][5];     // of Legendre polynomials (rows), likewise
+    double smallest;  // bound on the product of the distances of t from all points
 };
 
 }  // namespace gearbox

@@ -17,20 +17,20 @@ namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t TAPE = 4096;  // steps of the longest cycle that is kept
-// Of the tolerance, by which a train that repeats may miss where it was.
+constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
+// Largest difference of states one cycle apart, relative to the tolerance.
 constexpr double MISSED_SHARE = 0.3;
-constexpr double SETTLED = 0.25;  // of all cycles so far, for which the train must not stray
-// Change of the transmission errors, in static deflections, when the teeth are a mesh cycle late.
+constexpr double SETTLED = 0.25;  // share of all cycles in which states must agree
+// Change of the transmission errors, in static deflections, by a delay of one mesh cycle.
 constexpr double PHASE = 20.0;
 
 Instant now_of(const State& state) {
     return {state.seconds, state.time};
 }
 
-// Whether a mesh cycle begins at the end of the step.
-bool begins_mesh_cycle(const March& march) {
-    const State &begin = march.begin, &end = march.end;
+// Whether a mesh cycle starts at the end of the step.
+bool begins_mesh_cycle(const Integrator& integrator) {
+    const State &begin = integrator.begin, &end = integrator.end;
     return begin.segment[0] != 0 && end.segment[0] == 0 && end.side[0] != OPEN;
 }
 
@@ -40,7 +40,7 @@ bool same_contacts(const Train& train, const State& a, const State& b) {
     return true;
 }
 
-// How far meshes, couplings and speeds of two states are apart in what the meshes yield [m].
+// Difference of two states in meshes, couplings and speeds, as a deflection of the meshes [m].
 double distance_of_bodies(const Train& train, const Control& control, const State& a,
                           const State& b) {
     double largest = 0.0;
@@ -55,15 +55,16 @@ double distance_of_bodies(const Train& train, const Control& control, const Stat
     }
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double speed = body_speed(train, a, a.v, j) - body_speed(train, b, b.v, j);
-        largest = std::max(largest, std::fabs(speed) * train.radius[j] / control.quickness);
+        largest =
+            std::max(largest, std::fabs(speed) * train.radius[j] / control.speed_per_deflection);
     }
     return largest;
 }
 
-// How far two states are apart in what the meshes yield, relative to the static deflection.
-double distance(const Model& model, const March& march, const State& a, const State& b) {
+// Difference of two states as a deflection of the meshes, relative to the static deflection.
+double distance(const Model& model, const Integrator& integrator, const State& a, const State& b) {
     const Train& train = model.train;
-    const Control& control = march.control;
+    const Control& control = integrator.control;
     constexpr double apart = std::numeric_limits<double>::infinity();
     if (!same_contacts(train, a, b)) return apart;
     double largest = distance_of_bodies(train, control, a, b);
@@ -80,7 +81,7 @@ double distance(const Model& model, const March& march, const State& a, const St
     return largest / control.deflection;
 }
 
-// Fill `place` with a state, as it lies after the start of the cycle.
+// Fill `place` with a state, relative to the start of the cycle.
 void keep(const State& start, const State& state, Place& place) {
     place.state = state;
     place.after = delay(start, now_of(state));
@@ -88,38 +89,39 @@ void keep(const State& start, const State& state, Place& place) {
     for (int e = 0; e < LEDGER; ++e) place.energy[e] = state.energy[e] - start.energy[e];
 }
 
-// Put the step just made on the tape, unless there is no room or its modes were lost.
-void record_step(March& march) {
-    Periodic& periodic = march.periodic;
-    const std::int64_t known = march.run.known.count(), place = periodic.steps;
-    if (place == TAPE) periodic.cycles = 0;
-    if (place == TAPE || known < periodic.known) {
+// Record the last step, unless there are too many steps or its modes are no longer stored.
+void record_step(Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
+    const std::int64_t known = integrator.run.known.count(), place = periodic.steps;
+    if (place == MOST_CYCLE_STEPS) periodic.cycles = 0;
+    if (place == MOST_CYCLE_STEPS || known < periodic.known) {
         periodic.recording = false;
         return;
     }
     if (place == 0) {
-        periodic.start = march.begin;
+        periodic.start = integrator.begin;
         periodic.coefficients.clear();
     }
-    if (place == static_cast<std::int64_t>(periodic.tape.size())) periodic.tape.emplace_back();
-    CycleStep& step = periodic.tape[place];
-    keep(periodic.start, march.begin, step.begin);
-    keep(periodic.start, march.end, step.end);
-    step.collocated = march.control.collocated;
-    std::memcpy(step.power, march.last.power, sizeof step.power);
-    std::memcpy(step.rubbing, march.last.rubbing, sizeof step.rubbing);
-    step.motion = march.run.motion;
-    step.sums = march.sums.step;
+    if (place == static_cast<std::int64_t>(periodic.cycle_steps.size()))
+        periodic.cycle_steps.emplace_back();
+    CycleStep& step = periodic.cycle_steps[place];
+    keep(periodic.start, integrator.begin, step.begin);
+    keep(periodic.start, integrator.end, step.end);
+    step.collocated = integrator.control.collocated;
+    std::memcpy(step.power, integrator.last.power, sizeof step.power);
+    std::memcpy(step.friction_force, integrator.last.friction_force, sizeof step.friction_force);
+    step.motion = integrator.run.motion;
+    step.sums = integrator.sums.step;
     step.samples = {};
     periodic.steps = place + 1;
     periodic.known = known;
 }
 
-// Let the cycle end as exactly as set-point and teeth say; whether it does.
-bool close_cycle(const Model& model, March& march) {
-    Periodic& periodic = march.periodic;
+// Adjust the end of the cycle to set-point and tooth positions; whether they agree.
+bool close_cycle(const Model& model, Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
     const Train& train = model.train;
-    const State& end = march.end;
+    const State& end = integrator.end;
     Place& whole = periodic.whole;
     const std::int64_t motor = train.coupling[0][0];
     keep(periodic.start, end, whole);
@@ -133,39 +135,39 @@ bool close_cycle(const Model& model, March& march) {
     periodic.part = 0;
     periodic.sums.time = 0.0;
     for (std::int64_t k = 0; k < periodic.steps; ++k)
-        add_sums(periodic.tape[k].sums, periodic.sums, mesh_lanes(train));
+        add_sums(periodic.cycle_steps[k].sums, periodic.sums, mesh_lanes(train));
     double late =
         std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
     return late * static_cast<double>(periodic.cycles) * PHASE <=
-           MISSED_SHARE * march.control.tolerance;
+           MISSED_SHARE * integrator.control.tolerance;
 }
 
-// Whether the train has stayed near its anchor for long enough to repeat.
+// Whether the train has stayed near the reference for long enough to repeat.
 bool has_settled(const Periodic& periodic, const State& end) {
-    auto since = static_cast<double>(periodic.age - periodic.anchor_age);
-    double stayed = delay(periodic.anchor, now_of(end));
+    auto since = static_cast<double>(periodic.age - periodic.reference_age);
+    double stayed = delay(periodic.reference, now_of(end));
     return !(since < SETTLED * static_cast<double>(periodic.age) || stayed < periodic.pause);
 }
 
-void check_repetition(const Model& model, March& march) {
-    Periodic& periodic = march.periodic;
-    const State& end = march.end;
+void check_repetition(const Model& model, Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
+    const State& end = integrator.end;
     ++periodic.age;
-    bool near =
-        distance(model, march, end, periodic.anchor) <= MISSED_SHARE * march.control.tolerance;
+    bool near = distance(model, integrator, end, periodic.reference) <=
+                MISSED_SHARE * integrator.control.tolerance;
     if (periodic.recording) {
         periodic.recording = false;
-        periodic.playing = near && close_cycle(model, march);
+        periodic.replaying = near && close_cycle(model, integrator);
     } else if (near) {
         if (!has_settled(periodic, end)) return;
         periodic.recording = true;
         periodic.steps = periodic.known = 0;
     }
-    periodic.anchor_age = periodic.age;
-    periodic.anchor = end;
+    periodic.reference_age = periodic.age;
+    periodic.reference = end;
 }
 
-// Move the start on by a cycle; the motor's turns are counted in whole parts.
+// Advance the start by one cycle; turns of the motor are counted in whole fractions.
 void begin_cycle(Periodic& periodic) {
     State& start = periodic.start;
     const Place& whole = periodic.whole;
@@ -179,19 +181,19 @@ void begin_cycle(Periodic& periodic) {
     periodic.place = 0;
 }
 
-// Begin the cycle in which `until` lies; those before it count as a whole.
-void begin_cycle_of(March& march, std::int64_t lanes, const Instant& until) {
-    Periodic& periodic = march.periodic;
-    const double end = periodic.tape[periodic.steps - 1].end.after;
+// Start the cycle that contains `until`; earlier cycles are summed up as a whole.
+void begin_cycle_of(Integrator& integrator, std::int64_t lanes, const Instant& until) {
+    Periodic& periodic = integrator.periodic;
+    const double end = periodic.cycle_steps[periodic.steps - 1].end.after;
     begin_cycle(periodic);
     while (delay(periodic.start, until) > end) {
-        march.control.repeated += periodic.steps;
-        add_sums(periodic.sums, march.sums.total, lanes);
+        integrator.control.repeated += periodic.steps;
+        add_sums(periodic.sums, integrator.sums.total, lanes);
         begin_cycle(periodic);
     }
 }
 
-// Let `state` be at a place in the present cycle.
+// Set `state` to a place in the present cycle.
 void restore(const Periodic& periodic, const Place& place, State& state) {
     const State& start = periodic.start;
     state = place.state;
@@ -204,8 +206,8 @@ void restore(const Periodic& periodic, const Place& place, State& state) {
 
 }  // namespace
 
-CycleStep& played_step(Periodic& periodic) {
-    return periodic.tape[periodic.place - 1];
+CycleStep& replayed_step(Periodic& periodic) {
+    return periodic.cycle_steps[periodic.place - 1];
 }
 
 Turns turns_at(const Periodic& periodic, const Place& place) {
@@ -215,48 +217,49 @@ Turns turns_at(const Periodic& periodic, const Place& place) {
     return {start.turns[0] + whole, turns - whole};
 }
 
-CycleStep& next_step(const Model& model, March& march, const Instant& until) {
-    Periodic& periodic = march.periodic;
+CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until) {
+    Periodic& periodic = integrator.periodic;
     while (true) {
-        if (periodic.place == periodic.steps) begin_cycle_of(march, mesh_lanes(model.train), until);
-        CycleStep& step = periodic.tape[periodic.place++];
-        ++march.control.repeated;
+        if (periodic.place == periodic.steps)
+            begin_cycle_of(integrator, mesh_lanes(model.train), until);
+        CycleStep& step = periodic.cycle_steps[periodic.place++];
+        ++integrator.control.repeated;
         if (delay(periodic.start, until) <= step.end.after) return step;
-        add_sums(step.sums, march.sums.total, mesh_lanes(model.train));
+        add_sums(step.sums, integrator.sums.total, mesh_lanes(model.train));
     }
 }
 
-void watch(const Model& model, March& march) {
-    Periodic& periodic = march.periodic;
+void check_periodicity(const Model& model, Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
     if (periodic.cycles == 0) return;
-    if (periodic.recording) record_step(march);
-    if (!begins_mesh_cycle(march)) return;
+    if (periodic.recording) record_step(integrator);
+    if (!begins_mesh_cycle(integrator)) return;
     if (++periodic.passed < periodic.cycles) return;
     periodic.passed = 0;
-    check_repetition(model, march);
+    check_repetition(model, integrator);
 }
 
-void restart_settling(March& march) {
-    Periodic& periodic = march.periodic;
-    periodic.age = periodic.anchor_age = periodic.passed = 0;
-    periodic.recording = periodic.playing = false;
+void restart_settling(Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
+    periodic.age = periodic.reference_age = periodic.passed = 0;
+    periodic.recording = periodic.replaying = false;
 }
 
-void continue_from(const Model& model, March& march, const CycleStep& step) {
-    const Periodic& periodic = march.periodic;
-    restore(periodic, step.begin, march.begin);
-    restore(periodic, step.end, march.end);
-    march.control.collocated = step.collocated;
-    march.control.step = step.end.after - step.begin.after;
-    std::memcpy(march.last.power, step.power, sizeof step.power);
-    std::memcpy(march.last.rubbing, step.rubbing, sizeof step.rubbing);
-    march.run.motion = step.motion;
-    march.sums.step = step.sums;
-    const State& begin = march.begin;
-    set_step_constants(model, begin, march.constants);
-    if (step.collocated) return;  // else dense output computes the step again
-    place_bristles(march.first.pairs, begin.bristle);
-    forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, march.first);
+void continue_from(const Model& model, Integrator& integrator, const CycleStep& step) {
+    const Periodic& periodic = integrator.periodic;
+    restore(periodic, step.begin, integrator.begin);
+    restore(periodic, step.end, integrator.end);
+    integrator.control.collocated = step.collocated;
+    integrator.control.step = step.end.after - step.begin.after;
+    std::memcpy(integrator.last.power, step.power, sizeof step.power);
+    std::memcpy(integrator.last.friction_force, step.friction_force, sizeof step.friction_force);
+    integrator.run.motion = step.motion;
+    integrator.sums.step = step.sums;
+    const State& begin = integrator.begin;
+    set_step_constants(model, begin, integrator.constants);
+    if (step.collocated) return;  // otherwise dense output computes the step again
+    place_bristles(integrator.first.pairs, begin.bristle);
+    forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim, integrator.first);
 }
 
 }  // namespace gearbox

@@ -1,20 +1,20 @@
 #pragma once
 
-// A step whose meshes move exactly, under a polynomial for all that is not linear.
+// A step with the exact linear motion of the meshes; all other terms are polynomials.
 //
-// M x'' = F(t, x, v) reads q'' + c q' + w^2 q = rest in the modes of the meshes in contact. The
-// rest is friction, machines, errors of form, damping out of proportion, stiffness that changes
-// within its segment; a polynomial through its values at the nodes of the step is answered exactly,
-// at the nodes and at any time between them: by a polynomial and a free wave. A mode that hardly
-// moves of its own within the step counts as a free mass, its spring and damper as part of the
-// rest.
+// In the modes of the meshes in contact, M x'' = F(t, x, v) is q'' + c q' + w^2 q = remainder. The
+// remainder contains friction, machines, errors of form, damping that is not proportional, and
+// changes of the stiffness within its segment. It is interpolated by a polynomial through its
+// values at the nodes of the step, under which the motion is known exactly at any time within the
+// step: a polynomial and a free wave. A mode whose spring and damper are negligible within the step
+// counts as a free mass, their forces as part of the remainder.
 
 #include <algorithm>
 #include <cmath>
 
 #include "integrators/contact_modes.hpp"
 #include "integrators/given_motion.hpp"
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "integrators/oscillator.hpp"
 #include "train/model.hpp"
 #include "tribology/tooth_friction.hpp"
@@ -22,12 +22,12 @@
 
 namespace gearbox {
 
-inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h) of a mode whose motion keeps ten digits
+inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h): ten digits are accurate
 
-// Relative change of the damping times for which the modes keep their damping.
+// Relative change of the damping times below which the damping of the modes is not updated.
 inline constexpr double DAMPING_KEPT = 5e-3;
-// Terms of the series of a free wave a little later, and the phase for which it keeps eleven
-// digits.
+// Terms of the series of a free wave a short time later, and the phase up to which it is accurate
+// to eleven digits.
 inline constexpr int FEW_TERMS = 5, MANY_TERMS = 9;
 inline constexpr double FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
 
@@ -38,30 +38,30 @@ inline const ContactState& contacts_of(const Propagation& run) {
     return run.known.states[run.motion.modes];
 }
 
-// Bounds for damping times up to tau, which may change by DAMPING_KEPT while they are kept.
+// Bounds for damping times up to tau, which may change by DAMPING_KEPT without an update.
 //
 // From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
 template <int L>
 WaveBounds bound_waves(const ContactState& contacts, double tau) {
     using V = Row<L>;
     V square(contacts.square), damping(contacts.damping);
-    Mask<L> swings = V(contacts.slow) == V(contacts.fast);
+    Mask<L> underdamped = V(contacts.slow) == V(contacts.fast);
     V longest = 1.0 / square_root(larger(square, V(SMALLEST)));
     V inverse = 1.0 / larger(V(contacts.rate), V(SMALLEST));
-    longest = select(swings, smaller(longest, inverse), longest);
-    // The lean is a straight line in tau: largest at an end.
-    V lean = larger(absolute(0.5 * damping - tau * square), 0.5 * damping);
-    lean += DAMPING_KEPT * tau * square;
-    V ratio = lean * inverse, first = 1.0 + lean * longest;
-    first = select(swings, smaller(first, square_root(1.0 + ratio * ratio)), first);
+    longest = select(underdamped, smaller(longest, inverse), longest);
+    // The slope is linear in tau: largest at an end.
+    V slope = larger(absolute(0.5 * damping - tau * square), 0.5 * damping);
+    slope += DAMPING_KEPT * tau * square;
+    V ratio = slope * inverse, first = 1.0 + slope * longest;
+    first = select(underdamped, smaller(first, square_root(1.0 + ratio * ratio)), first);
     WaveBounds bounds;
     first.store(bounds.displaced);
     (longest + tau * (1.0 + DAMPING_KEPT)).store(bounds.moving);
     return bounds;
 }
 
-// Damp the modes of a contact state as its meshes are damped now. What the damping is off by later
-// is part of the rest.
+// Set the damping of the modes of a contact state to the present one of its meshes. Later
+// differences are part of the remainder.
 template <int L>
 void damp_modes(ContactState& contacts, const double* tau) {
     bool near = std::fabs(tau[0] - contacts.tau[0]) <= DAMPING_KEPT * contacts.tau[0] &&
@@ -69,7 +69,7 @@ void damp_modes(ContactState& contacts, const double* tau) {
     if (near) return;
     contacts.tau[0] = tau[0];
     contacts.tau[1] = tau[1];
-    for (KeptWaves& waves : contacts.waves) waves.step = 0.0;
+    for (StoredWaves& waves : contacts.waves) waves.step = 0.0;
     for (int m = 0; m < L; ++m) {
         double damping = contacts.shaft_damping[m] + tau[0] * contacts.mesh_damping[0][m];
         damping += tau[1] * contacts.mesh_damping[1][m];
@@ -82,10 +82,10 @@ void damp_modes(ContactState& contacts, const double* tau) {
     contacts.bounds = bound_waves<L>(contacts, std::max(tau[0], tau[1]));
 }
 
-// Free waves a little later (Taylor): C' = -w^2 S, S' = C - c S.
+// Free waves a short time later by Taylor series: C' = -w^2 S, S' = C - c S.
 template <int L, int TERMS>
-LAW void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s, double* cosine,
-                     double* sine) {
+ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s,
+                               double* cosine, double* sine) {
     using V = Row<L>;
     V square(motion.square), damping(motion.damping);
     V sum_c = c, sum_s = s;
@@ -101,10 +101,10 @@ LAW void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s
     sum_s.store(sine);
 }
 
-// `wave` of all modes; within a small part of all periods and decays by its series.
+// `wave` of all modes; by its series for times much shorter than all periods and decay times.
 template <int L>
-SHARED void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
-    const double phase = motion.pace * std::fabs(t);
+NOINLINE void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
+    const double phase = motion.fastest_rate * std::fabs(t);
     if (phase <= FEW_SHIFTED) return shift_waves<L, FEW_TERMS>(motion, t, 1.0, 0.0, cosine, sine);
     if (phase <= MANY_SHIFTED) return shift_waves<L, MANY_TERMS>(motion, t, 1.0, 0.0, cosine, sine);
 #pragma GCC ivdep
@@ -115,57 +115,58 @@ SHARED void waves(const ModalMotion& motion, double t, double* cosine, double* s
     }
 }
 
-// Free waves of all modes at a time, and after two stretches of time, from those after each.
+// Free waves of all modes after the sum of two times, from those after each.
 template <int L>
 struct Waves {
     Row<L> cosine, sine;
 };
 
 template <int L>
-LAW Waves<L> waves_at(const ModalMotion& motion, double t) {
+ALWAYS_INLINE Waves<L> waves_at(const ModalMotion& motion, double t) {
     alignas(64) double cosine[L], sine[L];
     waves<L>(motion, t, cosine, sine);
     return {Row<L>(cosine), Row<L>(sine)};
 }
 
 template <int L>
-LAW Waves<L> waves_after(const ModalMotion& motion, const Waves<L>& a, const Waves<L>& b) {
+ALWAYS_INLINE Waves<L> waves_after(const ModalMotion& motion, const Waves<L>& a,
+                                   const Waves<L>& b) {
     using V = Row<L>;
     V rate = a.cosine - V(motion.damping) * a.sine;
     return {a.cosine * b.cosine - V(motion.square) * a.sine * b.sine,
             a.sine * b.cosine + rate * b.sine};
 }
 
-// Free waves at the nodes of a step that is longer than the one they are kept of.
+// Free waves at the nodes of a step from stored ones of a shorter step.
 template <int L, int TERMS>
-void shift_all_waves(Propagation& run, const KeptWaves& kept, double longer) {
+void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer) {
     for (int n = 0; n < run.nodes.count; ++n)
-        shift_waves<L, TERMS>(run.motion, run.nodes.abscissa[n] * longer, Row<L>(kept.cosine[n]),
-                              Row<L>(kept.sine[n]), run.cosine[n], run.sine[n]);
+        shift_waves<L, TERMS>(run.motion, run.nodes.abscissa[n] * longer, Row<L>(stored.cosine[n]),
+                              Row<L>(stored.sine[n]), run.cosine[n], run.sine[n]);
 }
 
-// Free motions at the nodes of a step of h, from those of a step as long if such are kept.
+// Free motions at the nodes of a step of h, from those of an equally long step if stored.
 template <int L>
 void find_waves(Propagation& run, double h) {
     const std::int64_t place = run.place;
-    KeptWaves* kept = place < KEPT_STEPS ? &contacts_of(run).waves[place] : nullptr;
-    if (kept && kept->step > 0.0 && kept->nodes == run.nodes.count) {
-        const double longer = h - kept->step, phase = run.motion.pace * std::fabs(longer);
-        if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, *kept, longer);
-        if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, *kept, longer);
+    StoredWaves* stored = place < STORED_STEPS ? &contacts_of(run).waves[place] : nullptr;
+    if (stored && stored->step > 0.0 && stored->nodes == run.nodes.count) {
+        const double longer = h - stored->step, phase = run.motion.fastest_rate * std::fabs(longer);
+        if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, *stored, longer);
+        if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, *stored, longer);
     }
     for (int n = 0; n < run.nodes.count; ++n) {
         waves<L>(run.motion, run.nodes.abscissa[n] * h, run.cosine[n], run.sine[n]);
-        if (!kept) continue;
-        copy<L>(run.cosine[n], kept->cosine[n]);
-        copy<L>(run.sine[n], kept->sine[n]);
+        if (!stored) continue;
+        copy<L>(run.cosine[n], stored->cosine[n]);
+        copy<L>(run.sine[n], stored->sine[n]);
     }
-    if (!kept) return;
-    kept->step = h;
-    kept->nodes = run.nodes.count;
+    if (!stored) return;
+    stored->step = h;
+    stored->nodes = run.nodes.count;
 }
 
-// Free motions of all modes at the nodes of a step of h, and the rest as it is at the start.
+// Free motions of all modes at the nodes of a step of h, and the remainder at the start.
 template <int L>
 void set_step(Propagation& run, double h) {
     using V = Row<L>;
@@ -174,19 +175,20 @@ void set_step(Propagation& run, double h) {
     V square(run.motion.square), damping(run.motion.damping);
     Mask<L> free = square * h * h + damping * h < FREE_MASS;
     V spring = select(free, 0.0, square), damper = select(free, 0.0, damping);
-    V rest = V(run.force) + damper * V(run.start.p) + spring * V(run.start.q);
+    V remainder = V(run.force) + damper * V(run.start.p) + spring * V(run.start.q);
     spring.store(run.spring);
     damper.store(run.damper);
-    run.motion.pace = largest(square_root(spring) + damper);
+    run.motion.fastest_rate = largest(square_root(spring) + damper);
     find_waves<L>(run, h);
     for (int n = 0; n < run.nodes.count; ++n) {
-        rest.store(run.rest[n]);
-        copy<L>(run.start.rubbing, run.node[n].rubbing);
+        remainder.store(run.remainder[n]);
+        copy<L>(run.start.friction_force, run.node[n].friction_force);
     }
 }
 
-// Whether a step of h keeps its digits. A mode that creeps for much longer than the step is a small
-// difference of a polynomial and a wave, both larger by the square of that ratio.
+// Whether a step of h loses no accuracy by cancellation. The motion of a mode with a decay time
+// much longer than the step is a small difference of a polynomial and a wave, both larger by the
+// square of that ratio.
 inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
     for (std::int64_t m = 0; m < bodies; ++m) {
         double square = run.motion.square[m], damping = run.motion.damping[m];
@@ -195,17 +197,17 @@ inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
     return true;
 }
 
-// Coefficients of (t/h)^k in the polynomials through the rest of all modes.
+// Coefficients of (t/h)^k in the polynomials through the remainder of all modes.
 template <int L>
-LAW Row<L> power(const Propagation& run, std::int64_t k) {
+ALWAYS_INLINE Row<L> power(const Propagation& run, std::int64_t k) {
     using V = Row<L>;
     const double* c = run.nodes.coefficient[k];
-    V sum = c[0] * V(run.rest[0]);
-    for (std::int64_t n = 1; n < run.nodes.count; ++n) sum = fused(c[n], V(run.rest[n]), sum);
+    V sum = c[0] * V(run.remainder[0]);
+    for (std::int64_t n = 1; n < run.nodes.count; ++n) sum = fused(c[n], V(run.remainder[n]), sum);
     return sum;
 }
 
-// The motion of all modes under the polynomial through `rest`.
+// Motion of all modes under the polynomial through `remainder`.
 template <int L>
 void respond(Propagation& run) {
     using V = Row<L>;
@@ -219,7 +221,8 @@ void respond(Propagation& run) {
     V d(0.0), e(0.0);
     if (run.nodes.count > 3) d = power<L>(run, 3);
     if (run.nodes.count > 4) e = power<L>(run, 4);
-    // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the rest's coefficient.
+    // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the coefficient of the
+    // remainder.
     V four = e * inverse;
     V three = (d - 4.0 * loss * four) * inverse;
     V two = (c - 3.0 * loss * three - 12.0 * inertia * four) * inverse;
@@ -239,54 +242,56 @@ void respond(Propagation& run) {
 
 // q and q' of all modes at t/h, from `waves` at that time.
 template <int L>
-LAW RowPair<L> modal_states(const ModalMotion& motion, double t, const Row<L>& cosine,
-                            const Row<L>& sine) {
+ALWAYS_INLINE RowPair<L> modal_states(const ModalMotion& motion, double t, const Row<L>& cosine,
+                                      const Row<L>& sine) {
     using V = Row<L>;
     const double (*y)[BODIES] = motion.particular;
     V a(y[0]), b(y[1]), c(y[2]), d(y[3]), e(y[4]), f(y[5]), g(y[6]);
     V u(motion.free[0]), w(motion.free[1]);
-    // By even and odd powers, half as long to wait for.
+    // Even and odd powers apart, which halves the latency.
     const double s = t * t;
     V even = fused(s, fused(s, fused(s, g, e), c), a), odd = fused(s, fused(s, f, d), b);
     V odd_slope = fused(s, fused(5.0 * s, f, 3.0 * d), b);
     V even_slope = fused(s, fused(6.0 * s, g, 4.0 * e), 2.0 * c);
     V value = fused(t, odd, even), slope = fused(t, even_slope, odd_slope);
     V fading = fused(-V(motion.damping), sine, cosine), stiff = V(motion.square) * sine;
-    V swing = fused(cosine, u, sine * w), rate = fused(fading, w, -stiff * u);
-    return {value + swing, fused(slope, motion.per_step, rate)};
+    V wave_part = fused(cosine, u, sine * w), rate = fused(fading, w, -stiff * u);
+    return {value + wave_part, fused(slope, motion.per_step, rate)};
 }
 
 // q and q' of all modes at any time within the step.
 template <int L>
-LAW RowPair<L> modes_at(const ModalMotion& motion, double delay) {
+ALWAYS_INLINE RowPair<L> modes_at(const ModalMotion& motion, double delay) {
     Waves<L> at = waves_at<L>(motion, delay);
     return modal_states<L>(motion, delay * motion.per_step, at.cosine, at.sine);
 }
 
 // x and v at any time within the step.
 template <int L>
-void propagate(const Model& model, March& march, double delay, double* x, double* v) {
-    Propagation& run = march.run;
-    auto [at, rate] = sum_rows<L>(contacts_of(run).matrices.form(), modes_at<L>(run.motion, delay));
+void propagate(const Model& model, Integrator& integrator, double delay, double* x, double* v) {
+    Propagation& run = integrator.run;
+    auto [at, rate] =
+        sum_rows<L>(contacts_of(run).matrices.shapes(), modes_at<L>(run.motion, delay));
     at.store(x);
     rate.store(v);
-    move_given(model, march.begin, delay, x, v);
+    move_given(model, integrator.begin, delay, x, v);
 }
 
 // Trim of the speed loops, the integral of set-point minus speed.
-inline void trim_at(const Model& model, const March& march, double delay, const double* x,
+inline void trim_at(const Model& model, const Integrator& integrator, double delay, const double* x,
                     double* trim) {
     const Train& train = model.train;
-    const State& begin = march.begin;
+    const State& begin = integrator.begin;
     for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
-        double lag = begin.set_speed[a] - begin.speed[a] + 0.5 * march.constants.slew[a] * delay;
+        double lag =
+            begin.set_speed[a] - begin.speed[a] + 0.5 * integrator.constants.slew[a] * delay;
         double turned = (x[motor] - begin.x[motor]) * train.inverse_radius[motor];
         trim[a] = begin.trim[a] + lag * delay - turned;
     }
 }
 
-// How gears turn against their lines of action at a node, from the speeds of the bodies.
+// Speeds of the gears relative to their lines of action at a node, from the speeds of the bodies.
 inline void turn_gears(const Train& train, const StepConstants& constants, Node& node) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         const double line = turning_of_line(train, i, node.v);
@@ -297,65 +302,67 @@ inline void turn_gears(const Train& train, const StepConstants& constants, Node&
     }
 }
 
-// Bodies, meshes and gears of a node in the motion of the modes, and the trim of the speed loops.
+// Motion of bodies, meshes and gears at a node from that of the modes, and the trim of the speed
+// loops.
 template <int L>
-SHARED void move_node(const Model& model, const March& march, double delay, const Row<L>& cosine,
-                      const Row<L>& sine, Node& node) {
+NOINLINE void move_node(const Model& model, const Integrator& integrator, double delay,
+                        const Row<L>& cosine, const Row<L>& sine, Node& node) {
     constexpr int M = MESH_LANES<L>;
-    const Propagation& run = march.run;
+    const Propagation& run = integrator.run;
     const ModeMatrices& matrices = contacts_of(run).matrices;
     RowPair<L> modes = modal_states<L>(run.motion, delay * run.motion.per_step, cosine, sine);
     RowPair<M> meshes = sum_rows<M>(matrices.motion(), modes);
-    RowPair<L> bodies = sum_rows<L>(matrices.form(), modes);
+    RowPair<L> bodies = sum_rows<L>(matrices.shapes(), modes);
     modes.first.store(node.q);
     modes.second.store(node.p);
     meshes.first.store(node.d);
     meshes.second.store(node.rate);
     bodies.first.store(node.x);
     bodies.second.store(node.v);
-    move_given(model, march.begin, delay, node.x, node.v);
+    move_given(model, integrator.begin, delay, node.x, node.v);
     if constexpr (MOVING) {
-        turn_gears(model.train, march.constants, node);
+        turn_gears(model.train, integrator.constants, node);
     } else {
         for (int g = 0; g < GEARS - 1; ++g)
-            (Row<M>(march.constants.spin[g]) + sum_rows<M>(matrices.spin(g), modes.second))
+            (Row<M>(integrator.constants.spin[g]) + sum_rows<M>(matrices.spin(g), modes.second))
                 .store(node.spin[g]);
     }
-    trim_at(model, march, delay, node.x, node.trim);
+    trim_at(model, integrator, delay, node.x, node.trim);
 }
 
 template <int L>
-LAW void move_to(const Model& model, March& march, std::int64_t n) {
-    Propagation& run = march.run;
-    move_node<L>(model, march, run.nodes.abscissa[n] * run.motion.step, Row<L>(run.cosine[n]),
+ALWAYS_INLINE void move_to(const Model& model, Integrator& integrator, std::int64_t n) {
+    Propagation& run = integrator.run;
+    move_node<L>(model, integrator, run.nodes.abscissa[n] * run.motion.step, Row<L>(run.cosine[n]),
                  Row<L>(run.sine[n]), run.node[n]);
 }
 
-// Answer the rest as it is now, and move on to where that takes the nodes.
+// Compute the motion under the present remainder, and move all nodes accordingly.
 template <int L>
-void visit_nodes(const Model& model, March& march) {
-    respond<L>(march.run);
-    for (std::int64_t n = 0; n < march.run.nodes.count; ++n) move_to<L>(model, march, n);
+void update_nodes(const Model& model, Integrator& integrator) {
+    respond<L>(integrator.run);
+    for (std::int64_t n = 0; n < integrator.run.nodes.count; ++n) move_to<L>(model, integrator, n);
 }
 
 // q of all modes at node n.
 template <int L>
-LAW Row<L> modal_places(const Propagation& run, std::int64_t n) {
+ALWAYS_INLINE Row<L> modal_places(const Propagation& run, std::int64_t n) {
     using V = Row<L>;
     const double (*y)[BODIES] = run.motion.particular;
     const double t = run.nodes.abscissa[n], s = t * t;
     V even = fused(s, fused(s, fused(s, V(y[6]), V(y[4])), V(y[2])), V(y[0]));
     V odd = fused(s, fused(s, V(y[5]), V(y[3])), V(y[1]));
-    V swing =
+    V wave_part =
         fused(V(run.cosine[n]), V(run.motion.free[0]), V(run.sine[n]) * V(run.motion.free[1]));
-    return fused(t, odd, even) + swing;
+    return fused(t, odd, even) + wave_part;
 }
 
-// Answer the rest once more, and move the last node; of the others only the transmission errors,
-// which is all that is read of them where the step stands.
+// Compute the motion under the present remainder once more, and move the last node; of the other
+// nodes only the transmission errors, the only quantities that are read from them in an accepted
+// step.
 template <int L>
-void visit_last_node(const Model& model, March& march) {
-    Propagation& run = march.run;
+void update_last_node(const Model& model, Integrator& integrator) {
+    Propagation& run = integrator.run;
     respond<L>(run);
     constexpr int M = MESH_LANES<L>;
     const MatrixRows motion = contacts_of(run).matrices.motion();
@@ -366,13 +373,14 @@ void visit_last_node(const Model& model, March& march) {
     copy<M>(node.d, run.before_d);
     copy<M>(node.rate, run.before_rate);
     copy<L>(node.v, run.before_v);
-    move_to<L>(model, march, last);
+    move_to<L>(model, integrator, last);
 }
 
-// The other nodes, which another sweep asks for.
+// The other nodes, for another sweep.
 template <int L>
-void visit_other_nodes(const Model& model, March& march) {
-    for (std::int64_t n = 0; n < march.run.nodes.count - 1; ++n) move_to<L>(model, march, n);
+void update_other_nodes(const Model& model, Integrator& integrator) {
+    for (std::int64_t n = 0; n < integrator.run.nodes.count - 1; ++n)
+        move_to<L>(model, integrator, n);
 }
 
 }  // namespace gearbox

@@ -12,7 +12,7 @@ struct alignas(64) ModalMotion {
     std::int64_t modes;                  // place in `known`
     double step;                         // [s]
     double per_step;                     // its inverse
-    double pace;                         // of the fastest mode, w + c, but for free masses [1/s]
+    double fastest_rate;                 // of the fastest mode, w + c, without free masses [1/s]
     alignas(64) double square[BODIES];   // w^2 [1/s^2]
     alignas(64) double damping[BODIES];  // c [1/s]
     alignas(64) double rate[BODIES];     // see `oscillator.decay_rates`
@@ -22,38 +22,38 @@ struct alignas(64) ModalMotion {
     alignas(64) double free[2][BODIES];        // q and q' of the free motion at the start
 };
 
-// The rest and friction at the nodes of the last step by collocation, in its modes.
+// Remainder and friction at the nodes of the last collocation step, in its modes.
 struct alignas(64) PastStep {
-    double step;               // its length, 0: none yet [s]
+    double step;               // its length, 0: no step yet [s]
     std::int64_t nodes;        // their number
-    std::int64_t end_seconds;  // when it ended, as in a State
+    std::int64_t end_seconds;  // time of its end, as in a State
     double end_time;
-    alignas(64) double rest[MOST_NODES][BODIES];
-    alignas(64) double rubbing[MOST_NODES][BODIES];
+    alignas(64) double remainder[MOST_NODES][BODIES];
+    alignas(64) double friction_force[MOST_NODES][BODIES];
 };
 
 struct alignas(64) Propagation {
     Nodes nodes;
     ContactModes known;
     ModalMotion motion;
-    std::int64_t place;                 // of the step since the contacts changed, 0: the first
-    alignas(64) double spring[BODIES];  // w^2 and c, but 0 for what counts as a free mass
+    std::int64_t place;                 // number of the step since the contacts changed, from 0
+    alignas(64) double spring[BODIES];  // w^2 and c, 0 for free masses
     alignas(64) double damper[BODIES];
     Node start;
-    alignas(64) double force[BODIES];      // at the start, friction being as it was before
-    alignas(64) double rest[5][BODIES];    // at the nodes
-    alignas(64) double cosine[5][BODIES];  // `wave` at the nodes
+    alignas(64) double force[BODIES];         // at the start, with the friction of the last step
+    alignas(64) double remainder[5][BODIES];  // at the nodes
+    alignas(64) double cosine[5][BODIES];     // `wave` at the nodes
     alignas(64) double sine[5][BODIES];
     alignas(64) double end_cosine[BODIES];  // at the end of the step
     alignas(64) double end_sine[BODIES];
     PastStep past;
     Node node[MOST_NODES];
-    Node shown[MOST_INSTANTS];            // where samples lie
+    Node shown[MOST_INSTANTS];            // at the times of samples
     alignas(64) double before_d[MESHES];  // at the last node, one sweep earlier
     alignas(64) double before_rate[MESHES];
     alignas(64) double before_v[BODIES];
-    double weight[5];             // of the nodes in the integral over the step that stands [s]
-    std::int8_t suspect[MESHES];  // may change its contact within the step
+    double weight[5];             // of the nodes in the integral over the accepted step [s]
+    std::int8_t suspect[MESHES];  // whether its contact may change within the step
     alignas(64) double scan_d[8][MESHES];  // at even times
     alignas(64) double scan_rate[8][MESHES];
 };

@@ -10,9 +10,9 @@ namespace gearbox {
 
 namespace {
 
-constexpr int SCANNED_POINTS = 1001;  // at which the product of distances is looked at
+constexpr int SCANNED_POINTS = 1001;  // at which the product of distances is evaluated
 constexpr int BISECTIONS = 200;
-constexpr int BRACKETS = 2000;  // parts of (0, 1) in which a root is looked for
+constexpr int BRACKETS = 2000;  // parts of (0, 1) in which roots are searched
 
 // Legendre's polynomial P_n at t in [0, 1].
 long double legendre(int n, long double t) {
@@ -25,12 +25,12 @@ long double legendre(int n, long double t) {
     return here;
 }
 
-// What has the points as its roots.
+// Polynomial whose roots are the points.
 long double shape(int points, long double t) {
     return legendre(points, t) - legendre(points - 1, t);
 }
 
-// Root between two times at which the shape has different signs.
+// Root between two times at which the polynomial has different signs.
 long double root(int points, long double low, long double high) {
     bool rising = shape(points, low) < 0.0L;
     for (int k = 0; k < BISECTIONS; ++k) {
@@ -65,8 +65,9 @@ void invert_powers(int points, const long double* abscissa, double (*out)[MOST_N
         for (int j = 0; j < points; ++j) out[i][j] = static_cast<double>(rows[i][points + j]);
 }
 
-// Fill the coefficients of Legendre's polynomials from the values at the points: the quadrature at
-// the points is exact for the products of these polynomials with the one through the values.
+// Fill the matrix that maps values at the points to coefficients of Legendre polynomials: the
+// quadrature at the points is exact for the products of these polynomials with the one through the
+// values.
 void fill_legendre(Nodes& nodes, const long double* abscissa) {
     for (std::int64_t n = 0; n < nodes.count; ++n) {
         long double weight = 0.0L;

@@ -24,11 +24,11 @@ using namespace ros34pw2;
 constexpr double ENDS[2] = {1.0, -1.0};
 
 // Change of given torques with time.
-void drift_machines(const Model& model, Workspace& work) {
+void add_machine_time_derivatives(const Model& model, Workspace& work) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t body = train.coupling[c][0];
-        work.drift[body] += model.load.torque_rate[c] * train.inverse_radius[body];
+        work.time_derivative[body] += model.load.torque_rate[c] * train.inverse_radius[body];
     }
 }
 
@@ -36,15 +36,16 @@ void drift_machines(const Model& model, Workspace& work) {
 void assemble_meshes(const Model& model, const State& state, const StepConstants& constants,
                      double h, Workspace& work) {
     const Train& train = model.train;
-    const double step = GAMMA * h, pace = constants.cycle_rate + cycle_shift(train, state.v);
+    const double step = GAMMA * h, cycle_rate = constants.cycle_rate + cycle_shift(train, state.v);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (state.side[i] == OPEN) continue;
         std::int64_t kind = train.kind[i];
         double side = static_cast<double>(state.side[i]), copies = train.copies[i];
-        double drift = copies * force_drift(model, state, constants, i, pace);
+        double time_derivative =
+            copies * force_time_derivative(model, state, constants, i, cycle_rate);
         for (int j = 0; j < entries_of(train); ++j)
-            work.drift[train.body[i][j]] -= side * drift * train.sign[i][j];
-        double cycle = constants.start[i] + side * pace * 0.5 * h;
+            work.time_derivative[train.body[i][j]] -= side * time_derivative * train.sign[i][j];
+        double cycle = constants.start[i] + side * cycle_rate * 0.5 * h;
         double k = copies * mesh_stiffness(train, i, state.segment[i], cycle);
         add_outer(work.stiffness, train.body[i], train.sign[i], entries_of(train), k);
         add_outer(work.system, train.body[i], train.sign[i], entries_of(train),
@@ -56,7 +57,7 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
     }
 }
 
-// Let the ends of shafts whose motion is given move as they do: nothing of the train acts on them.
+// Decouple the ends of shafts with given motion: no forces of the train act on them.
 void free_given(const Model& model, double h, Workspace& work) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {
@@ -68,12 +69,12 @@ void free_given(const Model& model, double h, Workspace& work) {
     }
 }
 
-// The same of the bearings that press; the turning of the frame is left out.
+// The same of the bearings beyond their clearances; the rotation of the frame is neglected.
 void assemble_bearings(const Train& train, const State& state, double step, Workspace& work) {
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
-        const bool pressed = beyond_clearance(train, b, state.x);
+        const bool loaded = beyond_clearance(train, b, state.x);
         for (const BearingRow& row : rows_of_bearing(train, b)) {
-            if (row.radial && !pressed) continue;
+            if (row.radial && !loaded) continue;
             add_outer(work.stiffness, row.place, row.factor, row.size, row.stiffness);
             add_outer(work.system, row.place, row.factor, row.size,
                       row.damping + step * row.stiffness);
@@ -87,9 +88,9 @@ void assemble(const Model& model, const State& state, const StepConstants& const
     const double step = GAMMA * h;
     std::memset(work.stiffness, 0, sizeof work.stiffness);
     std::memset(work.system, 0, sizeof work.system);
-    std::memset(work.drift, 0, sizeof work.drift);
+    std::memset(work.time_derivative, 0, sizeof work.time_derivative);
     assemble_meshes(model, state, constants, h, work);
-    drift_machines(model, work);
+    add_machine_time_derivatives(model, work);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         double k = train.coupling_stiffness[c];
         add_outer(work.stiffness, train.coupling[c], ENDS, 2, k);
@@ -97,29 +98,29 @@ void assemble(const Model& model, const State& state, const StepConstants& const
     }
     if constexpr (MOVING) assemble_bearings(train, state, step, work);
     if (train.friction) {
-        if (first.pairs.held)
+        if (first.pairs.has_bristles)
             bristle_damping(train, first.pairs, step, work.row, work.system);
         else
             friction_damping(train, first.pairs, first.force, h, work.row, work.system);
     }
-    drag_damping(model, state, first.now.push, first.force, h, work.system);
+    drag_damping(model, state, first.now.normal_force, first.force, h, work.system);
     for (std::int64_t j = 0; j <= train.bodies; ++j) work.system[j][j] += train.mass[j] / step;
     free_given(model, h, work);
 }
 
-// Let the members of such shafts feel what their ends do in a stage, which is known.
-void pull_by_given(const Model& model, double h, double* right) {
+// Add the forces on the members of such shafts by the known motion of the ends in a stage.
+void add_given_motion_forces(const Model& model, double h, double* right) {
     const Train& train = model.train;
     const double step = GAMMA * h;
     for (std::int64_t c = 0; c < train.machines; ++c) {
         if (model.load.port[c] != BY_MOTION) continue;
         std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
-        double pull = train.coupling_damping[c] + step * train.coupling_stiffness[c];
-        right[member] += pull * right[body] * step / train.mass[body];
+        double factor = train.coupling_damping[c] + step * train.coupling_stiffness[c];
+        right[member] += factor * right[body] * step / train.mass[body];
     }
 }
 
-// Bodies and trim at stage i, and what its right-hand sides take from the stages before.
+// Bodies and trim at stage i, and the contributions of earlier stages to its right-hand sides.
 void place_stage(const Train& train, const State& state, double h, int i, Workspace& work) {
     for (std::int64_t j = 0; j <= train.bodies; ++j) {
         double x = state.x[j], v = state.v[j], cx = 0.0, cv = 0.0;
@@ -140,7 +141,7 @@ void place_stage(const Train& train, const State& state, double h, int i, Worksp
     }
 }
 
-// What the ledger and the trim get from stage i.
+// Contributions of stage i to the ledger and the trim.
 void add_stage(const Train& train, const State& state, const StepConstants& constants, double h,
                int i, const Evaluation& out, Workspace& work) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
@@ -150,7 +151,7 @@ void add_stage(const Train& train, const State& state, const StepConstants& cons
     }
     for (int e = 0; e < LEDGER; ++e) work.energy[e] += h * B[i] * out.power[e];
     for (std::int64_t c = 0; c < train.machines; ++c)
-        work.way[c] += h * B[i] * work.v[train.coupling[c][0]];
+        work.machine_displacement[c] += h * B[i] * work.v[train.coupling[c][0]];
 }
 
 // Stage i: evaluate, then solve for ux[i] and uv[i].
@@ -162,29 +163,30 @@ void make_stage(const Model& model, const State& state, const StepConstants& con
     place_stage(train, state, h, i, work);
     Evaluation& out = i == 0 ? first : work.evaluation;
     if (i > 0) {
-        advance_bristles(out.pairs, state.bristle, STAGE.a[i], work.bend, i);
+        advance_bristles(out.pairs, state.bristle, STAGE.a[i], work.bristle_stage, i);
         forces(model, state, constants, work.x, work.v, STAGE.abscissa[i] * h, work.trim, out);
     }
     add_stage(train, state, constants, h, i, out, work);
     double* right = work.uv[i];
     for (std::int64_t j = 0; j < bodies; ++j) {
-        double value = out.force[j] + work.rv[j] + h * STAGE.drift_weight[i] * work.drift[j];
+        double value =
+            out.force[j] + work.rv[j] + h * STAGE.time_weight[i] * work.time_derivative[j];
         for (std::int64_t k = 0; k < bodies; ++k) value -= work.stiffness[j][k] * work.rx[k] / g;
         right[j] = value;
     }
-    if (first.pairs.held)
+    if (first.pairs.has_bristles)
         add_bristle_forces(train, first.pairs, out.pairs, h, GAMMA * h, STAGE.c[i], i, right, work);
-    pull_by_given(model, h, right);
+    add_given_motion_forces(model, h, right);
     solve(work.system, bodies - 1, right);
     right[bodies - 1] = 0.0;
     for (std::int64_t j = 0; j < bodies; ++j) work.ux[i][j] = (work.rx[j] + right[j]) / g;
     work.ux[i][bodies - 1] = 0.0;
-    if (first.pairs.held) solve_bristles(train, first.pairs, GAMMA * h, right, i, work);
+    if (first.pairs.has_bristles) solve_bristles(train, first.pairs, GAMMA * h, right, i, work);
 }
 
 void begin_sums(const State& state, State& out, Workspace& work) {
     std::memset(work.energy, 0, sizeof work.energy);
-    std::memset(work.way, 0, sizeof work.way);
+    std::memset(work.machine_displacement, 0, sizeof work.machine_displacement);
     std::memset(work.error_x, 0, sizeof work.error_x);
     std::memset(work.error_v, 0, sizeof work.error_v);
     std::memset(work.error_bristle, 0, sizeof work.error_bristle);
@@ -205,10 +207,10 @@ void sum_stage(const Model& model, double h, int i, const Evaluation& first, Sta
         work.error_x[j] += STAGE.error_weight[i] * work.ux[i][j];
         work.error_v[j] += STAGE.error_weight[i] * work.uv[i][j];
     }
-    if (!first.pairs.held) return;
+    if (!first.pairs.has_bristles) return;
     for (std::int64_t k = 0; k < first.pairs.count; ++k) {
-        out.bristle[k] += STAGE.weight[i] * work.bend[i][k];
-        work.error_bristle[k] += STAGE.error_weight[i] * work.bend[i][k];
+        out.bristle[k] += STAGE.weight[i] * work.bristle_stage[i][k];
+        work.error_bristle[k] += STAGE.error_weight[i] * work.bristle_stage[i][k];
     }
 }
 
@@ -219,7 +221,8 @@ void add_machine_work(const Train& train, const State& state, double h, const St
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t body = train.coupling[c][0];
         double force = work.energy[IMPULSE + c] / (h * train.radius[body]);
-        work.energy[WORK + c] += force * (out.x[body] - state.x[body] - work.way[c]);
+        work.energy[WORK + c] +=
+            force * (out.x[body] - state.x[body] - work.machine_displacement[c]);
     }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-// Coefficients of ROS34PW2, and what the usual transformation makes of them that avoids products
-// with the Jacobian (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.7):
-// stages u = Gamma k.
+// Coefficients of ROS34PW2, after the usual transformation that avoids products with the Jacobian
+// (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.7): stages u = Gamma
+// k.
 
 #include "integrators/rosenbrock.hpp"
 
@@ -36,7 +36,7 @@ struct Transformed {
     double weight[STAGES];        // b Gamma^-1
     double error_weight[STAGES];  // (b - embedded b) Gamma^-1
     double abscissa[STAGES];
-    double drift_weight[STAGES];
+    double time_weight[STAGES];
 };
 
 consteval Transformed transform() {
@@ -56,7 +56,7 @@ consteval Transformed transform() {
             out.weight[j] += B[i] * inverse[i][j];
             out.error_weight[j] += (B[i] - B_EMBEDDED[i]) * inverse[i][j];
             out.abscissa[i] += ALPHA[i][j];
-            out.drift_weight[i] += GAMMAS[i][j];
+            out.time_weight[i] += GAMMAS[i][j];
         }
     return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Constants that the methods of a step share.
+// Common constants of the integration methods.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@ namespace gearbox {
 enum Method : std::int64_t { AUTO, COLLOCATION, ROSENBROCK };
 
 struct NamedMethod {
-    const char* name;  // what a caller asks for
+    const char* name;  // in the interface
     Method method;
 };
 
@@ -23,23 +23,23 @@ constexpr NamedMethod METHODS[] = {
 };
 
 inline constexpr std::int64_t NO_MESH = -1;
-inline constexpr std::int64_t FAILED = -2;      // no mesh, and no step
+inline constexpr std::int64_t FAILED = -2;      // the step failed
 inline constexpr double SHORTEST_STEP = 1e-13;  // [s] below it two events count as one
-// Steps of Rosenbrock's method before collocation is tried again.
-inline constexpr std::int64_t DETOUR = 20;
-// The same where only this step is too short: between the crowded edges of helical teeth.
-inline constexpr std::int64_t BRIEF_DETOUR = 1;
+// Number of Rosenbrock steps before collocation is tried again.
+inline constexpr std::int64_t FALLBACK_STEPS = 20;
+// The same where only this step is too short: between close edges of helical teeth.
+inline constexpr std::int64_t BRIEF_FALLBACK_STEPS = 1;
 inline constexpr double SAFETY = 0.8, SHRINK = 0.25, GROW = 2.0;  // of steps
 inline constexpr double LARGEST_ERROR = 1e100;                    // in tolerances
 
-// By what a step whose error is in tolerances may be longer; the error is of this order.
+// Factor for the next step from the error in tolerances and the order of the error.
 inline double growth_of_step(double error, double order) {
     if (error == 0.0) return GROW;
-    if (!(error < LARGEST_ERROR)) return SHRINK;  // be it not a number
+    if (!(error < LARGEST_ERROR)) return SHRINK;  // also if NaN
     return SAFETY * power(error, -1.0 / order);
 }
 
-// The exception where no finite state can be reached, however short the step.
+// Exception: no finite state is reached, however short the step.
 struct NoFiniteState {};
 
 }  // namespace gearbox

@@ -1,13 +1,13 @@
 #pragma once
 
-// The energy ledger of a step by collocation.
+// The energy ledger of a collocation step.
 
 #include "integrators/propagation.hpp"
 
 namespace gearbox {
 
 inline constexpr double SLOWEST_SWING =
-    30.0;  // (1 + c h)/(w h)^2, to whose 4th power digits are lost
+    30.0;  // (1 + c h)/(w h)^2, cancellation grows with its 4th power
 
 // Fill the weights of the nodes in the integral over the part t of the step [s].
 inline void weigh_nodes(Propagation& run, double t) {
@@ -23,22 +23,23 @@ inline void weigh_nodes(Propagation& run, double t) {
     }
 }
 
-// Which modes have free waves, of which quadrature might miss what is damped. Not those that hardly
-// move within the step: `damped` would lose all its digits, quadrature none.
+// Modes with free waves whose dissipation quadrature may not resolve. Not those that hardly move
+// within the step: `damped` would suffer from cancellation, quadrature is accurate.
 template <int L>
-LAW Mask<L> swings(const Propagation& run) {
+ALWAYS_INLINE Mask<L> swings(const Propagation& run) {
     const double h = run.motion.step;
     Row<L> stiff = Row<L>(run.spring) * (h * h), loss = Row<L>(run.damper) * h;
     return (loss > 0.0) & (1.0 + loss < SLOWEST_SWING * stiff);
 }
 
-// Integral of c q'^2 over h seconds for modes that swing, with `waves` at its end [J].
+// Integral of c q'^2 over h seconds for modes with free waves, `waves` at its end [J].
 //
-// q' is a polynomial y'(t) and the rate of a free motion u. By itself that loses c int u'^2, the
-// energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each other
-// by u'' + c u' + w^2 u = 0.
+// q' is a polynomial y'(t) and the rate of a free motion u. The latter alone dissipates c int u'^2,
+// the decrease of (u'^2 + w^2 u^2)/2; int t^k u' and int t^k u follow from each other by u'' + c u'
+// + w^2 u = 0.
 template <int L>
-LAW Row<L> damped(const Propagation& run, double h, const double* cosine, const double* sine) {
+ALWAYS_INLINE Row<L> damped(const Propagation& run, double h, const double* cosine,
+                            const double* sine) {
     using V = Row<L>;
     const ModalMotion& motion = run.motion;
     const double step = motion.step, part = h / step, per_step = 1.0 / step;
@@ -68,7 +69,7 @@ LAW Row<L> damped(const Propagation& run, double h, const double* cosine, const 
 
 // Sum of a row over all meshes and their copies.
 template <int L>
-LAW double sum_of_meshes(const Train& train, const Row<L>& row) {
+ALWAYS_INLINE double sum_of_meshes(const Train& train, const Row<L>& row) {
     alignas(64) double value[L];
     row.store(value);
     double sum = 0.0;
@@ -76,16 +77,16 @@ LAW double sum_of_meshes(const Train& train, const Row<L>& row) {
     return sum;
 }
 
-// Fill the ledger at h seconds into the step: by quadrature at the nodes; what damping takes from
-// modes that swing is known exactly.
+// Fill the ledger h seconds after the start of the step, by quadrature at the nodes; the
+// dissipation of modes with free waves is known exactly.
 template <int L>
-void integrate_powers(const Train& train, March& march, double h) {
+void integrate_powers(const Train& train, Integrator& integrator, double h) {
     using V = Row<L>;
-    Propagation& run = march.run;
-    State& end = march.end;
+    Propagation& run = integrator.run;
+    State& end = integrator.end;
     const std::int64_t last = run.nodes.count - 1;
     const double t = h / run.motion.step;
-    for (int e = 0; e < LEDGER; ++e) end.energy[e] = march.begin.energy[e];
+    for (int e = 0; e < LEDGER; ++e) end.energy[e] = integrator.begin.energy[e];
     weigh_nodes(run, t);
     using OfMeshes = Row<MESH_LANES<L>>;
     V quadrature(0.0);

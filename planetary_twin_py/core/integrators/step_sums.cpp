@@ -15,99 +15,101 @@ namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t MOST_LOOKS = 129;  // room
-constexpr double NEAR = 0.02;             // of a step, by which it may end beside its last node
+constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
+constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 
-// Films at two nodes of a step without friction, as nothing else asks for them.
+// Films at two nodes of a step without friction, where nothing else depends on them.
 template <int L>
-void add_films_of_nodes(const Model& model, March& march, ContactSums<L>& contacts) {
-    const Propagation& run = march.run;
-    const double h = march.control.step;
-    Evaluation& work = march.work.evaluation;
+void add_films_of_nodes(const Model& model, Integrator& integrator, ContactSums<L>& contacts) {
+    const Propagation& run = integrator.run;
+    const double h = integrator.control.step;
+    Evaluation& work = integrator.work.evaluation;
     std::int64_t early = std::max<std::int64_t>(run.nodes.count - 4, 0), late = run.nodes.count - 2;
     double t = run.nodes.abscissa[early] * run.motion.step;
     double u = run.nodes.abscissa[late] * run.motion.step;
-    double weight = h * (u - 0.5 * h) / (u - t);  // of the early one, exact for straight lines
+    double weight = h * (u - 0.5 * h) / (u - t);  // of the earlier one, exact for linear functions
     for (std::int64_t n : {early, late}) {
         work.now = run.node[n].meshes;
-        find_contacts(model, march.constants, run.node[n].v, work);
+        find_contacts(model, integrator.constants, run.node[n].v, work);
         add_films(model.train, work.pairs, n == early ? weight : h - weight, contacts);
     }
 }
 
-// Films of a step that was cut short, at Gauss's points of what is left of it: beyond the end of a
-// step whose flanks part, nodes show films of no load.
+// Films of a shortened step, at the Gauss points of the remaining part: nodes after the separation
+// of flanks have films without load.
 template <int L>
-void add_films_of_cut_step(const Model& model, March& march, ContactSums<MESH_LANES<L>>& contacts) {
+void add_films_of_cut_step(const Model& model, Integrator& integrator,
+                           ContactSums<MESH_LANES<L>>& contacts) {
     constexpr double FROM_MIDDLE[] = {-0.3872983346207417, 0.0, 0.3872983346207417};
     constexpr double SHARE[] = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
-    const double h = march.control.step;
+    const double h = integrator.control.step;
     double delays[3];
     for (int k = 0; k < 3; ++k) delays[k] = (0.5 + FROM_MIDDLE[k]) * h;
-    show_friction<L>(model, march, delays, 3);
-    for (int k = 0; k < 3; ++k) add_films(model.train, march.run.shown[k], SHARE[k] * h, contacts);
+    show_friction<L>(model, integrator, delays, 3);
+    for (int k = 0; k < 3; ++k)
+        add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
 }
 
-// Fill the series at the start and the nodes of a step by collocation.
+// Fill the series at the start and the nodes of a collocation step.
 template <int M>
-void fill_at_nodes(March& march) {
-    const Propagation& run = march.run;
-    Series& series = march.sums.series;
+void fill_at_nodes(Integrator& integrator) {
+    const Propagation& run = integrator.run;
+    Series& series = integrator.sums.series;
     series.count = run.nodes.count + 1;
     series.at[0] = series.weight[0] = 0.0;
     copy<M>(run.start.d, series.d[0]);
-    copy<M>(run.start.meshes.push, series.push[0]);
+    copy<M>(run.start.meshes.normal_force, series.normal_force[0]);
     for (std::int64_t n = 0; n < run.nodes.count; ++n) {
         series.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
         series.weight[n + 1] = run.weight[n];
         copy<M>(run.node[n].d, series.d[n + 1]);
-        copy<M>(run.node[n].meshes.push, series.push[n + 1]);
+        copy<M>(run.node[n].meshes.normal_force, series.normal_force[n + 1]);
     }
 }
 
-// Fill the series at `intervals` + 1 even times of a step by collocation.
+// Fill the series at `intervals` + 1 equidistant times of a collocation step.
 template <int L>
-void fill_at_even_times(const Model& model, March& march, std::int64_t intervals) {
-    Series& series = march.sums.series;
-    Node& node = march.run.shown[0];
-    set_even_times(series, 0.0, march.control.step, intervals);
-    const ModalMotion& motion = march.run.motion;
+void fill_at_even_times(const Model& model, Integrator& integrator, std::int64_t intervals) {
+    Series& series = integrator.sums.series;
+    Node& node = integrator.run.shown[0];
+    set_even_times(series, 0.0, integrator.control.step, intervals);
+    const ModalMotion& motion = integrator.run.motion;
     const Waves<L> gap = waves_at<L>(motion, series.at[1]);
     Waves<L> now{1.0, 0.0};
     for (std::int64_t k = 0; k < series.count; ++k) {
-        move_node<L>(model, march, series.at[k], now.cosine, now.sine, node);
-        find_forces_at_node<L>(model, march, node, series.at[k]);
+        move_node<L>(model, integrator, series.at[k], now.cosine, now.sine, node);
+        find_forces_at_node<L>(model, integrator, node, series.at[k]);
         copy<MESH_LANES<L>>(node.d, series.d[k]);
-        copy<MESH_LANES<L>>(node.meshes.push, series.push[k]);
+        copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
         now = waves_after(motion, now, gap);
     }
 }
 
-// Fill the series at a step by collocation, and sum up its contacts and friction.
+// Fill the series of a collocation step, and sum up its contacts and friction.
 template <int L>
-void add_collocated(const Model& model, March& march) {
+void add_collocated(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
-    const Propagation& run = march.run;
-    const double h = march.control.step;
+    const Propagation& run = integrator.run;
+    const double h = integrator.control.step;
     ContactSums<MESH_LANES<L>> contacts;
     for (std::int64_t n = 0; n < run.nodes.count; ++n)
         add_node(train, run.node[n], run.weight[n], contacts);
-    std::int64_t intervals = even_intervals(march, train, h);
+    std::int64_t intervals = even_intervals(integrator, train, h);
     if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
-        fill_at_even_times<L>(model, march, std::max(intervals, FEWEST));
+        fill_at_even_times<L>(model, integrator, std::max(intervals, FEWEST));
         contacts.share = contacts.film = 0.0;
-        add_films_of_cut_step<L>(model, march, contacts);
+        add_films_of_cut_step<L>(model, integrator, contacts);
     } else {
         if (intervals == 0)
-            fill_at_nodes<MESH_LANES<L>>(march);
+            fill_at_nodes<MESH_LANES<L>>(integrator);
         else
-            fill_at_even_times<L>(model, march, intervals);
-        if (!train.friction) add_films_of_nodes(model, march, contacts);
+            fill_at_even_times<L>(model, integrator, intervals);
+        if (!train.friction) add_films_of_nodes(model, integrator, contacts);
     }
-    put_contacts(train, model.oil, contacts, march.sums.step.integral);
+    put_contacts(train, model.oil, contacts, integrator.sums.step.integral);
 }
 
-// Let `sums.rates` hold what an evaluation shows of contacts and friction.
+// Fill `sums.rates` with contacts and friction of an evaluation.
 void put_rates(const Model& model, const StepConstants& constants, const double* v,
                Evaluation& work, StepSums& sums) {
     if (!model.train.friction) find_contacts(model, constants, v, work);
@@ -125,48 +127,50 @@ void add_rates(const Train& train, const StepSums& sums, double weight, double (
         for (std::int64_t i = 0; i < lanes; ++i) out[row][i] += weight * sums.rates[row][i];
 }
 
-// Fill the series at the ends of a stiff step, and sum up its contacts and friction.
-void add_ends(const Model& model, March& march) {
+// Fill the series at the ends of a Rosenbrock step, and sum up its contacts and friction.
+void add_ends(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
-    const State& begin = march.begin;
-    StepSums& sums = march.sums;
+    const State& begin = integrator.begin;
+    StepSums& sums = integrator.sums;
     Series& series = sums.series;
-    const double half = 0.5 * march.control.step;
+    const double half = 0.5 * integrator.control.step;
     series.count = 2;
     series.at[0] = 0.0;
     series.at[1] = 2.0 * half;
     series.weight[0] = series.weight[1] = half;
-    std::memcpy(series.push[0], sums.push, sizeof series.push[0]);
+    std::memcpy(series.normal_force[0], sums.normal_force, sizeof series.normal_force[0]);
     if (sums.stale) {
-        Evaluation& work = march.work.evaluation;
-        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, work);
-        std::memcpy(series.push[0], work.now.push, sizeof series.push[0]);
-        put_rates(model, march.constants, begin.v, work, sums);
+        Evaluation& work = integrator.work.evaluation;
+        forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim, work);
+        std::memcpy(series.normal_force[0], work.now.normal_force, sizeof series.normal_force[0]);
+        put_rates(model, integrator.constants, begin.v, work, sums);
     }
     std::memset(sums.step.integral, 0, sizeof sums.step.integral);
     add_rates(train, sums, half, sums.step.integral);
-    std::memcpy(series.push[1], march.last.now.push, sizeof series.push[1]);
-    std::memcpy(sums.push, march.last.now.push, sizeof sums.push);
-    put_rates(model, march.constants, march.end.v, march.last, sums);
+    std::memcpy(series.normal_force[1], integrator.last.now.normal_force,
+                sizeof series.normal_force[1]);
+    std::memcpy(sums.normal_force, integrator.last.now.normal_force, sizeof sums.normal_force);
+    put_rates(model, integrator.constants, integrator.end.v, integrator.last, sums);
     add_rates(train, sums, half, sums.step.integral);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         series.d[0][i] = mesh_motion(train, i, begin.x);
-        series.d[1][i] = mesh_motion(train, i, march.end.x);
+        series.d[1][i] = mesh_motion(train, i, integrator.end.x);
     }
 }
 
-// Times of two values after the one between them, their inverses, and that of their distance.
-struct Around {
-    double left, right, lean, rise, bend;
+// Times of two values relative to the one between them, their inverses, and that of their distance.
+struct Neighbours {
+    double left, right, inverse_left, inverse_right, inverse_span;
 };
 
 // Vertex of the parabola through three values, if it lies between them; else the middle one.
 template <int L>
-LAW Row<L> vertex(const Around& at, const double* before, const double* middle,
-                  const double* after) {
+ALWAYS_INLINE Row<L> vertex(const Neighbours& at, const double* before, const double* middle,
+                            const double* after) {
     using V = Row<L>;
-    V here(middle), a = (V(before) - here) * at.lean, b = (V(after) - here) * at.rise;
-    V curve = (b - a) * at.bend;
+    V here(middle), a = (V(before) - here) * at.inverse_left,
+                    b = (V(after) - here) * at.inverse_right;
+    V curve = (b - a) * at.inverse_span;
     V slope = a - curve * at.left;
     V place = -0.5 * slope / curve;
     Mask<L> between = (place > at.left) & (place < at.right);
@@ -179,7 +183,7 @@ void add_series_in_lanes(const StepConstants& constants, const Series& series, M
     V mean(0.0), square(0.0), force_sum(0.0), dte(0.0), force_peak(0.0);
     for (std::int64_t n = 0; n < series.count; ++n) {
         double weight = series.weight[n];
-        V d(series.d[n]), force = larger(V(0.0), V(series.push[n]));
+        V d(series.d[n]), force = larger(V(0.0), V(series.normal_force[n]));
         mean += weight * d;
         square += weight * d * d;
         force_sum += weight * force;
@@ -188,11 +192,12 @@ void add_series_in_lanes(const StepConstants& constants, const Series& series, M
     }
     for (std::int64_t n = 1; n < series.count - 1; ++n) {
         double left = series.at[n - 1] - series.at[n], right = series.at[n + 1] - series.at[n];
-        Around at{left, right, 1.0 / left, 1.0 / right, 1.0 / (right - left)};
+        Neighbours at{left, right, 1.0 / left, 1.0 / right, 1.0 / (right - left)};
         V d = vertex<L>(at, series.d[n - 1], series.d[n], series.d[n + 1]);
         dte = larger(dte, absolute(d));
-        V push = vertex<L>(at, series.push[n - 1], series.push[n], series.push[n + 1]);
-        force_peak = larger(force_peak, push);
+        V normal_force = vertex<L>(at, series.normal_force[n - 1], series.normal_force[n],
+                                   series.normal_force[n + 1]);
+        force_peak = larger(force_peak, normal_force);
     }
     mean.store(step.integral[DTE]);
     square.store(step.integral[SQUARE]);
@@ -203,33 +208,34 @@ void add_series_in_lanes(const StepConstants& constants, const Series& series, M
 
 }  // namespace
 
-void sum_step(const Model& model, March& march) {
-    march.sums.step.time = march.control.step;
-    if (march.control.collocated)
-        with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, march); });
+void sum_step(const Model& model, Integrator& integrator) {
+    integrator.sums.step.time = integrator.control.step;
+    if (integrator.control.collocated)
+        with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, integrator); });
     else
-        add_ends(model, march);
-    add_series(model.train, march.constants, march.sums.series, march.sums.step);
+        add_ends(model, integrator);
+    add_series(model.train, integrator.constants, integrator.sums.series, integrator.sums.step);
 }
 
-// Nodes resolve as many radians of a free wave as they are; even times one each. Waves below the
+// Nodes resolve one radian of a free wave each, and so do equidistant times. Waves below the
 // tolerance do not count.
-std::int64_t even_intervals(const March& march, const Train& train, double h) {
-    const Propagation& run = march.run;
+std::int64_t even_intervals(const Integrator& integrator, const Train& train, double h) {
+    const Propagation& run = integrator.run;
     const ModalMotion& motion = run.motion;
-    const MatrixRows reach = run.known.states[motion.modes].matrices.reach();
+    const MatrixRows reach = run.known.states[motion.modes].matrices.motion_magnitude();
     const double by_nodes = static_cast<double>(run.nodes.count);
     double fastest = 0.0;
     for (std::int64_t m = 0; m < train.lanes; ++m) {
         double phase = motion.rate[m] * h;
         if (!(phase > std::max(fastest, by_nodes)) || motion.slow[m] != motion.fast[m]) continue;
-        double swing = std::fabs(motion.free[0][m]) + std::fabs(motion.free[1][m]) / motion.rate[m];
+        double amplitude =
+            std::fabs(motion.free[0][m]) + std::fabs(motion.free[1][m]) / motion.rate[m];
         double largest = *std::max_element(reach[m], reach[m] + train.meshes);
-        if (swing * largest > march.control.tolerance_x) fastest = phase;
+        if (amplitude * largest > integrator.control.tolerance_x) fastest = phase;
     }
-    // A phase beyond the room counts as the room; so does none that is not a number.
-    double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(MOST_LOOKS)));
-    return std::min(2 * static_cast<std::int64_t>(halves), MOST_LOOKS - 1);
+    // Larger phases, and NaN, count as the largest number of intervals.
+    double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(MOST_EVEN_TIMES)));
+    return std::min(2 * static_cast<std::int64_t>(halves), MOST_EVEN_TIMES - 1);
 }
 
 void set_even_times(Series& series, double begin, double end, std::int64_t intervals) {

@@ -9,24 +9,24 @@ namespace gearbox {
 // Transmission errors and forces at several times of a step.
 struct alignas(64) Series {
     std::int64_t count;
-    alignas(64) double at[129];            // [s] since its start
-    alignas(64) double weight[129];        // of a quadrature [s]
-    alignas(64) double d[129][MESHES];     // [m]
-    alignas(64) double push[129][MESHES];  // [N]
+    alignas(64) double at[129];                    // [s] since its start
+    alignas(64) double weight[129];                // of a quadrature [s]
+    alignas(64) double d[129][MESHES];             // [m]
+    alignas(64) double normal_force[129][MESHES];  // [N]
 };
 
 struct alignas(64) StepSums {
-    MeshSums step;   // over the last step
-    MeshSums part;   // over a part of it
-    MeshSums total;  // since it was popped, up to the start of the last step
-    double taken;    // of the last step [s]
+    MeshSums step;   // of the last step
+    MeshSums part;   // of a part of it
+    MeshSums total;  // since the last reading, up to the start of the last step
+    double taken;    // part of the last step already counted [s]
     Series series;
-    bool unasked;  // no one asks for sums: steps have none
-    bool known;    // `rates` are those of the end of the last step
-    bool stale;    // `rates` are not those of the start of the step
+    bool not_requested;  // sums are not requested, and not computed
+    bool known;          // `rates` are those of the end of the last step
+    bool stale;          // `rates` are not those of the start of the step
     alignas(
-        64) double rates[SUMS][MESHES];  // by which the integrals grow at the end of a stiff step
-    alignas(64) double push[MESHES];     // there [N]
+        64) double rates[SUMS][MESHES];  // rates of the integrals at the end of a Rosenbrock step
+    alignas(64) double normal_force[MESHES];  // there [N]
 };
 
 }  // namespace gearbox

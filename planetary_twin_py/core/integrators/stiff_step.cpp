@@ -20,37 +20,37 @@ namespace gearbox {
 
 namespace {
 
-constexpr double STIFF = 3.0;  // by which errors count more
-// Of the tolerance: error of the share of friction of a pair that holds.
+constexpr double STIFF = 3.0;  // weight of the errors
+// Allowed error of the share of friction of a pair with bristles, relative to the tolerance.
 constexpr double BRISTLE_SHARE = 1.0;
-constexpr double ROUNDING = 1e-15;       // [m/s] errors of a speed below it are none
-constexpr std::int64_t EVALUATIONS = 4;  // of the equations in a step
-constexpr double ASTRAY = std::numeric_limits<double>::infinity();
+constexpr double ROUNDING = 1e-15;       // [m/s] smaller errors of a speed are neglected
+constexpr std::int64_t EVALUATIONS = 4;  // of the equations of motion in a step
+constexpr double DIVERGED = std::numeric_limits<double>::infinity();
 
-// One step of h from `begin` into `end`, without regard to events.
-void try_step(const Model& model, March& march, double h) {
-    const State& begin = march.begin;
-    State& end = march.end;
+// One step of h from `begin` into `end`, regardless of events.
+void try_step(const Model& model, Integrator& integrator, double h) {
+    const State& begin = integrator.begin;
+    State& end = integrator.end;
     end = begin;
-    trial_step(model, march, h, end);
-    advance_clock(model, march, h);
-    for (int e = 0; e < LEDGER; ++e) end.energy[e] = begin.energy[e] + march.work.energy[e];
-    place_bristles(march.last.pairs, end.bristle);
-    forces(model, begin, march.constants, end.x, end.v, h, end.trim, march.last);
-    march.control.evaluations += EVALUATIONS;
+    trial_step(model, integrator, h, end);
+    advance_clock(model, integrator, h);
+    for (int e = 0; e < LEDGER; ++e) end.energy[e] = begin.energy[e] + integrator.work.energy[e];
+    place_bristles(integrator.last.pairs, end.bristle);
+    forces(model, begin, integrator.constants, end.x, end.v, h, end.trim, integrator.last);
+    integrator.control.evaluations += EVALUATIONS;
 }
 
-// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite
-// where the step went astray: a comparison with NaN would let it pass.
-double error_norm(const Model& model, const March& march) {
+// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite if
+// the step diverged: a comparison with NaN would accept it.
+double error_norm(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
-    const Workspace& work = march.work;
-    const Control& control = march.control;
+    const Workspace& work = integrator.work;
+    const Control& control = integrator.control;
     double largest = 0.0, total = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double tau = march.constants.tau[train.kind[i]];
+        double tau = integrator.constants.tau[train.kind[i]];
         double error = std::fabs(mesh_motion(train, i, work.error_x));
-        // Damping turns an error of the rate into one of the force, k tau times as large.
+        // By damping, an error of the rate causes k tau times that error of the force.
         double slip = std::max(std::fabs(mesh_motion(train, i, work.error_v)) - ROUNDING, 0.0);
         largest = std::max(largest, std::max(error, tau * slip) / control.tolerance_x);
     }
@@ -63,61 +63,61 @@ double error_norm(const Model& model, const March& march) {
         largest = std::max(largest, error / (BRISTLE_SHARE * control.tolerance));
         total += error;
     }
-    return std::isfinite(total) ? largest : ASTRAY;
+    return std::isfinite(total) ? largest : DIVERGED;
 }
 
 struct Controlled {
     double step;
-    double factor;  // by which the next may be longer
+    double factor;  // for the length of the next step
 };
 
-// Try steps from h downwards until the error is allowed.
-Controlled controlled_step(const Model& model, March& march, double h) {
+// Try steps, the first of h, until the error is allowed.
+Controlled controlled_step(const Model& model, Integrator& integrator, double h) {
     while (true) {
-        try_step(model, march, h);
-        double error = STIFF * error_norm(model, march);
+        try_step(model, integrator, h);
+        double error = STIFF * error_norm(model, integrator);
         double factor = growth_of_step(error, ROSENBROCK_ORDER);
-        if (error <= 1.0 || (h <= SHORTEST_STEP && error < ASTRAY)) return {h, factor};
+        if (error <= 1.0 || (h <= SHORTEST_STEP && error < DIVERGED)) return {h, factor};
         if (h <= SHORTEST_STEP) throw NoFiniteState{};
-        ++march.control.rejected;
+        ++integrator.control.rejected;
         h = std::max(h * std::max(SHRINK, factor), SHORTEST_STEP);
     }
 }
 
 // Forces at the start of the step.
-void find_first_forces(const Model& model, March& march) {
-    Control& control = march.control;
-    const State& begin = march.begin;
-    Evaluation &first = march.first, &last = march.last;
+void find_first_forces(const Model& model, Integrator& integrator) {
+    Control& control = integrator.control;
+    const State& begin = integrator.begin;
+    Evaluation &first = integrator.first, &last = integrator.last;
     if (control.changed || control.collocated) {
         place_bristles(first.pairs, begin.bristle);
-        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, first);
+        forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim, first);
         ++control.evaluations;
         control.changed = false;
     } else {  // forces do not depend on the frame in which x is measured
         std::memcpy(first.force, last.force, sizeof first.force);
         std::memcpy(first.power, last.power, sizeof first.power);
-        std::memcpy(first.now.push, last.now.push, sizeof first.now.push);
+        std::memcpy(first.now.normal_force, last.now.normal_force, sizeof first.now.normal_force);
         copy_friction(last.pairs, first.pairs);
     }
 }
 
 }  // namespace
 
-std::int64_t stiff_step(const Model& model, March& march, double longest, double event) {
-    Control& control = march.control;
-    find_first_forces(model, march);
+std::int64_t stiff_step(const Model& model, Integrator& integrator, double longest, double event) {
+    Control& control = integrator.control;
+    find_first_forces(model, integrator);
     control.collocated = false;
     double trial = std::min(planned(event, std::min(control.next_stiff, longest), 1.0), longest);
-    auto [h, factor] = controlled_step(model, march, trial);
+    auto [h, factor] = controlled_step(model, integrator, trial);
     double candidate = h * std::min(GROW, std::max(SHRINK, factor));
-    // A step cut short by an event says little about the steps to come.
+    // A step shortened by an event does not determine the length of the next ones.
     control.next_stiff = factor >= 1.0 ? std::max(candidate, control.next_stiff) : candidate;
-    control.detour = std::max<std::int64_t>(control.detour - 1, 0);
+    control.fallback_steps = std::max<std::int64_t>(control.fallback_steps - 1, 0);
     ++control.stiff_steps;
-    FlankEvent flank = first_flank_event(model, march);
-    if (flank.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, march, flank.mesh))
-        try_step(model, march, std::max(flank.when, SHORTEST_STEP));
+    FlankEvent flank = first_flank_event(model, integrator);
+    if (flank.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, integrator, flank.mesh))
+        try_step(model, integrator, std::max(flank.when, SHORTEST_STEP));
     return flank.mesh;
 }
 

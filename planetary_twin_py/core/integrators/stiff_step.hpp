@@ -1,15 +1,15 @@
 #pragma once
 
-// A step by Rosenbrock's method: how long it is, and where it ends. Near standstill friction is too
-// stiff for the sweeps of collocation to come to rest, and damping too strong for its digits.
+// A step of Rosenbrock's method: its length and its end. Near standstill friction is too stiff for
+// the sweeps of collocation to converge, and damping too strong for its accuracy.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
-// A step by Rosenbrock's method of at most `longest` seconds; the mesh whose flanks meet or part at
-// its end, or NO_MESH. Throws NoFiniteState.
-std::int64_t stiff_step(const Model& model, March& march, double longest, double event);
+// A step of Rosenbrock's method of at most `longest` seconds; the mesh whose contact changes at its
+// end, or NO_MESH. Throws NoFiniteState.
+std::int64_t stiff_step(const Model& model, Integrator& integrator, double longest, double event);
 
 }  // namespace gearbox

@@ -1,19 +1,20 @@
 #pragma once
 
-// A step by the method that is asked for, where collocation is not: for step control and samples.
+// A step of the requested method other than collocation: for step control and samples.
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "integrators/rosenbrock.hpp"
 #include "integrators/step_control.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
 
-// Advance `march.begin` by h seconds into `out`, without regard to events.
-inline void trial_step(const Model& model, March& march, double h, State& out) {
-    switch (march.control.method) {
+// Advance `integrator.begin` by h seconds into `out`, regardless of events.
+inline void trial_step(const Model& model, Integrator& integrator, double h, State& out) {
+    switch (integrator.control.method) {
         default:
-            rosenbrock_step(model, march.begin, march.constants, h, march.first, out, march.work);
+            rosenbrock_step(model, integrator.begin, integrator.constants, h, integrator.first, out,
+                            integrator.work);
     }
 }
 

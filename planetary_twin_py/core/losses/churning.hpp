@@ -18,7 +18,7 @@ namespace gearbox {
 inline double disc_torque(double radius, double gap_ratio, double density,
                           double kinematic_viscosity, double speed) {
     double w = std::abs(speed), nu = kinematic_viscosity, g = gap_ratio;
-    // Each is written out, so that nothing is divided by a speed that may vanish.
+    // Each is written without divisions by a speed that may vanish.
     double laminar_merged = std::numbers::pi * nu * w / g;
     double narrow = power(g, 0.1), root = w * std::sqrt(w);  // w^1.5, exactly 0 at rest
     double laminar = 1.85 * narrow * root * std::sqrt(nu) * radius;

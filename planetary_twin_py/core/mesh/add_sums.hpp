@@ -2,8 +2,8 @@
 
 // Integrals over an interval for each mesh: statistics of windows and runs, independent of samples.
 
+#include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "rooms.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

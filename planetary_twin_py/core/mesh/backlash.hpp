@@ -15,8 +15,8 @@
 
 namespace gearbox {
 
-struct Stand {
-    double advance, pace, slack;  // mesh cycles since the start of the step, [1/s], [m]
+struct MeshPosition {
+    double advance, cycle_rate, slack;  // mesh cycles since the start of the step, [1/s], [m]
 };
 
 struct LengthAndReach {
@@ -26,20 +26,21 @@ struct LengthAndReach {
 // Increase of the backlash of an open mesh by errors of form, on each side. `deflection` contains
 // the errors of the flanks of a closed mesh already.
 inline LengthAndRate widening(const Train& train, const StepConstants& step, std::int64_t i,
-                              std::int64_t side, double advance, double pace) {
+                              std::int64_t side, double advance, double cycle_rate) {
     if (side != OPEN || train.lines[train.kind[i]] == 0) return {0.0, 0.0};
-    return radial_error(train, i, step.line_angle, advance, pace);
+    return radial_error(train, i, step.line_angle, advance, cycle_rate);
 }
 
 // Gap [m] left to mesh i on `side`, from its deflection and the increase of its backlash; see
-// `departure`.
-inline double play_left(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
-                        LengthAndReach motion, LengthAndReach wider, double slack) {
+// `contact_event`.
+inline double remaining_gap(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
+                            LengthAndReach motion, LengthAndReach wider, double slack) {
     double d = motion.length, half = load.half_backlash;
-    double push = d + load.release * motion.reach;
-    if (side != OPEN) return static_cast<double>(side) * push - half + slack;
+    double normal_force = d + load.release * motion.reach;
+    if (side != OPEN) return static_cast<double>(side) * normal_force - half + slack;
     double gap = wider.length, slower = wider.length + load.release * wider.reach;
-    double drive = at_most(d - gap, push - slower), coast = at_most(-d - gap, -push - slower);
+    double drive = at_most(d - gap, normal_force - slower),
+           coast = at_most(-d - gap, -normal_force - slower);
     if constexpr (MOVING) return slack - (only_side(train, i) == DRIVE_SIDE ? drive : coast) + half;
     return slack - at_least(drive, coast) + half;
 }
@@ -50,15 +51,16 @@ inline double play_left(const Train& train, const Load& load, std::int64_t i, st
 // d - b are positive, on either side. Both have a tolerance, `slack`: without load, flanks touch
 // without force, and contact would end and start endlessly. (With a regulatory factor the force
 // has no effect.) Radial errors of form increase the backlash of an open mesh on both sides.
-inline double departure(const Model& model, const State& state, const StepConstants& step,
-                        std::int64_t i, const double* x, const double* v, Stand stand) {
+inline double contact_event(const Model& model, const State& state, const StepConstants& step,
+                            std::int64_t i, const double* x, const double* v,
+                            MeshPosition position) {
     const Train& train = model.train;
-    auto [advance, pace, slack] = stand;
-    auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, pace);
+    auto [advance, cycle_rate, slack] = position;
+    auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, cycle_rate);
     double tau = damping_time(train, train.kind[i], passing_rate(train, step, v));
-    LengthAndRate wider = widening(train, step, i, state.side[i], advance, pace);
-    return play_left(train, model.load, i, state.side[i], {d, tau * rate},
-                     {wider.length, tau * wider.rate}, slack);
+    LengthAndRate wider = widening(train, step, i, state.side[i], advance, cycle_rate);
+    return remaining_gap(train, model.load, i, state.side[i], {d, tau * rate},
+                         {wider.length, tau * wider.rate}, slack);
 }
 
 }  // namespace gearbox

@@ -13,7 +13,7 @@ namespace gearbox {
 
 // Whether both flanks of some mesh touch at a state, with the constants of a step from there.
 inline bool both_flanks_touch(const Model& model, const State& state, const StepConstants& step) {
-    if constexpr (MOVING) return false;  // both have their forces
+    if constexpr (MOVING) return false;  // each flank has its own force
     const Train& train = model.train;
     const double half = model.load.half_backlash;
     for (std::int64_t i = 0; i < train.meshes; ++i) {

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/state.hpp"
 #include "train/train.hpp"
 

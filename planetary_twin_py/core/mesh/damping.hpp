@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/step_constants.hpp"
 #include "train/train.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
 
-// Mesh cycles per second that the speeds of the motors stand for, unsigned.
+// Mesh cycles per second from the speeds of the motors, unsigned.
 inline double passing_rate(const Train& train, const StepConstants& step, const double* v) {
     double rate = step.cycle_rate;
     for (int a = 0; a < AXES; ++a) {

@@ -30,10 +30,10 @@ struct Deflection {
 
 // d - e of mesh i on the side of `step`, `advance` mesh cycles after its start.
 inline Deflection deflection(const Train& train, const StepConstants& step, std::int64_t i,
-                             const double* x, const double* v, double advance, double pace) {
+                             const double* x, const double* v, double advance, double cycle_rate) {
     double d = mesh_motion(train, i, x), rate = mesh_motion(train, i, v);
     if (train.lines[train.kind[i]] == 0) return {d, rate, 0.0};
-    LengthAndRate e = form_error(train, i, step.side[i], step.line_angle, advance, pace);
+    LengthAndRate e = form_error(train, i, step.side[i], step.line_angle, advance, cycle_rate);
     return {d - e.length, rate - e.rate, e.rate};
 }
 

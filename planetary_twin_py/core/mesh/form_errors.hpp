@@ -41,9 +41,9 @@ inline void place_lines(const Train& train, const State& state, std::int64_t i,
 }
 
 // e_R [m] of mesh i and its rate, an increase of the backlash on each side: `advance` mesh cycles
-// after `place_lines`, at `pace` mesh cycles per second.
+// after `place_lines`, at `cycle_rate` mesh cycles per second.
 inline LengthAndRate radial_error(const Train& train, std::int64_t i, const double (*angle)[LINES],
-                                  double advance, double pace) {
+                                  double advance, double cycle_rate) {
     std::int64_t kind = train.kind[i];
     double error = 0.0, rate = 0.0;
     for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
@@ -51,7 +51,7 @@ inline LengthAndRate radial_error(const Train& train, std::int64_t i, const doub
         double turned = angle[i][n] + order * advance;
         auto [sine, cosine] = sin_cos(turned);
         error += train.line_radial[i][n] * cosine;
-        rate -= train.line_radial[i][n] * order * pace * sine;
+        rate -= train.line_radial[i][n] * order * cycle_rate * sine;
     }
     return {error, rate};
 }
@@ -59,7 +59,7 @@ inline LengthAndRate radial_error(const Train& train, std::int64_t i, const doub
 // e [m] of mesh i and its rate; `side` +1: of the drive flanks, -1: of the coast flanks, 0: e_T
 // alone. The other arguments are those of `radial_error`.
 inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
-                                const double (*angle)[LINES], double advance, double pace) {
+                                const double (*angle)[LINES], double advance, double cycle_rate) {
     std::int64_t kind = train.kind[i];
     double error = 0.0, rate = 0.0;
     for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
@@ -67,26 +67,27 @@ inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
         double turned = angle[i][n] + order * advance;
         auto [sine, cosine] = sin_cos(turned);
         error += train.line_tangential[i][n] * sine;
-        rate += train.line_tangential[i][n] * order * pace * cosine;
+        rate += train.line_tangential[i][n] * order * cycle_rate * cosine;
     }
-    LengthAndRate radial = radial_error(train, i, angle, advance, pace);
+    LengthAndRate radial = radial_error(train, i, angle, advance, cycle_rate);
     return {error + side * radial.length, rate + side * radial.rate};
 }
 
-// Second derivative of e [m/s^2] of mesh i on a side, at `place_lines`, at `pace` cycles/s.
-inline double form_error_bend(const Train& train, std::int64_t i, double side,
-                              const double (*angle)[LINES], double pace) {
+// Second derivative of e [m/s^2] of mesh i on a side, at `place_lines`, at `cycle_rate` cycles/s.
+inline double form_error_acceleration(const Train& train, std::int64_t i, double side,
+                                      const double (*angle)[LINES], double cycle_rate) {
     std::int64_t kind = train.kind[i];
-    double bend = 0.0;
+    double acceleration = 0.0;
     for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
-        double rate = line_order(train, kind, n) * pace;
-        bend -= train.line_tangential[i][n] * (rate * rate) * sin_cos(angle[i][n]).sine;
+        double rate = line_order(train, kind, n) * cycle_rate;
+        acceleration -= train.line_tangential[i][n] * (rate * rate) * sin_cos(angle[i][n]).sine;
     }
     for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
-        double rate = line_order(train, kind, n) * pace;
-        bend -= side * train.line_radial[i][n] * (rate * rate) * sin_cos(angle[i][n]).cosine;
+        double rate = line_order(train, kind, n) * cycle_rate;
+        acceleration -=
+            side * train.line_radial[i][n] * (rate * rate) * sin_cos(angle[i][n]).cosine;
     }
-    return bend;
+    return acceleration;
 }
 
 }  // namespace gearbox

@@ -2,8 +2,8 @@
 
 // Results of both flanks of a mesh together, where each has an entry among the meshes.
 
+#include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "rooms.hpp"
 #include "train/train.hpp"
 #include "vector/math.hpp"
 

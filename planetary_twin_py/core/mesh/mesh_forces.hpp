@@ -21,10 +21,10 @@
 namespace gearbox {
 
 // Subtract the errors of form.
-RARE inline void place_errors(const Train& train, const StepConstants& step, MeshesNow& now) {
+COLD inline void place_errors(const Train& train, const StepConstants& step, MeshesNow& now) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         LengthAndRate e =
-            form_error(train, i, step.side[i], step.line_angle, now.advance, now.pace);
+            form_error(train, i, step.side[i], step.line_angle, now.advance, now.cycle_rate);
         now.d[i] -= e.length;
         now.rate[i] -= e.rate;
         now.error_rate[i] = e.rate;
@@ -35,7 +35,7 @@ RARE inline void place_errors(const Train& train, const StepConstants& step, Mes
 inline void place_meshes(const Train& train, const State& state, const StepConstants& step,
                          const double* x, const double* v, double delay, MeshesNow& now) {
     now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
-    now.pace = step.cycle_rate + cycle_shift(train, v);
+    now.cycle_rate = step.cycle_rate + cycle_shift(train, v);
     now.following =
         train.damping_cycles / at_least(passing_rate(train, step, v), train.lowest_frequency);
     if (train.lines[0] + train.lines[1] > 0) place_errors(train, step, now);
@@ -43,7 +43,7 @@ inline void place_meshes(const Train& train, const State& state, const StepConst
 
 // Position of each mesh in its segment [cycles].
 template <int L>
-LAW Row<L> place_in_segment(const StepConstants& step, double advance) {
+ALWAYS_INLINE Row<L> place_in_segment(const StepConstants& step, double advance) {
     using V = Row<L>;
     return V(step.start) - V(step.low) + V(step.side) * advance;
 }
@@ -56,9 +56,10 @@ struct Weights {
 
 // Weights from their polynomials, `u` cycles into the segments.
 template <int L>
-LAW Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES], const Row<L>& u) {
+ALWAYS_INLINE Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES],
+                               const Row<L>& u) {
     using V = Row<L>;
-    if (terms == 2)  // what a given stiffness needs
+    if (terms == 2)  // for a given stiffness
         return {V(coefficient[0]) + V(coefficient[1]) * u, V(coefficient[1])};
     V value(coefficient[terms - 1]), growth(0.0);
     for (std::int64_t t = terms - 2; t >= 0; --t) {
@@ -68,7 +69,7 @@ LAW Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES], co
     return {value, growth};
 }
 
-// Add the power that the meshes lose to damping, and that of their changing shape.
+// Add the power lost to damping, and that of changing stiffness and errors of form.
 inline void add_mesh_power(const Train& train, const MeshesNow& now, double* power) {
     double lost = 0.0, work = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -81,7 +82,8 @@ inline void add_mesh_power(const Train& train, const MeshesNow& now, double* pow
 
 // Forces of all meshes without faults at their positions, and their powers.
 template <int L>
-LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, MeshesNow& now) {
+ALWAYS_INLINE void healthy_mesh_forces(const Model& model, const StepConstants& step,
+                                       MeshesNow& now) {
     using V = Row<L>;
     const double offset = model.load.offset, inner_squared = model.load.inner_squared;
     V u = place_in_segment<L>(step, now.advance);
@@ -90,28 +92,28 @@ LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, Mesh
     V k = closed * (V(step.base) + gain * weight);
     V deflection = side * V(now.d) - offset, closing = side * V(now.rate);
     V damped = k * (V(step.fixed) + now.following) * closing;
-    V push = k * deflection + damped;
+    V normal_force = k * deflection + damped;
     V work = 0.5 * closed * gain * growth;
-    work *= (deflection * deflection - inner_squared) * now.pace;
-    push.store(now.push);
+    work *= (deflection * deflection - inner_squared) * now.cycle_rate;
+    normal_force.store(now.normal_force);
     if constexpr (MOVING) {
         k.store(now.stiffness);
-        (side * gain * growth * now.pace).store(now.stiffening);
+        (side * gain * growth * now.cycle_rate).store(now.stiffening);
     }
     (damped * closing).store(now.lost);
-    (side * (work - push * V(now.error_rate))).store(now.work);
+    (side * (work - normal_force * V(now.error_rate))).store(now.work);
 }
 
 // Distribute the forces to the tooth pairs by their stiffnesses.
 template <int L>
-LAW void spread_loads(const Train& train, const StepConstants& step, MeshesNow& now) {
+ALWAYS_INLINE void spread_loads(const Train& train, const StepConstants& step, MeshesNow& now) {
     using V = Row<L>;
-    V u = place_in_segment<L>(step, now.advance), push(now.push);
+    V u = place_in_segment<L>(step, now.advance), normal_force(now.normal_force);
     V inverse = 1.0 / weigh<L>(train.terms, step.weight[TOTAL], u).value;
     for (std::int64_t p = 0; p < train.slots; ++p) {
         V share = weigh<L>(train.terms, step.weight[p], u).value * inverse;
         share.store(now.share[p]);
-        larger(share * push, V(0.0)).store(now.load[p]);
+        larger(share * normal_force, V(0.0)).store(now.load[p]);
     }
 }
 
@@ -123,21 +125,21 @@ struct Radii {
 
 // Radii of pair p, whose teeth are at `moved` [m] on the path of contact, counted from cycle 0.
 template <int L>
-LAW Radii<L> flank_radii(const StepConstants& step, std::int64_t p, const Row<L>& moved) {
-    Row<L> way = Row<L>(step.travel[p]) * moved;
-    return {Row<L>(step.rho1[p]) + way, Row<L>(step.rho2[p]) - Row<L>(step.external) * way};
+ALWAYS_INLINE Radii<L> flank_radii(const StepConstants& step, std::int64_t p, const Row<L>& moved) {
+    Row<L> path = Row<L>(step.travel[p]) * moved;
+    return {Row<L>(step.rho1[p]) + path, Row<L>(step.rho2[p]) - Row<L>(step.external) * path};
 }
 
 // Distance of the contacts along their path from cycle 0 [m].
 template <int L>
-LAW Row<L> path_position(const Train& train, const StepConstants& step, double advance) {
+ALWAYS_INLINE Row<L> path_position(const Train& train, const StepConstants& step, double advance) {
     const double pitch = train.base_pitch;
     return Row<L>(step.side) * (advance * pitch) + Row<L>(step.start) * pitch;
 }
 
 // Part of the face on which pair p is in contact; negligible parts count as none.
 template <int L>
-LAW Row<L> face_in_contact(const StepConstants& step, std::int64_t p, double advance) {
+ALWAYS_INLINE Row<L> face_in_contact(const StepConstants& step, std::int64_t p, double advance) {
     constexpr double LEAST = 1e-3;
     Row<L> cycle = Row<L>(step.side) * advance + Row<L>(step.start);
     return larger(Row<L>(step.face[p]) + Row<L>(step.face_growth[p]) * cycle, Row<L>(LEAST));
@@ -167,7 +169,7 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
                               std::int64_t i, MeshesNow& now) {
     const Train& train = model.train;
     const std::int64_t kind = train.kind[i], segment = state.segment[i];
-    now.push[i] = now.lost[i] = now.work[i] = now.stiffness[i] = now.stiffening[i] = 0.0;
+    now.normal_force[i] = now.lost[i] = now.work[i] = now.stiffness[i] = now.stiffening[i] = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) now.load[p][i] = 0.0;
     if (state.side[i] == OPEN) return;
     double side = static_cast<double>(state.side[i]);
@@ -186,19 +188,19 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         if (effect.gap > 0.0 && q < 0.0) k = dk = 0.0;
         double force = k * (q + tau * closing);
         if (effect.gap > 0.0) force = at_least(force, 0.0);
-        now.push[i] += force;
+        now.normal_force[i] += force;
         now.stiffness[i] += k;
-        now.stiffening[i] += side * dk * now.pace;
+        now.stiffening[i] += side * dk * now.cycle_rate;
         now.lost[i] += (force - k * q) * closing;
         work += 0.5 * dk * (q * q - model.load.inner_squared);
         now.load[p][i] = at_least(force, 0.0);
     }
-    now.work[i] = side * (work * now.pace - now.push[i] * now.error_rate[i]);
+    now.work[i] = side * (work * now.cycle_rate - now.normal_force[i] * now.error_rate[i]);
 }
 
 // The same as `healthy_mesh_forces` and `spread_loads`, pair by pair.
 template <int L>
-RARE void faulty_mesh_forces(const Model& model, const State& state, const StepConstants& step,
+COLD void faulty_mesh_forces(const Model& model, const State& state, const StepConstants& step,
                              MeshesNow& now) {
     spread_loads<L>(model.train, step, now);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
@@ -207,8 +209,8 @@ RARE void faulty_mesh_forces(const Model& model, const State& state, const StepC
 
 // Forces of the meshes, whose transmission errors are in `now`.
 template <int L>
-LAW void find_mesh_forces(const Model& model, const State& state, const StepConstants& step,
-                          MeshesNow& now) {
+ALWAYS_INLINE void find_mesh_forces(const Model& model, const State& state,
+                                    const StepConstants& step, MeshesNow& now) {
     if (model.train.faults > 0)
         faulty_mesh_forces<L>(model, state, step, now);
     else
@@ -217,7 +219,7 @@ LAW void find_mesh_forces(const Model& model, const State& state, const StepCons
 
 // Distribute the forces to the tooth pairs where that is not done yet.
 template <int L>
-SHARED void distribute_forces(const Train& train, const StepConstants& step, MeshesNow& now) {
+NOINLINE void distribute_forces(const Train& train, const StepConstants& step, MeshesNow& now) {
     if (train.faults == 0) spread_loads<L>(train, step, now);
 }
 
@@ -241,22 +243,23 @@ inline void share_loads(const Model& model, const StepConstants& step, Evaluatio
 }
 
 // Rate of change [N/s] of the force of closed mesh i with its cycle, with its bodies at rest in x.
-inline double force_drift(const Model& model, const State& state, const StepConstants& step,
-                          std::int64_t i, double pace) {
+inline double force_time_derivative(const Model& model, const State& state,
+                                    const StepConstants& step, std::int64_t i, double cycle_rate) {
     const Train& train = model.train;
     std::int64_t kind = train.kind[i];
     double side = static_cast<double>(state.side[i]);
     double tau = step.tau[kind], u = step.start[i] - step.low[i];
-    auto [d, rate, error_rate] = deflection(train, step, i, state.x, state.v, 0.0, pace);
+    auto [d, rate, error_rate] = deflection(train, step, i, state.x, state.v, 0.0, cycle_rate);
     auto [total, growth] = total_weight(train, kind, state.segment[i], u);
-    double push = side * d - model.load.offset + tau * side * rate;
-    double drift = step.gain[i] * growth * side * pace * push;
+    double normal_force = side * d - model.load.offset + tau * side * rate;
+    double derivative = step.gain[i] * growth * side * cycle_rate * normal_force;
     if (train.lines[kind] > 0) {
         double k = step.base[i] + step.gain[i] * total;
-        double bend = form_error_bend(train, i, step.side[i], step.line_angle, pace);
-        drift -= k * side * (error_rate + tau * bend);
+        double acceleration =
+            form_error_acceleration(train, i, step.side[i], step.line_angle, cycle_rate);
+        derivative -= k * side * (error_rate + tau * acceleration);
     }
-    return drift;
+    return derivative;
 }
 
 }  // namespace gearbox

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 

@@ -2,20 +2,20 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 
 struct alignas(64) MeshesNow {
     double advance;                   // mesh cycles since the start of the step
-    double pace;                      // mesh cycles per second
+    double cycle_rate;                // mesh cycles per second
     double following;                 // damping time that follows the rate at which teeth pass [s]
     alignas(64) double d[MESHES];     // transmission error, less the error of form [m]
     alignas(64) double rate[MESHES];  // of it [m/s]
-    alignas(64) double error_rate[MESHES];  // of the error of form [m/s]
-    alignas(64) double push[MESHES];        // force, 0 if open [N]
-    alignas(64) double lost[MESHES];        // to damping [W]
-    alignas(64) double work[MESHES];        // what the changing shape puts in [W]
+    alignas(64) double error_rate[MESHES];    // of the error of form [m/s]
+    alignas(64) double normal_force[MESHES];  // force, 0 if open [N]
+    alignas(64) double lost[MESHES];          // to damping [W]
+    alignas(64) double work[MESHES];          // power of changing stiffness and errors of form [W]
     // Where axes move: stiffness [N/m] and its growth [N/(m s)]; where they tilt, the moment
     // against the slope of the flanks [N m].
     alignas(64) double stiffness[MESHES];

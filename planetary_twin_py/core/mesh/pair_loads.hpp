@@ -15,7 +15,7 @@
 
 namespace gearbox {
 
-// Fill the loads (PAIRS,) that add up to `force`; pairs that would pull are removed in turn.
+// Fill the loads (PAIRS,) that add up to `force`; pairs with negative loads are removed one by one.
 inline void balance_pairs(const Train& train, const StepConstants& step, std::int64_t i,
                           std::int64_t segment, double u, double force, double* load) {
     std::int64_t present = train.present[train.kind[i]][segment];

@@ -3,12 +3,12 @@
 // Tilting of the flanks of a mesh against each other.
 //
 // Where gears tilt, the deflection of their flanks changes along the face by a slope s. Each part
-// of the face has its share of the stiffness k of the mesh, so beside the force at the middle there
-// is a moment k L^2/12 s, and the energy k L^2 s^2/24, with the face width L. The face is taken as
-// touching all along.
+// of the face has its share of the stiffness k of the mesh, so in addition to the force at the
+// middle there is a moment k L^2/12 s, and the energy k L^2 s^2/24, with the face width L. The face
+// is taken as touching all along.
 
+#include "capacities.hpp"
 #include "mesh/meshes_now.hpp"
-#include "rooms.hpp"
 #include "train/step_constants.hpp"
 #include "train/tilting.hpp"
 #include "train/train.hpp"

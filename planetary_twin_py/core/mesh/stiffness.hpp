@@ -2,7 +2,7 @@
 
 // Stiffness of a mesh and of its tooth pairs, from the tables of the train.
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/step_constants.hpp"
 #include "train/train.hpp"
 

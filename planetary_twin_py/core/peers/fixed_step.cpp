@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "capacities.hpp"
 #include "peers/right_hand_side.hpp"
-#include "rooms.hpp"
 
 namespace gearbox {
 
@@ -46,8 +46,8 @@ struct SemiImplicitEuler {
 };
 
 template <class Method>
-void march(Problem& problem, const double* times, std::int64_t steps, double* y, double* samples,
-           std::int64_t count) {
+void integrate(Problem& problem, const double* times, std::int64_t steps, double* y,
+               double* samples, std::int64_t count) {
     Method method;
     std::int64_t size = problem_size(problem);
     for (std::int64_t k = 0; k < count; ++k) {
@@ -62,12 +62,12 @@ void march(Problem& problem, const double* times, std::int64_t steps, double* y,
 
 void runge_kutta_4(Problem& problem, const double* times, std::int64_t steps, double* y,
                    double* samples, std::int64_t count) {
-    march<RungeKutta4>(problem, times, steps, y, samples, count);
+    integrate<RungeKutta4>(problem, times, steps, y, samples, count);
 }
 
 void semi_implicit_euler(Problem& problem, const double* times, std::int64_t steps, double* y,
                          double* samples, std::int64_t count) {
-    march<SemiImplicitEuler>(problem, times, steps, y, samples, count);
+    integrate<SemiImplicitEuler>(problem, times, steps, y, samples, count);
 }
 
 }  // namespace gearbox

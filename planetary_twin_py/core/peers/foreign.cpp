@@ -18,8 +18,8 @@ int cvode_function(double t, void* y, void* dy, void* cvode) {
     return 0;
 }
 
-int cvode_march(const Cvode& cvode, void* memory, void* vector, const double* times,
-                double* samples, std::int64_t count) {
+int cvode_integrate(const Cvode& cvode, void* memory, void* vector, const double* times,
+                    double* samples, std::int64_t count) {
     std::int64_t size = problem_size(*cvode.problem);
     double reached;
     for (std::int64_t k = 0; k < count; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The right-hand side as libraries call it that are given addresses of C functions.
+// The right-hand side for libraries that take addresses of C functions.
 
 #include "run/problem.hpp"
 
@@ -17,10 +17,10 @@ struct Cvode {
 int cvode_function(double t, void* y, void* dy, void* cvode);
 
 // Fill row k of `samples` with `vector` at times[k]; 0, or what CVODE returned.
-int cvode_march(const Cvode& cvode, void* memory, void* vector, const double* times,
-                double* samples, std::int64_t count);
+int cvode_integrate(const Cvode& cvode, void* memory, void* vector, const double* times,
+                    double* samples, std::int64_t count);
 
-// As CyRK calls it, whose argument is the address of a Problem.
+// Right-hand side for CyRK, whose argument is the address of a Problem.
 void cyrk_function(double* dy, double t, double* y, char* arguments);
 
 }  // namespace gearbox

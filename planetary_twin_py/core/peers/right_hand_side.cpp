@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "capacities.hpp"
 #include "mesh/backlash.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/faults.hpp"
-#include "rooms.hpp"
 #include "train/body_speed.hpp"
 #include "train/equations.hpp"
 #include "train/observe.hpp"
@@ -18,7 +18,7 @@ namespace gearbox {
 
 namespace {
 
-// Fill what is known of the bodies and the motors at time t.
+// Fill the state of the bodies and the motors at time t.
 void place_bodies(Problem& problem, double t, const double* y) {
     const Train& train = problem.model.train;
     const Load& load = problem.model.load;
@@ -40,31 +40,31 @@ void place_bodies(Problem& problem, double t, const double* y) {
     }
 }
 
-// Of which side and segment (from 1 on) the tables in `step` are.
-struct TablesHeld {
+// Side and segment (from 1 on) of the tables in `step`.
+struct StoredTables {
     double side[MESHES];
     std::int64_t segment[MESHES];
 };
 
-// Let all meshes be open; the tables stay as they are.
-TablesHeld open_meshes(const Train& train, State& state, StepConstants& step) {
-    TablesHeld held;
+// Open all meshes, without changing the tables.
+StoredTables open_meshes(const Train& train, State& state, StepConstants& step) {
+    StoredTables stored;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        held.side[i] = step.side[i];
-        held.segment[i] = step.segment[i];
+        stored.side[i] = step.side[i];
+        stored.segment[i] = step.segment[i];
         state.side[i] = OPEN;
         step.side[i] = 0.0;
         step.segment[i] = state.segment[i] + 1;
     }
-    return held;
+    return stored;
 }
 
-// As `copy_segment`, which costs more than all else here, where other tables are held.
+// As `copy_segment`, the most expensive part here, if other tables are stored.
 void copy_tables(const Train& train, const State& state, StepConstants& step, std::int64_t i,
-                 const TablesHeld& held) {
+                 const StoredTables& stored) {
     double side = static_cast<double>(state.side[i]);
     std::int64_t segment = state.segment[i] + 1;
-    if (held.side[i] == side && held.segment[i] == segment) {
+    if (stored.side[i] == side && stored.segment[i] == segment) {
         step.side[i] = side;
         step.segment[i] = segment;
     } else {
@@ -73,28 +73,28 @@ void copy_tables(const Train& train, const State& state, StepConstants& step, st
 }
 
 // Find the flanks in contact and the segments of their tooth pairs.
-void find_contacts(Problem& problem, const TablesHeld& held) {
+void find_contacts(Problem& problem, const StoredTables& stored) {
     const Train& train = problem.model.train;
     State& state = problem.state;
     StepConstants& step = problem.step;
     const double *x = state.x, *v = state.v;
-    double pace = step.cycle_rate + cycle_shift(train, v);
+    double cycle_rate = step.cycle_rate + cycle_shift(train, v);
     double cycles = frame_cycle(train, state, 1) + cycle_shift(train, x);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        if (departure(problem.model, state, step, i, x, v, {0.0, pace, 0.0}) >= 0.0) {
-            copy_tables(train, state, step, i, held);
+        if (contact_event(problem.model, state, step, i, x, v, {0.0, cycle_rate, 0.0}) >= 0.0) {
+            copy_tables(train, state, step, i, stored);
             continue;
         }
-        double d = deflection(train, step, i, x, v, 0.0, pace).d;
+        double d = deflection(train, step, i, x, v, 0.0, cycle_rate).d;
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
-        // As `mesh_cycle`, but the cycles of the frame, which take long to count, are counted once.
+        // As `mesh_cycle`, but the cycles of the frame, which are expensive, are counted once.
         double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
         if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
         cycle -= std::floor(cycle);
         state.side[i] = side;
         state.segment[i] =
-            find_segment(train, train.kind[i], cycle, static_cast<double>(side) * pace);
-        copy_tables(train, state, step, i, held);
+            find_segment(train, train.kind[i], cycle, static_cast<double>(side) * cycle_rate);
+        copy_tables(train, state, step, i, stored);
         step.start[i] = cycle;
         if (train.faults > 0) find_faults(train, state, i, side, cycle, step.faulty);
     }
@@ -104,9 +104,9 @@ void find_contacts(Problem& problem, const TablesHeld& held) {
 
 void place_problem(Problem& problem, double t, const double* y) {
     place_bodies(problem, t, y);
-    TablesHeld held = open_meshes(problem.model.train, problem.state, problem.step);
+    StoredTables stored = open_meshes(problem.model.train, problem.state, problem.step);
     set_step_constants(problem.model, problem.state, problem.step);
-    find_contacts(problem, held);
+    find_contacts(problem, stored);
 }
 
 void derivative(Problem& problem, double t, const double* y, double* dy) {

@@ -19,51 +19,53 @@ namespace gearbox {
 namespace {
 
 constexpr int MOST_PASSES = 60;
-constexpr int BRISK_PASSES = 5;  // then oscillating friction is under-relaxed
-constexpr int FREE_PASSES = 20;  // then tooth pairs stay: at a jump of the stiffness they may not
-                                 // come to rest
-constexpr double PLACE = 0.01;   // mesh cycles over which stiffness changes by as much as counts
-                                 // for the tolerance
+constexpr int UNRELAXED_PASSES = 5;  // then oscillating friction is under-relaxed
+constexpr int FREE_PASSES = 20;  // then tooth pairs are fixed: at a jump of the stiffness they may
+                                 // not converge
+constexpr double PLACE = 0.01;   // allowed change of position in mesh cycles per unit of
+                                 // the tolerance
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
-// Whether stiffness and play were those of the sides and tooth pairs that carry now.
+// Whether stiffness and clearance are those of the sides and tooth pairs that carry now.
 bool keeps_sides(const Train& train, const Equilibrium& run, const double (*shown)[MESHES],
                  double slack) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        if (std::abs(run.force[i]) > slack && run.state.side[i] != run.lean[i]) return false;
+        if (std::abs(run.force[i]) > slack && run.state.side[i] != run.closing_side[i])
+            return false;
         if (std::abs(shown[MESH_FORCE][i] - run.force[i]) > slack) return false;
     }
     return true;
 }
 
-// Whether friction and drag of these forces are those the forces were found with.
+// Whether friction and drag of these forces agree with those they were computed from.
 bool friction_converged(const Model& model, Equilibrium& run, double slack) {
     Evaluation& evaluation = run.evaluation;
-    std::copy(std::begin(evaluation.rubbing), std::end(evaluation.rubbing), run.before);
+    std::copy(std::begin(evaluation.friction_force), std::end(evaluation.friction_force),
+              run.before);
     std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
-        evaluation.now.push[i] = std::abs(run.force[i]);
+        evaluation.now.normal_force[i] = std::abs(run.force[i]);
     apply_friction(model, run.state, run.step, run.state.v, evaluation);
     bool still = true;
     for (std::int64_t j = 0; j < model.train.bodies; ++j) {
-        double change = std::abs(evaluation.rubbing[j] - run.before[j]);
+        double change = std::abs(evaluation.friction_force[j] - run.before[j]);
         still = still && change <= slack * model.train.body_copies[j];
     }
     return still;
 }
 
-// Guess the friction again: nothing where its sense has just changed, else midway.
+// Under-relax the friction: zero where its sense has just changed, otherwise the mean of both.
 //
-// The friction of a light load is large beside it, so an idle planet jumps from flank to flank,
-// pass by pass, while it is at rest amid its play.
+// The friction of a light load is large relative to it. So an idle planet would alternate between
+// its flanks from pass to pass, although it is at rest within its backlash.
 void center_idle_planets(const Train& train, Equilibrium& run) {
     for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double now = run.evaluation.rubbing[j], before = run.before[j];
-        run.evaluation.rubbing[j] = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
+        double now = run.evaluation.friction_force[j], before = run.before[j];
+        run.evaluation.friction_force[j] = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
     }
 }
 
-// A force that jumps where flanks meet cannot carry less than its jump at rest.
+// A force that jumps where flanks come into contact cannot be below its jump at rest.
 void check_jump(const Model& model, const Equilibrium& run) {
     const Load& load = model.load;
     if (load.half_backlash == load.offset) return;
@@ -80,7 +82,8 @@ void check_jump(const Model& model, const Equilibrium& run) {
 
 }  // namespace
 
-void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
+void solve_equilibrium(const Model& model, double tolerance, Equilibrium& run,
+                       double (*shown)[MESHES]) {
     const Train& train = model.train;
     State& state = run.state;
     bool kept = false;
@@ -89,11 +92,11 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double (*sho
         double shift = cycle_shift(train, state.x);
         if (free || !kept) place_springs(model, run);
         put_external(model, run);
-        double mean = carry(model, run);
-        deflect(model, run);
+        double mean = solve_load_sharing(model, run);
+        place_planets(model, run);
         observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
         double slack = tolerance * std::max(mean, LIGHTEST_FORCE);
-        if (!free) slack = std::max(slack, DITHER);
+        if (!free) slack = std::max(slack, NEGLIGIBLE_FORCE);
         double moved = std::abs(cycle_shift(train, state.x) - shift);
         kept = keeps_sides(train, run, shown, slack);
         bool rests = kept && (moved <= PLACE * tolerance || !free);
@@ -104,7 +107,7 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double (*sho
             if (both_flanks_touch(model, state, run.step)) ++run.both_flanks;
             return;
         }
-        if (n >= BRISK_PASSES) center_idle_planets(train, run);
+        if (n >= UNRELAXED_PASSES) center_idle_planets(train, run);
     }
     throw std::invalid_argument(
         "dynamics = 'quasi_static': no static equilibrium is found, some planet has none between "

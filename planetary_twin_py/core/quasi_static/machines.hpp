@@ -1,6 +1,6 @@
 #pragma once
 
-// Torques of the machines in static equilibrium: they balance what else acts along the rigid
+// Torques of the machines in static equilibrium: they balance all other forces along the rigid
 // motions.
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace gearbox {
 
 // Add the inertia of a changing speed, and the torques of the machines, to the forces in
-// `run.external`, which are those that meshes and couplings do not have.
+// `run.external`, those of neither meshes nor couplings.
 inline void balance_torques(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     const Load& load = model.load;
@@ -42,7 +42,7 @@ inline void balance_torques(const Model& model, Equilibrium& run) {
         run.external[train.coupling[c][0]] += run.torque[c] / train.radius[train.coupling[c][0]];
 }
 
-// Book what the machines give in the equilibrium that has been found.
+// Add the powers of the machines in equilibrium to the ledger.
 inline void add_machine_powers(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {

@@ -16,31 +16,31 @@ namespace gearbox {
 
 namespace {
 
-constexpr double LEAST_STIFFNESS = 1e-9;  // of a healthy mesh whose only pair is just entering
+constexpr double LEAST_STIFFNESS = 1e-9;  // of a healthy mesh, at the entry of its only pair
 
-// A spring and where it begins.
+// A spring and the deflection at which it starts.
 struct Spring {
     double stiffness;  // [N/m]
     double gap;        // missing material [m]
 };
 
-// Side and tooth pairs of a mesh: an open one is where it would close.
+// Side and tooth pairs of a mesh; those of an open one are those on which it would close.
 void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double rate) {
     State& state = run.state;
-    if (state.side[i] != OPEN) run.lean[i] = state.side[i];
-    std::int64_t side = state.side[i] = run.lean[i];
+    if (state.side[i] != OPEN) run.closing_side[i] = state.side[i];
+    std::int64_t side = state.side[i] = run.closing_side[i];
     double cycle = mesh_cycle(train, state, i, side);
     state.segment[i] = find_segment(train, train.kind[i], cycle, std::copysign(1.0, side * rate));
 }
 
-// The pairs of mesh i that carry, as one spring: pair by pair, since each may have its faults.
+// The loaded pairs of mesh i as one spring, pair by pair, since each may have faults.
 Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i, double healthy) {
     const Train& train = model.train;
     const StepConstants& step = run.step;
     std::int64_t segment = run.state.segment[i], kind = train.kind[i], side = run.state.side[i];
     double u = step.start[i] - train.edge[kind][segment];
     double deflection = side * (mesh_motion(train, i, run.state.x) - run.error[i]);
-    deflection -= run.play[i][side == DRIVE_SIDE ? DRIVE_PLAY : COAST_PLAY];
+    deflection -= run.clearance[i][side == DRIVE_SIDE ? DRIVE_CLEARANCE : COAST_CLEARANCE];
     std::int64_t count = train.present[kind][segment];
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t p = 0; p < count; ++p)
@@ -68,16 +68,17 @@ void place_springs(const Model& model, Equilibrium& run) {
     set_step_constants(model, run.state, run.step);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         run.error[i] = form_error(train, i, 0.0, step.line_angle, 0.0, 0.0).length;
-        double play = model.load.offset + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
-        int carrying = run.state.side[i] == DRIVE_SIDE ? DRIVE_PLAY : COAST_PLAY;
-        // Below zero only with a regulatory factor, whose forces grow from no deflection at all:
-        // what a flank that does not carry stands off is positive.
-        run.play[i][DRIVE_PLAY] = run.play[i][COAST_PLAY] = std::abs(play);
-        run.play[i][carrying] = play;
+        double clearance =
+            model.load.offset + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
+        int carrying = run.state.side[i] == DRIVE_SIDE ? DRIVE_CLEARANCE : COAST_CLEARANCE;
+        // Negative only with a regulatory factor, whose forces grow from zero deflection; the gap
+        // of a flank without load is positive.
+        run.clearance[i][DRIVE_CLEARANCE] = run.clearance[i][COAST_CLEARANCE] = std::abs(clearance);
+        run.clearance[i][carrying] = clearance;
         Spring spring{mesh_stiffness(train, i, run.state.segment[i], step.start[i]), 0.0};
         if (train.faults > 0) spring = faulty_spring(model, run, i, spring.stiffness);
         run.stiffness[i] = spring.stiffness;
-        run.play[i][carrying] += spring.gap;
+        run.clearance[i][carrying] += spring.gap;
     }
 }
 

@@ -5,7 +5,7 @@
 
 namespace gearbox {
 
-// Note stiffness, play and error of form of every mesh where it stands.
+// Set stiffness, clearance and error of form of every mesh at its position.
 void place_springs(const Model& model, Equilibrium& run);
 
 }  // namespace gearbox

@@ -23,7 +23,7 @@ void turn_to(const Model& model, const State& origin, double after, State& state
     run_on(origin, state, after);
 }
 
-void roll(const Model& model, State& origin, const Instant& until) {
+void advance_origin(const Model& model, State& origin, const Instant& until) {
     while (origin.seconds < until.seconds) {
         std::int64_t following = origin.seconds + 1;
         turn_to(model, origin, 1.0 - origin.time, origin);

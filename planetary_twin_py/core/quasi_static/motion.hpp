@@ -8,12 +8,12 @@
 
 namespace gearbox {
 
-// Put frame, speeds and clock of `state` where the motors are `after` seconds after `origin`, which
-// may be `state` itself. Set-points run to their targets at the slew rate.
+// Set frame, speeds and clock of `state` to those `after` seconds after `origin`, which may be
+// `state` itself. Set-points approach their targets at the slew rate.
 void turn_to(const Model& model, const State& origin, double after, State& state);
 
-// Move `origin` to the last whole second before `until`, second by second. Turns are counted off
-// there, so that angles stay exact and do not depend on who asks when.
-void roll(const Model& model, State& origin, const Instant& until);
+// Move `origin` to the last whole second before `until`, second by second. Turns are counted there,
+// so that angles stay exact and do not depend on the times of the calls.
+void advance_origin(const Model& model, State& origin, const Instant& until);
 
 }  // namespace gearbox

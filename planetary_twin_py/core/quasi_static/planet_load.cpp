@@ -5,7 +5,7 @@ namespace gearbox {
 namespace {
 
 constexpr int MOST_TRIALS = 200;
-constexpr double CLOSED = 1e-14;  // of the forces, to which they add up
+constexpr double CLOSED = 1e-14;  // error of the sum, relative to the forces
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 // Forces of all planets at one wind-up.
@@ -28,8 +28,8 @@ Sum add_up(double total, std::int64_t planets, const Springs& springs, double w)
 
 }  // namespace
 
-// Newton's method on a sum of rising lines, within a bracket.
-double share(double total, std::int64_t planets, const Springs& springs) {
+// Newton's method on a sum of increasing piecewise linear functions, within a bracket.
+double solve_windup(double total, std::int64_t planets, const Springs& springs) {
     double copies = 0.0;
     for (std::int64_t p = 0; p < planets; ++p) copies += springs.copies[p];
     double low = INFINITE, high = -INFINITE, stiffness = 0.0, w = 0.0, mean = total / copies;
@@ -50,7 +50,7 @@ double share(double total, std::int64_t planets, const Springs& springs) {
         w = sum.growth > 0.0 ? w + (total - sum.force) / sum.growth : INFINITE;
         if (!(low < w && w < high)) {
             w = 0.5 * (low + high);
-            if (!(low < w && w < high)) break;  // neighbouring numbers
+            if (!(low < w && w < high)) break;  // adjacent floating-point numbers
         }
     }
     return w;

@@ -2,10 +2,10 @@
 
 // Load sharing of the planets: each is a spring with backlash between sun and ring.
 //
-// The transmission errors of a planet's two meshes add up to w = x_s + x_r - 2 x_c, whatever the
-// planet does (2 differs where ring != sun + 2 planet), so one wind-up w squeezes all planets. The
-// force F on the ring and F + R on the sun (R: friction on the planet) follow from w by pieces of
-// straight lines.
+// The transmission errors of a planet's two meshes add up to w = x_s + x_r - 2 x_c, for any motion
+// of the planet (2 differs where ring != sun + 2 planet), so one wind-up w squeezes all planets.
+// The force F on the ring and F + R on the sun (R: friction on the planet) are piecewise linear
+// functions of w.
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +24,11 @@ struct SpringForce {
 
 // Force of a planet on the ring.
 //
-// w: wind-up less errors of form and less what `friction` squeezes the sun mesh by [m].
+// w: wind-up minus errors of form and minus the compression of the sun mesh by `friction` [m].
 // compliance: of both meshes in series [m/N].
 // friction: friction on the planet [N].
-// steps: play passed with both meshes on the coast side, with one on each, and with both on the
+// steps: clearance taken up with both meshes on the coast side, with one on each, and with both on
+// the
 //     drive side [m].
 inline SpringForce ring_force(double w, double compliance, double friction, const double* steps) {
     // where one of the meshes is free of load
@@ -66,6 +67,6 @@ inline SpringForce planet_force(const Springs& springs, std::int64_t p, double w
 }
 
 // The wind-up w [m] at which the planets with their copies have `total` [N] on the ring.
-double share(double total, std::int64_t planets, const Springs& springs);
+double solve_windup(double total, std::int64_t planets, const Springs& springs);
 
 }  // namespace gearbox

@@ -14,12 +14,12 @@ namespace gearbox {
 namespace {
 
 constexpr std::size_t MOST_PANELS = 1024;
-constexpr double NARROWEST = 1e-10;  // of a mesh cycle: a panel about a jump of the stiffness
-constexpr double SHARE = 1.0 / 64;   // of the mesh cycle; a narrower panel may err as much
-constexpr double NOTHING = 1e-12;    // of the power of the first motor: less of a loss is none
+constexpr double NARROWEST = 1e-10;  // of a mesh cycle: least panel at a jump of the stiffness
+constexpr double SHARE = 1.0 / 64;   // of the mesh cycle: least panel in the error
+constexpr double NOTHING = 1e-12;  // of the power of the first motor: smaller losses count as zero
 constexpr double SHORTEST_PANEL = 1e-12, LONGEST_PANEL = 0.1;  // [s]
-constexpr double PER_RIPPLE = 8.0;  // panels at least to a cycle of the torque ripple
-constexpr double ON_EDGE = 1e-11;   // mesh cycles within which a panel counts as ended
+constexpr double PER_RIPPLE = 8.0;  // least number of panels in a cycle of the torque ripple
+constexpr double ON_EDGE = 1e-11;   // mesh cycles: tolerance for the end of a panel
 constexpr double TURN = 2.0 * std::numbers::pi;
 
 using Totals = std::array<double, TOTALS>;
@@ -31,7 +31,7 @@ double lost(const Totals& energy) {
     return energy[FRICTION] + energy[BEARING] + energy[CHURNING];
 }
 
-// What one cycle loses about [J], which tells how small an error is.
+// Approximate loss of one cycle [J], the scale of the allowed error.
 double cycle_loss(const Follower& follower, const State& origin, std::span<const double> edges,
                   double period) {
     Totals whole;
@@ -57,7 +57,7 @@ void append(Panels& panels, double high, const Totals& left, const Totals& right
     panels.peaks.push_back(peaks);
 }
 
-// Distance [mesh cycles] from `cycle` to the next edge in a sense.
+// Distance [mesh cycles] from `cycle` to the next edge in a direction.
 double to_next_edge(std::span<const double> edges, double cycle, double sense) {
     double distance = 1.0;
     for (double edge : edges) {
@@ -72,24 +72,25 @@ double to_next_edge(std::span<const double> edges, double cycle, double sense) {
 double panel_length(const Model& model, const State& state, std::span<const double> edges) {
     const Train& train = model.train;
     const Load& load = model.load;
-    double step = LONGEST_PANEL, bend = 0.0;
+    double step = LONGEST_PANEL, acceleration = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
         double gap = load.target_speed[a] - state.set_speed[a];
         if (gap == 0.0) continue;
         step = std::min(step, std::abs(gap) / load.slew_rate);
-        bend += train.cycles[a] * std::copysign(load.slew_rate, gap) / TURN;
+        acceleration += train.cycles[a] * std::copysign(load.slew_rate, gap) / TURN;
     }
     if (load.ripple > 0.0) {
         double turn = std::abs(state.speed[0]) + load.slew_rate * step;
         step = std::min(step, TURN / (PER_RIPPLE * load.ripple_order * turn));
     }
-    double rate = frame_cycle_rate(train, state), sense = rate != 0.0 ? rate : bend;
+    double rate = frame_cycle_rate(train, state), sense = rate != 0.0 ? rate : acceleration;
     if (sense == 0.0) return step;
-    if (rate * bend < 0.0) step = std::min(step, -rate / bend);  // where the motion turns
+    if (rate * acceleration < 0.0)
+        step = std::min(step, -rate / acceleration);  // where the motion reverses
     sense = std::copysign(1.0, sense);
     double distance = to_next_edge(edges, frame_cycle(train, state, 1), sense);
-    // distance = |rate| t + sense bend t^2/2
-    double square = rate * rate + 2.0 * sense * bend * distance;
+    // distance = |rate| t + sense acceleration t^2/2
+    double square = rate * rate + 2.0 * sense * acceleration * distance;
     if (square >= 0.0) step = std::min(step, 2.0 * distance / (std::abs(rate) + std::sqrt(square)));
     return step;
 }
@@ -111,7 +112,7 @@ void integrate(const Follower& follower, const State& origin, Span span, double*
     for (int n = 0; n < PANEL_NODES; ++n) {
         turn_to(follower.model, origin, span.begin + half * (1.0 + GAUSS_NODES[n]),
                 follower.run.state);
-        settle(follower.model, follower.tolerance, follower.run, follower.shown);
+        solve_equilibrium(follower.model, follower.tolerance, follower.run, follower.shown);
         add_rates(train, follower.run.evaluation.power, follower.shown, half * GAUSS_WEIGHTS[n],
                   out);
         raise_peaks_at_node(train, follower.shown, n, peak);

@@ -1,10 +1,10 @@
 #pragma once
 
-// Integrals of what a quasi-static run adds up, by Gauss' rule on panels between tooth pair events.
+// Integrals of a quasi-static run by Gauss quadrature on panels between tooth pair events.
 //
-// Panels lie between the places in the mesh cycle where a tooth pair begins or ends to enter or
-// leave, or is at its pitch point. Where friction turns its sense they are halved until the rule on
-// both halves agrees with that on the whole.
+// Panels end at the places in the mesh cycle where the entry or exit of a tooth pair starts or
+// ends, or where a pair is at its pitch point. Where friction reverses they are halved until the
+// rule on both halves agrees with that on the whole.
 
 #include <array>
 #include <cstdint>
@@ -17,10 +17,10 @@
 
 namespace gearbox {
 
-// What is followed: the train, the error allowed, and room to work in.
+// The train, its allowed error, and work space.
 struct Follower {
     const Model& model;
-    double tolerance;  // see `settle`
+    double tolerance;  // see `solve_equilibrium`
     Equilibrium& run;
     double (*shown)[MESHES];  // (QUANTITIES,)
 };
@@ -31,32 +31,30 @@ struct Span {
     double end;
 };
 
-// Write the totals (TOTALS,) of a span of time since `origin` that is smooth into `out`; raise
-// `peak` to what is seen there.
+// Write the totals (TOTALS,) of a smooth span of time since `origin` to `out`; update `peak`.
 void integrate(const Follower& follower, const State& origin, Span span, double* out,
                double (*peak)[MESHES]);
 
 // Panels of one mesh cycle.
 struct Panels {
     std::vector<double> phase;                              // edges, from 0 to 1
-    std::vector<std::array<double, TOTALS>> totals;         // up to them
-    std::vector<std::array<double, PEAKS * MESHES>> peaks;  // of the panel before each
+    std::vector<std::array<double, TOTALS>> totals;         // up to each edge
+    std::vector<std::array<double, PEAKS * MESHES>> peaks;  // of the panel before each edge
 };
 
 // Panels of one mesh cycle of steady running from `origin` on.
 //
-// edges: from 0 to 1, shares of the cycle between which nothing jumps.
-// period: of the cycle [s].
+// edges: shares of the cycle from 0 to 1 between which all quantities are smooth. period: of the
+// cycle [s].
 //
-// Throws std::invalid_argument: the tolerance asks for too many panels.
+// Throws std::invalid_argument if the tolerance requires too many panels.
 Panels divide_cycle(const Follower& follower, const State& origin, std::span<const double> edges,
                     double period);
 
-// Move `mark` panel by panel, as long as they end by `until`.
+// Advance `mark` panel by panel, as long as they end by `until`.
 //
-// edges: in mesh cycles of the frame, within [0, 1).
-// stop: whether to end where all speeds are those wanted.
-// integral, peak: which grow along.
+// edges: in mesh cycles of the frame, within [0, 1). stop: whether to end where all speeds have
+// reached their targets. integral, peak: updated.
 void follow(const Follower& follower, State& mark, std::span<const double> edges,
             const Instant& until, bool stop, double* integral, double (*peak)[MESHES]);
 

@@ -15,7 +15,7 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
     State& state = run.state;
     turn_to(model, origin, delay(origin, at), state);
     double shown[QUANTITIES][MESHES];
-    settle(model, tolerance, run, shown);
+    solve_equilibrium(model, tolerance, run, shown);
     for (int q = 0; q < QUANTITIES; ++q)
         std::copy(shown[q], shown[q] + out.meshes, out.mesh_row(row) + q * out.meshes);
     out.drag[row * SAMPLE_DRAGS] = run.evaluation.power[BEARING];
@@ -35,7 +35,7 @@ void sample_all(const Model& model, double tolerance, State& origin, Equilibrium
                 Sampling samples, const Samples& out) {
     for (std::int64_t row = 0; row < out.rows; ++row) {
         Instant at = due(samples);
-        roll(model, origin, at);
+        advance_origin(model, origin, at);
         sample(model, tolerance, origin, run, at, out, row);
         samples = after(samples);
     }

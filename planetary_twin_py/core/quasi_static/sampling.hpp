@@ -1,6 +1,6 @@
 #pragma once
 
-// What a quasi-static run shows at one time.
+// Samples of a quasi-static run.
 
 #include "quasi_static/equilibrium.hpp"
 #include "run/clock.hpp"
@@ -8,11 +8,11 @@
 
 namespace gearbox {
 
-// Write the sample at an instant into a row of `out`; `run` is as `settle` takes it.
+// Write the sample at an instant into a row of `out`; for `run` see `solve_equilibrium`.
 void sample(const Model& model, double tolerance, const State& origin, Equilibrium& run,
             const Instant& at, const Samples& out, std::int64_t row);
 
-// Fill all rows of `out`; `origin` moves along.
+// Fill all rows of `out`; `origin` is advanced.
 void sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,
                 Sampling samples, const Samples& out);
 

@@ -12,14 +12,14 @@ namespace gearbox {
 
 namespace {
 
-constexpr int PLACES = 256;  // of a mesh cycle; a jump of the torque counts as a slope from one to
-                             // the next
-constexpr double RIGID = 1e9;  // times the stiffness: a coupling that friction does not wind
+constexpr int PLACES = 256;    // in a mesh cycle; a jump of the torque counts as a slope between
+                               // adjacent ones
+constexpr double RIGID = 1e9;  // factor on the stiffness for a rigid coupling
 
 }  // namespace
 
-double steepest_torque(const Model& model, double tolerance, std::int64_t lean, const State& origin,
-                       const double* speed) {
+double steepest_torque(const Model& model, double tolerance, std::int64_t closing_side,
+                       const State& origin, const double* speed) {
     auto rigid = std::make_unique<Model>(model);
     rigid->train.coupling_stiffness[SECOND_MOTOR] *= RIGID;
     State begin = origin;
@@ -27,11 +27,11 @@ double steepest_torque(const Model& model, double tolerance, std::int64_t lean, 
         rigid->load.target_speed[a] = begin.set_speed[a] = begin.speed[a] = speed[a];
     double rate = std::abs(frame_cycle_rate(rigid->train, begin));
     if (rate == 0.0) return 0.0;
-    auto run = std::make_unique<Equilibrium>(first_guess(lean));
+    auto run = std::make_unique<Equilibrium>(first_guess(closing_side));
     double shown[QUANTITIES][MESHES], before = 0.0, steepest = 0.0;
     for (int n = 0; n <= PLACES; ++n) {
         turn_to(*rigid, begin, n / (PLACES * rate), run->state);
-        settle(*rigid, tolerance, *run, shown);
+        solve_equilibrium(*rigid, tolerance, *run, shown);
         double torque = run->torque[SECOND_MOTOR];
         if (n > 0) steepest = std::max(steepest, std::abs(torque - before));
         before = torque;

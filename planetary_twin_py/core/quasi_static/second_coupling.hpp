@@ -5,12 +5,11 @@
 
 namespace gearbox {
 
-// Largest change of the second motor's torque per mesh cycle [N m] at constant `speed` (AXES,), its
-// coupling being rigid.
+// Largest change of the second motor's torque per mesh cycle [N m] at constant `speed` (AXES,),
+// with a rigid coupling.
 //
-// lean: side of the teeth on which the mean torque presses.
-// origin: where the motors are.
-double steepest_torque(const Model& model, double tolerance, std::int64_t lean, const State& origin,
-                       const double* speed);
+// closing_side: side of the teeth that the mean torque loads. origin: position of the motors.
+double steepest_torque(const Model& model, double tolerance, std::int64_t closing_side,
+                       const State& origin, const double* speed);
 
 }  // namespace gearbox

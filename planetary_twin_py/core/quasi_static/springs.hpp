@@ -5,11 +5,11 @@
 namespace gearbox {
 
 struct alignas(64) Springs {
-    alignas(64) double copies[16];  // planets with the same motion, of which it is one
+    alignas(64) double copies[16];  // number of planets with the same motion
     alignas(
-        64) double error[16];  // errors of form, and what `friction` squeezes the sun mesh by [m]
+        64) double error[16];  // errors of form, and compression of the sun mesh by `friction` [m]
     alignas(64) double compliance[16];  // of both meshes in series [m/N]
-    alignas(64) double friction[16];    // what rubs on the planet [N]
+    alignas(64) double friction[16];    // friction on the planet [N]
     alignas(64) double steps[16][3];    // see `ring_force` [m]
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capacities.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/machines.hpp"
 #include "quasi_static/planet_load.hpp"
-#include "rooms.hpp"
 #include "train/set_step_constants.hpp"
 
 namespace gearbox {
@@ -22,13 +22,14 @@ void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
     springs.compliance[p] = 1.0 / run.stiffness[s] + 1.0 / run.stiffness[r];
     springs.error[p] = run.error[s] + run.error[r] + friction / run.stiffness[s];
     double* steps = springs.steps[p];
-    steps[0] = -run.play[s][COAST_PLAY] - run.play[r][COAST_PLAY];
-    steps[2] = run.play[s][DRIVE_PLAY] + run.play[r][DRIVE_PLAY];
-    steps[1] = friction > 0.0 ? run.play[s][DRIVE_PLAY] - run.play[r][COAST_PLAY]
-                              : run.play[r][DRIVE_PLAY] - run.play[s][COAST_PLAY];
+    steps[0] = -run.clearance[s][COAST_CLEARANCE] - run.clearance[r][COAST_CLEARANCE];
+    steps[2] = run.clearance[s][DRIVE_CLEARANCE] + run.clearance[r][DRIVE_CLEARANCE];
+    steps[1] = friction > 0.0
+                   ? run.clearance[s][DRIVE_CLEARANCE] - run.clearance[r][COAST_CLEARANCE]
+                   : run.clearance[r][DRIVE_CLEARANCE] - run.clearance[s][COAST_CLEARANCE];
 }
 
-// Let the meshes be on the sides that their forces ask for.
+// Set the sides of the meshes by the signs of their forces.
 void choose_sides(const Train& train, Equilibrium& run) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double force = run.force[i];
@@ -43,12 +44,12 @@ double carrier_factor(const Train& train) {
     return train.sign[0][2] + train.sign[train.meshes / 2][2];
 }
 
-// Let couplings and members yield; w [m] is what the ring stands behind the sun.
+// Displace couplings and members by their loads; w [m] is the lag of the ring behind the sun.
 void displace_by_windup(const Train& train, Equilibrium& run, double w) {
     double* x = run.state.x;
     std::int64_t planets = train.meshes / 2, loaded = train.coupling[LOAD_MACHINE][1];
     x[loaded] = 0.0;
-    for (std::int64_t c = 0; c < train.machines; c += 2) {  // the motors stay with their frame
+    for (std::int64_t c = 0; c < train.machines; c += 2) {  // the motors are fixed to their frame
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
         x[member] = -run.external[machine] / train.coupling_stiffness[c];
     }
@@ -58,26 +59,27 @@ void displace_by_windup(const Train& train, Equilibrium& run, double w) {
     x[loaded] = (w - wound) / (loaded == train.carrier ? carrier_factor(train) : 1.0);
 }
 
-// d [m] of a mesh that carries its force.
+// d [m] of a mesh under its force.
 double stretch(const Equilibrium& run, std::int64_t i) {
-    double play = run.force[i] > 0.0 ? run.play[i][DRIVE_PLAY] : -run.play[i][COAST_PLAY];
-    return run.error[i] + play + run.force[i] / run.stiffness[i];
+    double clearance =
+        run.force[i] > 0.0 ? run.clearance[i][DRIVE_CLEARANCE] : -run.clearance[i][COAST_CLEARANCE];
+    return run.error[i] + clearance + run.force[i] / run.stiffness[i];
 }
 
-// d [m] of the sun mesh of an idle planet, amid its play; w [m]: wind-up.
+// d [m] of the sun mesh of an idle planet in the middle of its backlash; w [m]: wind-up.
 double idle_deflection(const Equilibrium& run, std::int64_t p, double w) {
     double low = run.springs.steps[p][0], high = run.springs.steps[p][2];
     double passed = w - run.springs.error[p] - low;
     passed = high > low ? passed / (high - low) : 0.0;
-    double both = run.play[p][DRIVE_PLAY] + run.play[p][COAST_PLAY];
-    return run.error[p] - run.play[p][COAST_PLAY] + passed * both;
+    double both = run.clearance[p][DRIVE_CLEARANCE] + run.clearance[p][COAST_CLEARANCE];
+    return run.error[p] - run.clearance[p][COAST_CLEARANCE] + passed * both;
 }
 
 }  // namespace
 
 void put_external(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
-    std::copy_n(run.evaluation.rubbing, train.bodies, run.external);
+    std::copy_n(run.evaluation.friction_force, train.bodies, run.external);
     balance_torques(model, run);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
@@ -85,7 +87,7 @@ void put_external(const Model& model, Equilibrium& run) {
     }
 }
 
-double carry(const Model& model, Equilibrium& run) {
+double solve_load_sharing(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     std::int64_t planets = train.meshes / 2, ring = train.body[planets][1];
     bool sun_turns = train.sun != train.bodies;
@@ -95,7 +97,7 @@ double carry(const Model& model, Equilibrium& run) {
         copies += train.copies[p];
         if (sun_turns) total -= train.copies[p] * run.springs.friction[p];
     }
-    double w = share(total, planets, run.springs);
+    double w = solve_windup(total, planets, run.springs);
     for (std::int64_t p = 0; p < planets; ++p) {
         run.force[planets + p] = planet_force(run.springs, p, w).force;
         run.force[p] = run.force[planets + p] + run.springs.friction[p];
@@ -105,7 +107,7 @@ double carry(const Model& model, Equilibrium& run) {
     return std::abs(total) / copies;
 }
 
-void deflect(const Model& model, Equilibrium& run) {
+void place_planets(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     double* x = run.state.x;
     std::int64_t planets = train.meshes / 2;

@@ -5,13 +5,13 @@
 
 namespace gearbox {
 
-// Torques of the machines, and the forces on all bodies but those of the meshes.
+// Torques of the machines, and all forces on the bodies without those of the meshes.
 void put_external(const Model& model, Equilibrium& run);
 
-// Share the forces among the planets; their mean magnitude [N].
-double carry(const Model& model, Equilibrium& run);
+// Distribute the forces to the planets; their mean magnitude [N].
+double solve_load_sharing(const Model& model, Equilibrium& run);
 
-// Put every planet where its meshes carry their forces, and an idle one amid its play.
-void deflect(const Model& model, Equilibrium& run);
+// Place every planet by the forces of its meshes, and an idle one in the middle of its backlash.
+void place_planets(const Model& model, Equilibrium& run);
 
 }  // namespace gearbox

@@ -11,7 +11,7 @@ const double GAUSS_WEIGHTS[PANEL_NODES] = {0.34785484513745357, 0.65214515486254
 
 namespace {
 
-// Values at both ends of a panel from those at its nodes: Lagrange's polynomials.
+// Values at both ends of a panel from those at its nodes by Lagrange polynomials.
 constexpr double ENDS[2][PANEL_NODES] = {
     {1.5267881254572664, -0.813632449486927, 0.40076152031165035, -0.11391719628198993},
     {-0.11391719628198993, 0.40076152031165035, -0.813632449486927, 1.5267881254572662}};

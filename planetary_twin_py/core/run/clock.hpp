@@ -1,7 +1,7 @@
 #pragma once
 
-// The clock of a run: whole seconds, and the time since then. So an instant is as sharp after years
-// as at the start, and nothing depends on the age of a run.
+// The clock of a run: whole seconds, and the time since then. So instants have the same resolution
+// after years as at the start, and results do not depend on the age of a run.
 
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Instant {
     double time;           // since then [s]
 };
 
-// Where the next sample lies, and the distance between samples.
+// Time of the next sample, and sampling period.
 struct Sampling {
     std::int64_t seconds;  // whole ones
     std::int64_t ticks;    // since then
@@ -24,13 +24,13 @@ struct Sampling {
     std::int64_t ticks_per_second;
 };
 
-// Where the next sample lies.
+// Time of the next sample.
 inline Instant due(const Sampling& samples) {
     return {samples.seconds,
             static_cast<double>(samples.ticks) / static_cast<double>(samples.ticks_per_second)};
 }
 
-// The samples after the next.
+// The sampling after the next sample.
 inline Sampling after(const Sampling& samples) {
     Sampling next = samples;
     next.ticks += samples.period;
@@ -41,12 +41,12 @@ inline Sampling after(const Sampling& samples) {
     return next;
 }
 
-// From a state to an instant [s].
+// Time from a state to an instant [s].
 inline double delay(const State& state, const Instant& until) {
     return static_cast<double>(until.seconds - state.seconds) + (until.time - state.time);
 }
 
-// Let the clock of `end` stand h seconds after that of `begin`; both may be one state.
+// Set the clock of `end` to h seconds after that of `begin`; both may be the same state.
 inline void run_on(const State& begin, State& end, double h) {
     double time = begin.time + h, whole = std::floor(time);
     end.seconds = begin.seconds + static_cast<std::int64_t>(whole);

@@ -9,7 +9,7 @@ namespace gearbox {
 
 namespace {
 
-// From one end of the ledger to another [s]: an exact difference, rounded once.
+// Time between two ends of the ledger [s]: an exact difference, rounded once.
 double between(const WindowEnd& begin, const WindowEnd& end) {
     using Exact = __float128;
     Exact passed = static_cast<Exact>(end.seconds - begin.seconds);

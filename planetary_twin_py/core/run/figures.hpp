@@ -1,6 +1,6 @@
 #pragma once
 
-// The figures of a window, from where it began and where it ended.
+// The figures of a window, from the states at its start and its end.
 
 #include <cstdint>
 
@@ -18,15 +18,14 @@ struct alignas(64) Figures {
     double machine_torque[MACHINES];  // mean, on their shafts [N m]
     double machine_power[MACHINES];   // mean, into the train [W]
     double power_loss;                // of tooth friction, bearings and churning [W]
-    double stored_power;              // by which kinetic and elastic energy grow [W]
+    double stored_power;              // rate of kinetic and elastic energy [W]
     double stored_energy;             // at the end [J]
     double residual_power;            // of the ledger [W]
     double statistics[STATISTICS][MESHES];
 };
 
-// Fill `out` for a window of so many seconds; angles and speeds are of the bodies that are
-// reported. Where it lies within one step, powers are those of its end and nothing is known of
-// what is stored.
+// Fill `out` for a window of a given duration; angles and speeds are those of the reported bodies.
+// If it is within one step, powers are those at its end and the stored power is not known.
 void window_figures(const Train& train, const Report& report, const WindowEnd& begin,
                     const WindowEnd& end, double duration, Figures& out);
 

@@ -1,18 +1,19 @@
 #pragma once
 
-// What no gearbox can show: a run that does is stopped, see planetary_twin_py/runaway.py.
+// Limits of physically possible values: a run that exceeds them is stopped, see
+// planetary_twin_py/runaway.py.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/load.hpp"
 #include "train/train.hpp"
 
 namespace gearbox {
 
-// Largest magnitudes of samples; NaN where there was one.
+// Largest magnitudes of samples; NaN if any sample is.
 struct Peaks {
     double dte[MESHES];    // [m]
     double speed[BODIES];  // [rad/s]
@@ -21,12 +22,12 @@ struct Peaks {
 // Largest magnitudes that are allowed.
 struct Limits {
     double deflection[MESHES];  // [m]
-    double error[MESHES];       // largest errors of form, by which a deflection may be smaller [m]
+    double error[MESHES];       // largest errors of form, which are subtracted from deflections [m]
     double speed[BODIES];       // [rad/s]
     double torque[MACHINES];    // [N m]
 };
 
-// Whether a run has passed one of them; a NaN has. `power` is that of the ledger.
+// Whether a value exceeds its limit or is NaN. `power` is that of the ledger.
 inline bool exceeds(const Limits& limits, const Train& train, const Load& load, const Peaks& peaks,
                     const double* power) {
     bool within = true;

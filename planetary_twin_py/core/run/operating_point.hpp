@@ -1,7 +1,7 @@
 #pragma once
 
-// What an operating point means for the records of a run: the loads, the prescribed lambda ratio,
-// and the deflection to which tolerances are relative.
+// Values in the records of a run that depend on the operating point: the loads, the prescribed
+// lambda ratio, and the deflection to which tolerances are relative.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace gearbox {
 
-// The quantities that may change while a run goes on, as far as records depend on them here.
+// The quantities that may change during a run, and on which these values depend.
 struct OperatingPoint {
     double backlash;            // total, along the line of action or on the pitch circle [m]
     double lambda_ratio;        // [-]
@@ -23,11 +23,11 @@ struct OperatingPoint {
     double torque_ripple;       // [N m]
 };
 
-// How they depend on it in a scene.
+// Dependence of the values on the operating point in a scene.
 struct alignas(64) PointLaws {
-    Load constant;  // what depends on nothing
-    double play;  // half the backlash along the line of action per backlash, or all of it where the
-                  // force grows from zero [-]
+    Load constant;                 // constant part of the loads
+    double half_backlash_factor;   // half the backlash along the line of action per backlash, or
+                                   // the whole if the force grows from zero [-]
     bool from_zero;                // whether the force grows from a DTE of zero
     double torque[MACHINES];       // of each machine per torque of the first motor [-]
     double ratio[MACHINES][AXES];  // speed of the shafts of motor and load per speed of a motor [-]
@@ -39,7 +39,7 @@ struct alignas(64) PointLaws {
 };
 
 constexpr double LIGHTEST_MESH_LOAD = 1.0;  // [N] smaller ones do not tighten tolerances further
-constexpr double THINNEST = 1e-12;          // lambda ratio in place of 0: the film carries 0.04 %
+constexpr double THINNEST = 1e-12;          // lambda ratio instead of 0: the film carries 0.04 %
 
 // Mean force of each mesh [N] at a torque of the first motor [N m].
 inline double mesh_force(const PointLaws& laws, double torque) {
@@ -54,7 +54,7 @@ inline double start_speed(const PointLaws& laws, const OperatingPoint& point) {
 // Loads at an operating point; given torques and speeds are those of steady running there.
 inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
     Load load = laws.constant;
-    load.half_backlash = point.backlash * laws.play;
+    load.half_backlash = point.backlash * laws.half_backlash_factor;
     load.offset = laws.from_zero ? 0.0 : load.half_backlash;
     const double inner = load.half_backlash - load.offset;
     load.inner_squared = inner * inner;
@@ -69,7 +69,7 @@ inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
     return load;
 }
 
-// Let the torques and motions that are given stay as they were before a change of other loads.
+// Keep given torques and motions during a change of other loads.
 inline void keep_given(const Load& before, Load& load) {
     for (int m = 0; m < MACHINES; ++m) {
         if (before.port[m] == BY_TORQUE) {
@@ -79,13 +79,13 @@ inline void keep_given(const Load& before, Load& load) {
         load.speed[m] = before.speed[m];
         load.acceleration[m] = before.acceleration[m];
         load.arrives[m] = before.arrives[m];
-        load.onward[m] = before.onward[m];
+        load.speed_after[m] = before.speed_after[m];
     }
     load.since_seconds = before.since_seconds;
     load.since = before.since;
 }
 
-// Let the oil have a prescribed lambda ratio.
+// Set the prescribed lambda ratio of the oil.
 inline void prescribe(Oil& oil, double lambda_ratio) {
     oil.lambda_ratio = lambda_ratio;
     oil.log_lambda = std::log(std::max(lambda_ratio, THINNEST));

@@ -1,8 +1,8 @@
 #pragma once
 
-// Displacements of axes as the housing sees them.
+// Displacements of axes relative to the housing.
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a body stands after whole turns of the motors, with exact fractions of tooth numbers.
+// Angle of a body after whole turns of the motors, with exact fractions of tooth numbers.
 
 #include <numbers>
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "integrators/frame.hpp"
+#include "integrators/integrator.hpp"
 #include "integrators/interpolant.hpp"
-#include "integrators/march.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/deflection.hpp"
@@ -17,46 +17,46 @@ namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 
-// What acts at a port: a torque [N m] or a speed [rad/s], and its rate of change. A speed that
-// reaches a position is followed by another one.
+// Input of a port: a torque [N m] or a speed [rad/s], and its rate of change. The speed of an
+// approach to a position is followed by another one.
 struct Action {
     double value;
     double rate;
     bool arrives = false;
-    double onward = 0.0;
+    double speed_after = 0.0;
 
     bool operator==(const Action&) const = default;
 };
 
-// What acts at a port, so many seconds after the instant of the load.
+// Input of a port, `passed` seconds after the instant of the load.
 Action acting(const Load& load, int port, double passed) {
     if (load.port[port] == BY_MOTION)
         return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port],
-                load.arrives[port] != 0, load.onward[port]};
+                load.arrives[port] != 0, load.speed_after[port]};
     return {load.torque[port] + load.torque_rate[port] * passed, load.torque_rate[port]};
 }
 
-// What a command makes of it.
+// Input of a port under a command.
 Action commanded(const Load& load, int port, const Action& before, const Command& command,
                  double reaching) {
     const bool moved = load.port[port] == BY_MOTION;
     const double value = moved ? command.speed[port] : command.torque[port];
     const double approach = moved ? command.approach[port] : NOT_A_NUMBER;
     if (!std::isnan(approach)) return {approach, 0.0, true, std::isnan(value) ? 0.0 : value};
-    const double now = before.arrives ? before.onward : before.value;
+    const double now = before.arrives ? before.speed_after : before.value;
     if (std::isnan(value)) return {now, 0.0};
     if (reaching == 0.0) return {value, 0.0};
     return {now, (value - now) / reaching};
 }
 
-// Let the end of a shaft have a speed, and nothing else change.
+// Set the speed of the end of a shaft, without any other change.
 void set_speed(const Train& train, State& state, int machine, double speed) {
     std::int64_t body = train.coupling[machine][0];
     double rigid = train.ratio[body][0] * state.speed[0] + train.ratio[body][1] * state.speed[1];
     state.v[body] = (speed - rigid) * train.radius[body];
 }
 
-// What acts at both ports from an instant on.
+// Inputs of both ports from an instant on.
 struct Actions {
     Action at[PORTS];
     bool change;
@@ -84,45 +84,45 @@ void act_at(Model& model, State& state, int port, const Action& action) {
     load.speed[port] = action.value;
     load.acceleration[port] = action.rate;
     load.arrives[port] = action.arrives;
-    load.onward[port] = action.onward;
+    load.speed_after[port] = action.speed_after;
     set_speed(model.train, state, port, action.value);
 }
 
-// Let other actions begin at an instant within the last step. What the meshes show before does not
-// count with what follows.
-void act(Model& model, March& march, const Instant& now, const Actions& actions) {
+// Start new inputs at an instant within the last step. The sums of the meshes restart there.
+void act(Model& model, Integrator& integrator, const Instant& now, const Actions& actions) {
     Load& load = model.load;
-    interrupt(model, march, now);
+    interrupt(model, integrator, now);
     load.since_seconds = now.seconds;
     load.since = now.time;
     for (int port = 0; port < PORTS; ++port)
-        if (load.port[port] != BY_MACHINE) act_at(model, march.end, port, actions.at[port]);
-    march.sums.taken = march.control.step;
+        if (load.port[port] != BY_MACHINE) act_at(model, integrator.end, port, actions.at[port]);
+    integrator.sums.taken = integrator.control.step;
 }
 
-// Whether anything is given: then nothing repeats, and steps without a window need no sums.
+// Whether a torque or motion is given: then cycles do not repeat, and steps without a window need
+// no sums.
 bool is_driven(const Load& load) {
     return load.port[MOTOR] != BY_MACHINE || load.port[LOAD_MACHINE] != BY_MACHINE;
 }
 
 // Angle of a shaft since the start, `passed` seconds into the last step [rad].
-double angle_at(const Train& train, const March& march, int port, double passed) {
-    const State& begin = march.begin;
+double angle_at(const Train& train, const Integrator& integrator, int port, double passed) {
+    const State& begin = integrator.begin;
     const std::int64_t body = train.coupling[port][0];
-    double angle = march.dense.x[body] / train.radius[body];
+    double angle = integrator.dense.x[body] / train.radius[body];
     for (std::int64_t a = 0; a < train.axes; ++a)
         angle += train.ratio[body][a] *
                  (TURN * (begin.turns[a] + begin.fraction[a]) + begin.speed[a] * passed);
     return angle;
 }
 
-// Largest magnitudes of the motion at the end of a step of the caller.
-void note_peaks(const Model& model, const March& march, Peaks& peaks) {
+// Update the largest magnitudes with the motion at the end of a step of the caller.
+void note_peaks(const Model& model, const Integrator& integrator, Peaks& peaks) {
     const Train& train = model.train;
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        peaks.dte[i] = std::fabs(mesh_motion(train, i, march.dense.x));
+        peaks.dte[i] = std::fabs(mesh_motion(train, i, integrator.dense.x));
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        peaks.speed[j] = std::fabs(body_speed(train, march.begin, march.dense.v, j));
+        peaks.speed[j] = std::fabs(body_speed(train, integrator.begin, integrator.dense.v, j));
 }
 
 }  // namespace
@@ -139,66 +139,67 @@ Answer check(const Load& load, const PortRanges& ranges, const Command& command)
             std::fabs(approach) > ranges.speed[port])
             return Answer::OUT_OF_RANGE;
     }
-    return Answer::OBEYED;
+    return Answer::ACCEPTED;
 }
 
-void approach(const Model& model, March& march, const Instant& now, double duration,
+void approach(const Model& model, Integrator& integrator, const Instant& now, double duration,
               const double* position, Command& command) {
-    const double passed = delay(march.begin, now);
-    interpolate(model, march, passed);
+    const double passed = delay(integrator.begin, now);
+    interpolate(model, integrator, passed);
     for (int port = 0; port < PORTS; ++port) {
         if (std::isnan(position[port])) continue;
-        const double angle = angle_at(model.train, march, port, passed);
+        const double angle = angle_at(model.train, integrator, port, passed);
         command.approach[port] = (position[port] - angle) / duration;
     }
 }
 
-void apply_command(Model& model, March& march, const Instant& now, const Command& command,
+void apply_command(Model& model, Integrator& integrator, const Instant& now, const Command& command,
                    double reaching) {
     Actions actions = actions_of(model.load, now, command, reaching);
     if (!actions.change) return;
-    count_until(model, march, delay(march.begin, now));
-    act(model, march, now, actions);
+    count_until(model, integrator, delay(integrator.begin, now));
+    act(model, integrator, now, actions);
 }
 
-void read_ports(const Model& model, March& march, const Instant& time, PortStates& out) {
+void read_ports(const Model& model, Integrator& integrator, const Instant& time, PortStates& out) {
     const Train& train = model.train;
-    const State& begin = march.begin;
+    const State& begin = integrator.begin;
     const double passed = delay(begin, time);
-    const double *x = march.dense.x, *v = march.dense.v;
+    const double *x = integrator.dense.x, *v = integrator.dense.v;
     double trim[AXES] = {};
-    interpolate(model, march, passed);
-    trim_at(model, march, passed, x, trim);
+    interpolate(model, integrator, passed);
+    trim_at(model, integrator, passed, x, trim);
     MachineForces forces;
     double power[LEDGER] = {};
     apply_couplings(train, x, v, forces, power);
-    apply_machines(model, begin, march.constants, x, v, passed, trim, forces, power);
+    apply_machines(model, begin, integrator.constants, x, v, passed, trim, forces, power);
     out.time = static_cast<double>(time.seconds) + time.time;
     for (int port = 0; port < PORTS; ++port) {
-        out.angle[port] = angle_at(train, march, port, passed);
+        out.angle[port] = angle_at(train, integrator, port, passed);
         out.speed[port] = body_speed(train, begin, v, train.coupling[port][0]);
         out.torque[port] = power[IMPULSE + port];
     }
 }
 
-Outcome step_ports(Model& model, March& march, const PortStep& step, const Limits& limits,
+Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, const Limits& limits,
                    WindowEnd& end, PortStates& out) {
     const Instant now = instant_of(step.begin), until = instant_of(step.end);
     const double duration = static_cast<double>(step.end - step.begin) / static_cast<double>(TICKS);
     Actions actions = actions_of(model.load, now, step.command, step.linear ? duration : 0.0);
     bool finite = true;
-    march.sums.unasked = is_driven(model.load) && !step.sums;
+    integrator.sums.not_requested = is_driven(model.load) && !step.sums;
     try {
-        if (actions.change && step.sums) count_until(model, march, delay(march.begin, now));
-        if (actions.change) act(model, march, now, actions);
-        advance(model, march, until, NEVER, {}, {});
+        if (actions.change && step.sums)
+            count_until(model, integrator, delay(integrator.begin, now));
+        if (actions.change) act(model, integrator, now, actions);
+        advance(model, integrator, until, NEVER, {}, {});
     } catch (const NoFiniteState&) {
         finite = false;
     }
-    march.sums.unasked = false;
+    integrator.sums.not_requested = false;
     if (!finite) return Outcome::NOT_FINITE;
-    read_ports(model, march, until, out);
-    note_peaks(model, march, end.peaks);
+    read_ports(model, integrator, until, out);
+    note_peaks(model, integrator, end.peaks);
     std::fill(std::begin(end.power), std::end(end.power), 0.0);
     std::copy_n(out.torque, PORTS, end.power + IMPULSE);
     bool exceeded = exceeds(limits, model.train, model.load, end.peaks, end.power);

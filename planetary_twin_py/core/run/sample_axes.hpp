@@ -1,6 +1,6 @@
 #pragma once
 
-// What bearings show in a row of samples.
+// Quantities of bearings in a row of samples.
 
 #include "run/samples.hpp"
 #include "train/bearings.hpp"
@@ -13,9 +13,10 @@ inline void sample_axes(const Train& train, const State& begin, const double* x,
     const double turning = body_speed(train, begin, v, train.moving.frame);
     for (std::int64_t b = 0; b < out.bearings; ++b)
         show_bearing(train, b, turning, x, v, out.moved + (row * out.bearings + b) * SAMPLE_AXES);
-    if (!out.lean || !tilts(train)) return;
+    if (!out.tilting || !tilts(train)) return;
     for (std::int64_t b = 0; b < out.bearings; ++b)
-        show_lean(train, b, turning, x, v, out.lean + (row * out.bearings + b) * SAMPLE_LEAN);
+        show_axial_tilt(train, b, turning, x, v,
+                        out.tilting + (row * out.bearings + b) * SAMPLE_TILTING);
 }
 
 }  // namespace gearbox

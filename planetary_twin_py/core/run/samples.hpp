@@ -6,17 +6,17 @@
 
 namespace gearbox {
 
-constexpr std::int64_t SAMPLE_DRAGS = 2;  // power that bearings and churning take
+constexpr std::int64_t SAMPLE_DRAGS = 2;  // power lost to bearings and churning
 constexpr std::int64_t SAMPLE_AXES = 4;   // displacement, then force on the bearing, two each
 // Where axes tilt: axial displacement and two tilts, then axial force and two moments on the
 // bearing.
-constexpr std::int64_t SAMPLE_LEAN = 6;
+constexpr std::int64_t SAMPLE_TILTING = 6;
 
-// Samples of one window, in arrays that their owner keeps. Body j stands at turns @ ratio[j] turns
-// + angle[j]. All pointers but the first may be null: not asked for.
+// Samples of one window, in arrays of the caller. The position of body j is turns @ ratio[j] turns
+// + angle[j]. All pointers but the first may be null: not requested.
 struct Samples {
     std::int64_t rows;
-    std::int64_t quantities;  // the first of those of `observe`
+    std::int64_t quantities;  // number of the first rows of `observe`
     std::int64_t meshes;
     std::int64_t bodies;
     std::int64_t axes;
@@ -25,14 +25,14 @@ struct Samples {
     double* angle;              // (rows, bodies) [rad]
     double* speed;              // (rows, bodies) [rad/s]
     double* drag;               // (rows, SAMPLE_DRAGS) [W]
-    Peaks* peaks = nullptr;     // of the samples that are computed, not of those that repeat
-    std::int64_t bearings = 0;  // the first of those of the train whose axes are shown
+    Peaks* peaks = nullptr;     // of computed samples, not of repeated ones
+    std::int64_t bearings = 0;  // number of the first bearings of the train to be written
     double* moved = nullptr;    // (rows, bearings, SAMPLE_AXES) [m] and [N]
-    double* lean = nullptr;     // (rows, bearings, SAMPLE_LEAN) [m], [rad], [N], [N m], if any
+    double* tilting = nullptr;  // (rows, bearings, SAMPLE_TILTING) [m], [rad], [N], [N m]
 
     double* mesh_row(std::int64_t row) const { return mesh + row * quantities * meshes; }
 
-    // Row `row` of samples with all quantities, as the only one.
+    // Row `row` of samples with all quantities, as samples of one row.
     Samples only(std::int64_t row) const {
         return {1,
                 quantities,
@@ -47,7 +47,7 @@ struct Samples {
                 peaks,
                 bearings,
                 moved + row * bearings * SAMPLE_AXES,
-                lean ? lean + row * bearings * SAMPLE_LEAN : nullptr};
+                tilting ? tilting + row * bearings * SAMPLE_TILTING : nullptr};
     }
 };
 

@@ -17,7 +17,7 @@ constexpr int STATISTICS = 12;
 
 constexpr double ROUNDING_OF_SUM = 1e-12;  // of the sum of the steps of an interval
 
-// A fraction of time, without what rounding leaves of none and of all of it.
+// A fraction of time, without rounding errors near 0 and 1.
 inline double fraction_of_time(double mean) {
     if (std::fabs(mean - 1.0) < ROUNDING_OF_SUM || mean > 1.0) return 1.0;
     return std::fabs(mean) < ROUNDING_OF_SUM || mean < 0.0 ? 0.0 : mean;
@@ -26,7 +26,7 @@ inline double fraction_of_time(double mean) {
 // Statistics of mesh i to out[row * room], see STATISTICS.
 //
 // The rms value is that of the deviation from the mean. Film thickness and lambda ratio are means
-// over the time in which they are known, NaN where that is none.
+// over the time in which they are known, NaN if there is no such time.
 inline void mesh_statistics(const MeshSums& sums, std::int64_t i, double* out, std::int64_t room) {
     auto mean = [&](int row) { return sums.integral[row][i] / sums.time; };
     auto put = [&](int row, double value) { out[row * room] = value; };

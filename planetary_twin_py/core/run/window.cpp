@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "integrators/march.hpp"
+#include "integrators/integrator.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/join_flanks.hpp"
@@ -20,7 +20,7 @@ namespace gearbox {
 namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
-constexpr std::int64_t WAVES = VISCOUS + 1;  // quantities of `observe` that a waveform shows
+constexpr std::int64_t WAVES = VISCOUS + 1;  // number of quantities of `observe` in a waveform
 
 // Reorder samples of the meshes of the train (rows, WAVES, meshes) as in the report.
 void put_waveform(const Report& report, const Train& train, const double* mesh,
@@ -42,9 +42,9 @@ void put_waveform(const Report& report, const Train& train, const double* mesh,
     }
 }
 
-// What samples need beside those of the meshes to show axes that move.
+// Work space for samples of moving axes.
 struct RoomOfAxes {
-    std::vector<double> turns, angle, speed, moved, lean;
+    std::vector<double> turns, angle, speed, moved, tilting;
 
     void ask(const Train& train, Samples& waves) {
         auto rows = static_cast<std::size_t>(waves.rows);
@@ -59,12 +59,12 @@ struct RoomOfAxes {
         waves.speed = speed.data();
         waves.moved = moved.data();
         if (!tilts(train)) return;
-        lean.resize(rows * static_cast<std::size_t>(waves.bearings) * SAMPLE_LEAN);
-        waves.lean = lean.data();
+        tilting.resize(rows * static_cast<std::size_t>(waves.bearings) * SAMPLE_TILTING);
+        waves.tilting = tilting.data();
     }
 };
 
-// Angle of the carrier [rad], the last body that is reported.
+// Angle of the carrier [rad], the last reported body.
 double carrier_angle(const Report& report, const Train& train, const Samples& waves,
                      std::int64_t row) {
     const std::int64_t last = report.bodies - 1, j = report.body[last];
@@ -75,7 +75,8 @@ double carrier_angle(const Report& report, const Train& train, const Samples& wa
 void put_axes(const Report& report, const Train& train, const Samples& waves,
               const AxesWaveform& out) {
     const std::int64_t bearings = waves.bearings, n = report.meshes;
-    if (waves.lean) std::copy_n(waves.lean, waves.rows * bearings * SAMPLE_LEAN, out.lean);
+    if (waves.tilting)
+        std::copy_n(waves.tilting, waves.rows * bearings * SAMPLE_TILTING, out.tilting);
     for (std::int64_t row = 0; row < waves.rows; ++row) {
         const double* moved = waves.moved + row * bearings * SAMPLE_AXES;
         for (std::int64_t b = 0; b < bearings; ++b) {
@@ -110,10 +111,10 @@ bool fill_waveform(const WindowJob& job) {
     Samples last{1,         QUANTITIES, train.meshes, train.bodies, AXES,      shown,
                  end.turns, end.angle,  speed,        drag,         &end.peaks};
     if constexpr (MOVING) room.ask(train, waves);
-    advance(job.model, job.march, job.until, NEVER, job.samples, waves, last);
+    advance(job.model, job.integrator, job.until, NEVER, job.samples, waves, last);
     put_waveform(job.report, train, mesh.get(), job.out);
     if constexpr (MOVING) put_axes(job.report, train, waves, job.out.axes);
-    std::copy_n(job.march.last.power, LEDGER, end.power);
+    std::copy_n(job.integrator.last.power, LEDGER, end.power);
     return exceeds(job.limits, train, job.model.load, end.peaks, end.power);
 }
 
@@ -123,34 +124,35 @@ Outcome run_window(const WindowJob& job) {
     try {
         if (fill_waveform(job)) return Outcome::EXCEEDED;
         if (!job.closes) return Outcome::WITHIN_LIMITS;
-        begin_window(job.model, job.march, job.end);
-        pop_mesh_sums(job.model, job.march, job.until, job.end.sums);
+        begin_window(job.model, job.integrator, job.end);
+        pop_mesh_sums(job.model, job.integrator, job.until, job.end.sums);
         return Outcome::WITHIN_LIMITS;
     } catch (const NoFiniteState&) {
         return Outcome::NOT_FINITE;
     }
 }
 
-void pop_energy_ledger(March& march, double* ledger) {
-    std::copy_n(march.end.energy, LEDGER, ledger);
-    for (State* state : {&march.begin, &march.end, &march.periodic.start})
+void pop_energy_ledger(Integrator& integrator, double* ledger) {
+    std::copy_n(integrator.end.energy, LEDGER, ledger);
+    for (State* state : {&integrator.begin, &integrator.end, &integrator.periodic.start})
         for (int e = 0; e < LEDGER; ++e) state->energy[e] -= ledger[e];
 }
 
-void pop_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums) {
-    count_until(model, march, delay(march.begin, until));
-    sums = march.sums.total;
+void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& until,
+                   MeshSums& sums) {
+    count_until(model, integrator, delay(integrator.begin, until));
+    sums = integrator.sums.total;
     if constexpr (MOVING) join_flanks(model.train, sums);
-    march.sums.total = {};
+    integrator.sums.total = {};
 }
 
-void begin_window(const Model& model, March& march, WindowEnd& end) {
-    end.seconds = march.end.seconds;
-    end.time = march.end.time;
+void begin_window(const Model& model, Integrator& integrator, WindowEnd& end) {
+    end.seconds = integrator.end.seconds;
+    end.time = integrator.end.time;
     end.time_rest = 0.0;
-    pop_energy_ledger(march, end.ledger);
-    std::copy_n(march.last.power, LEDGER, end.power);
-    auto [kinetic, elastic] = stored(model, march.end, march.scratch);
+    pop_energy_ledger(integrator, end.ledger);
+    std::copy_n(integrator.last.power, LEDGER, end.power);
+    auto [kinetic, elastic] = stored(model, integrator.end, integrator.scratch);
     end.kinetic = kinetic;
     end.elastic = elastic;
 }

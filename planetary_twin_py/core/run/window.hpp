@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "integrators/march_record.hpp"
+#include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
@@ -13,17 +13,17 @@
 
 namespace gearbox {
 
-// Every sample of the axes that move. Displacements and forces of sun, ring, carrier and planets
-// are those of MovingAxes; orbits are those of the first three in the housing.
+// All samples of moving axes. Displacements and forces of sun, ring, carrier and planets are those
+// of MovingAxes; orbits are those of the first three in the housing.
 struct AxesWaveform {
     double* displacement;   // (rows, bearings, 2) [m]
     double* bearing_force;  // (rows, bearings, 2), on the bearing [N]
     double* orbit;          // (rows, MEMBERS, 2) [m]
     double* flank_force;    // (rows, FLANKS, meshes), drive flanks first, magnitude [N]
-    double* lean;           // (rows, bearings, SAMPLE_LEAN), see Samples; only where axes tilt
+    double* tilting;        // (rows, bearings, SAMPLE_TILTING), see Samples; only if axes tilt
 };
 
-// Every sample of every mesh that is reported, in arrays that their owner keeps.
+// All samples of all reported meshes, in arrays of the caller.
 struct Waveform {
     std::int64_t rows;
     std::int64_t first;  // number of the first sample
@@ -32,22 +32,22 @@ struct Waveform {
     double* dte;         // (rows, meshes) [m]
     double* mesh_force;  // (rows, meshes) [N]
     double* friction;    // (rows, meshes), magnitude [N]
-    AxesWaveform axes;   // not asked for where the axes are held
+    AxesWaveform axes;   // not requested if the axes are fixed
 };
 
-// Where the train is at the end of a window, and what has been added up until then.
+// State of the train at the end of a window, and the sums up to it.
 //
-// The ledger covers whole steps: up to `reached`, at or after the end of the window. Its clock has
-// two parts, of which the second is what rounding leaves of the first.
+// The ledger covers whole steps: up to its clock (seconds + time + time_rest), at or after the end
+// of the window. `time_rest` is the rounding error of `time`.
 struct alignas(64) WindowEnd {
     std::int64_t seconds;     // whole ones
     double time;              // since then [s]
     double time_rest;         // [s]
-    double ledger[LEDGER];    // since it was last taken
-    double power[LEDGER];     // by which it grows
+    double ledger[LEDGER];    // since the last reading
+    double power[LEDGER];     // of the ledger
     double kinetic, elastic;  // energies [J]
     double turns[AXES];       // whole turns of the motors
-    double angle[BODIES];     // beside these [rad]
+    double angle[BODIES];     // in addition to these [rad]
     MeshSums sums;            // of the window
     Peaks peaks;              // of its samples
 };
@@ -55,7 +55,7 @@ struct alignas(64) WindowEnd {
 // The task: a window, or the first part of one.
 struct WindowJob {
     const Model& model;
-    March& march;
+    Integrator& integrator;
     Instant until;
     Sampling samples;
     const Limits& limits;
@@ -69,18 +69,19 @@ enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 
 // Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.
 //
-// Where the window closes within the limits, ledger and sums are moved to `end`.
+// If the window ends within the limits, ledger and sums are moved to `end`.
 Outcome run_window(const WindowJob& job);
 
-// Copy the integrals of the ledger since the last call and set them to zero: beside the sums of a
-// long run, rounding would lose what a window adds.
-void pop_energy_ledger(March& march, double* ledger);
+// Copy the integrals of the ledger since the last call and set them to zero: rounding errors of the
+// sums of a long run would exceed the increments of a window.
+void pop_energy_ledger(Integrator& integrator, double* ledger);
 
 // Copy integrals and extremes of the meshes up to `until`, the end of the last window, and restart
 // them.
-void pop_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums);
+void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& until,
+                   MeshSums& sums);
 
-// Begin a window at the end of the last one: fill time, ledger, power and stored energy of `end`.
-void begin_window(const Model& model, March& march, WindowEnd& end);
+// Start a window at the end of the last one: fill time, ledger, power and stored energy of `end`.
+void begin_window(const Model& model, Integrator& integrator, WindowEnd& end);
 
 }  // namespace gearbox

@@ -10,7 +10,7 @@ namespace gearbox {
 std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers) {
     std::vector<Outcome> outcomes(jobs.size());
     std::vector<std::exception_ptr> defects(jobs.size());
-    std::atomic<std::size_t> next = 0;  // a free thread takes the next one
+    std::atomic<std::size_t> next = 0;  // next job for an idle thread
     auto work = [&] {
         for (std::size_t n = next++; n < jobs.size(); n = next++) {
             try {
@@ -24,7 +24,7 @@ std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers
     std::size_t threads = std::min(static_cast<std::size_t>(workers), jobs.size());
     while (helpers.size() + 1 < threads) helpers.emplace_back(work);
     work();
-    helpers.clear();  // which waits for them
+    helpers.clear();  // waits for them
     for (const std::exception_ptr& defect : defects)
         if (defect) std::rethrow_exception(defect);
     return outcomes;

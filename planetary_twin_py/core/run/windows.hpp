@@ -2,8 +2,8 @@
 
 // Windows of many runs at once, in threads.
 //
-// Each run belongs to one thread and depends on nothing else: the results are those of one
-// run after the other, to the last bit.
+// Each run is computed by one thread independently of the others: the results are bitwise those of
+// sequential runs.
 
 #include <vector>
 
@@ -11,7 +11,7 @@
 
 namespace gearbox {
 
-// Run every job; no two of them are of one march. The outcomes are in the order of the jobs.
+// Run all jobs; no two of them share an integrator. The outcomes are in the order of the jobs.
 std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers);
 
 }  // namespace gearbox

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/evaluation.hpp"
 
 namespace gearbox {
 
-// Springs of meshes and couplings around a state, and what they have to yield to.
+// Linearised springs of meshes and couplings at a state, and the forces on them.
 struct alignas(64) Balance {
     alignas(64) double stiffness[BODIES][BODIES];  // [N/m]
     alignas(64) double force[BODIES];              // [N]

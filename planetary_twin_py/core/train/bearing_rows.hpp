@@ -1,17 +1,17 @@
 #pragma once
 
-// Motion across a bearing as rows over the coordinates.
+// Relative motion across a bearing as rows over the coordinates.
 
 #include <cstdint>
 
 namespace gearbox {
 
-// One way in which a bearing yields.
+// One relative motion across a bearing.
 struct BearingRow {
-    bool radial;            // it has the clearance of the bearing
-    int size;               // of the following two
+    bool radial;            // whether the clearance of the bearing applies
+    int size;               // of the following two arrays
     std::int64_t place[5];  // coordinates
-    double factor[5];       // of them in the motion across the bearing
+    double factor[5];       // of the coordinates in the motion across the bearing
     double stiffness;       // [N/m] or [N m/rad]
     double damping;         // [N s/m] or [N m s/rad]
 };

@@ -1,17 +1,18 @@
 #pragma once
 
-// Forces of bearings, and of a frame that turns, on the displacements of the axes.
+// Forces of bearings, and inertial forces of the rotating frame, on the displacements of the axes.
 //
-// A bearing pulls with k (r - c) along the displacement r beyond its clearance c, or as the law of
-// rolling bearings has it, and is damped; it never pushes the other way. Bearings of sun, ring and
-// carrier are at rest in the housing, so their damping sees the motion against the housing.
-// Coriolis and centripetal terms are those of Lin and Parker 1999, eq. (9), but that the
-// centripetal force of a planet across its radius acts on its displacement against the pin: with
-// that on eta itself a wound-up carrier would be pushed on, and torques would not balance.
+// A bearing reacts with k (r - c) against the displacement r beyond its clearance c, or by the law
+// of rolling bearings, and with damping; its force never acts in the direction of the displacement.
+// Bearings of sun, ring and carrier are at rest in the housing, so their damping acts on the motion
+// relative to the housing. Coriolis and centripetal terms are those of Lin and Parker 1999, eq.
+// (9), except that the centripetal force on a planet across its radius acts on its displacement
+// relative to the pin: with eta itself a wound-up carrier would be accelerated, and torques would
+// not balance.
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/body_speed.hpp"
 #include "train/rolling_bearing.hpp"
 #include "train/state.hpp"
@@ -26,7 +27,7 @@ inline bool on_carrier(const MovingAxes& axes, std::int64_t b) {
     return axes.carried[b] != 0.0;
 }
 
-// Displacement of what bearing b holds against what it is on, from x; its rate from v.
+// Displacement of the body on bearing b relative to its support, from x; its rate from v.
 inline InPlane across_bearing(const Train& train, std::int64_t b, const double* x) {
     const MovingAxes& axes = train.moving;
     auto [cosine, sine] = axes.direction[b];
@@ -35,7 +36,7 @@ inline InPlane across_bearing(const Train& train, std::int64_t b, const double* 
             x[axes.place[b][1]] + (sine * a - cosine * c) - axes.carried[b] * x[train.carrier]};
 }
 
-// How far bearing b is from where it is centred [m].
+// Eccentricity of bearing b relative to its centred position [m].
 inline double eccentricity(const Train& train, std::int64_t b, const double* x) {
     const InPlane r = across_bearing(train, b, x);
     const double* centre = train.moving.centre[b];
@@ -43,15 +44,16 @@ inline double eccentricity(const Train& train, std::int64_t b, const double* x) 
     return std::sqrt(along * along + across * across);
 }
 
-// Add a force on what bearing b holds to `force`, and its reaction on what it is on.
-inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& pull, double* force) {
+// Add a force on the body on bearing b to `force`, and its reaction on the support.
+inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& reaction,
+                           double* force) {
     const MovingAxes& axes = train.moving;
     auto [cosine, sine] = axes.direction[b];
-    force[axes.place[b][0]] += pull.along;
-    force[axes.place[b][1]] += pull.across;
-    force[axes.carrier[0]] -= cosine * pull.along - sine * pull.across;
-    force[axes.carrier[1]] -= sine * pull.along + cosine * pull.across;
-    force[train.carrier] -= axes.carried[b] * pull.across;
+    force[axes.place[b][0]] += reaction.along;
+    force[axes.place[b][1]] += reaction.across;
+    force[axes.carrier[0]] -= cosine * reaction.along - sine * reaction.across;
+    force[axes.carrier[1]] -= sine * reaction.along + cosine * reaction.across;
+    force[train.carrier] -= axes.carried[b] * reaction.across;
 }
 
 inline bool rolls(const MovingAxes& axes, std::int64_t b) {
@@ -63,12 +65,12 @@ inline bool is_linear(const MovingAxes& axes, std::int64_t b) {
     return axes.clearance[b] == 0.0 && !rolls(axes, b);
 }
 
-// What bearing b does under an eccentricity of `size` [m].
-inline Pressed bearing_law(const MovingAxes& axes, std::int64_t b, double size) {
+// Response of bearing b to an eccentricity of `size` [m].
+inline BearingResponse bearing_law(const MovingAxes& axes, std::int64_t b, double size) {
     if (rolls(axes, b)) return rolling_bearing_law(axes.rolling[b], axes.clearance[b], size);
-    const double k = axes.stiffness[b], pressed = size - axes.clearance[b];
-    if (!(pressed > 0.0)) return {0.0, 0.0, 0.0};
-    return {0.5 * k * pressed * pressed, k * pressed, k};
+    const double k = axes.stiffness[b], penetration = size - axes.clearance[b];
+    if (!(penetration > 0.0)) return {0.0, 0.0, 0.0};
+    return {0.5 * k * penetration * penetration, k * penetration, k};
 }
 
 // Damping [N s/m] of bearing b along its eccentricity and across it. A rolling bearing is damped in
@@ -77,16 +79,16 @@ struct RadialDamping {
     double along, across;
 };
 
-inline RadialDamping radial_damping(const MovingAxes& axes, std::int64_t b, const Pressed& at,
-                                    double size) {
+inline RadialDamping radial_damping(const MovingAxes& axes, std::int64_t b,
+                                    const BearingResponse& at, double size) {
     if (!rolls(axes, b)) return {axes.damping[b], 0.0};
     const double time = axes.rolling[b].damping_time;
-    return {time * at.stiffness, time * at.push / size};
+    return {time * at.stiffness, time * at.force / size};
 }
 
 struct BearingForce {
-    InPlane pull;  // on what the bearing holds [N]
-    double lost;   // to damping [W]
+    InPlane reaction;  // on the body [N]
+    double lost;       // to damping [W]
 };
 
 // Force of bearing b in a frame that turns at `turning` [rad/s].
@@ -107,31 +109,31 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
                 -(damped.along * rate.along + damped.across * rate.across)};
     }
     const double size = std::sqrt(r.along * r.along + r.across * r.across);
-    const Pressed at = bearing_law(axes, b, size);
-    if (!(at.push > 0.0)) return {{0.0, 0.0}, 0.0};
+    const BearingResponse at = bearing_law(axes, b, size);
+    if (!(at.force > 0.0)) return {{0.0, 0.0}, 0.0};
     const RadialDamping damping = radial_damping(axes, b, at, size);
     const double nx = r.along / size, ny = r.across / size;
-    const double pressing =
-        std::fmax(at.push + damping.along * (nx * against.along + ny * against.across), 0.0);
-    const double sideways = damping.across * (nx * against.across - ny * against.along);
-    return {{-pressing * nx + sideways * ny, -pressing * ny - sideways * nx},
-            (pressing - at.push) * (nx * rate.along + ny * rate.across) +
-                sideways * (nx * rate.across - ny * rate.along)};
+    const double normal =
+        std::fmax(at.force + damping.along * (nx * against.along + ny * against.across), 0.0);
+    const double tangential = damping.across * (nx * against.across - ny * against.along);
+    return {{-normal * nx + tangential * ny, -normal * ny - tangential * nx},
+            (normal - at.force) * (nx * rate.along + ny * rate.across) +
+                tangential * (nx * rate.across - ny * rate.along)};
 }
 
-// Displacement of what bearing b holds, without the way that the carrier turns it along, and its
-// force on the bearing, two components each.
+// Displacement of the body on bearing b, without that by the rotation of the carrier, and its force
+// on the bearing, two components each.
 inline void show_bearing(const Train& train, std::int64_t b, double turning, const double* x,
                          const double* v, double* out) {
     const MovingAxes& axes = train.moving;
-    const InPlane pull = bearing_force(train, b, turning, x, v).pull;
+    const InPlane reaction = bearing_force(train, b, turning, x, v).reaction;
     out[0] = x[axes.place[b][0]];
     out[1] = x[axes.place[b][1]] - axes.carried[b] * x[train.carrier];
-    out[2] = -pull.along;
-    out[3] = -pull.across;
+    out[2] = -reaction.along;
+    out[3] = -reaction.across;
 }
 
-// Coriolis and centrifugal forces on what bearing b holds.
+// Coriolis and centrifugal forces on the body on bearing b.
 inline void add_inertial(const Train& train, std::int64_t b, double turning, const double* x,
                          const double* v, double* force) {
     const MovingAxes& axes = train.moving;
@@ -144,8 +146,8 @@ inline void add_inertial(const Train& train, std::int64_t b, double turning, con
     force[train.carrier] -= axes.carried[b] * m * square * beside;
 }
 
-// Add what bearings, weight and a frame that turns do to the axes, `delay` seconds after a state;
-// what damping takes and weight puts in to `power` [W]. `rigid` has the speeds of the frame
+// Add the forces of bearings, weight and the rotating frame on the axes, `delay` seconds after a
+// state, and the powers of damping and weight to `power` [W]. `rigid` has the speeds of the frame
 // [rad/s].
 inline void apply_axes(const Train& train, const State& state, const double* rigid, double delay,
                        const double* x, const double* v, double* force, double* power) {
@@ -156,7 +158,7 @@ inline void apply_axes(const Train& train, const State& state, const double* rig
     }
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
         BearingForce bearing = bearing_force(train, b, turning, x, v);
-        add_at_bearing(train, b, bearing.pull, force);
+        add_at_bearing(train, b, bearing.reaction, force);
         power[DAMPING] += bearing.lost;
         if (turning != 0.0) add_inertial(train, b, turning, x, v, force);
         if (!tilts(train)) continue;
@@ -166,7 +168,8 @@ inline void apply_axes(const Train& train, const State& state, const double* rig
     force[train.bodies] = 0.0;  // the ground
 }
 
-// The displacement across bearing b in the plane, and where it tilts the axial one and the tilts.
+// Rows of the displacement across bearing b in the plane and, if axes tilt, of the axial one and
+// the tilts.
 inline BearingRows rows_of_bearing(const Train& train, std::int64_t b) {
     const MovingAxes& axes = train.moving;
     auto [cosine, sine] = axes.direction[b];
@@ -195,14 +198,14 @@ inline double bearing_energy(const Train& train, std::int64_t b, const double* x
     return bearing_law(train.moving, b, eccentricity(train, b, x)).energy;
 }
 
-// Whether bearing b, seen at x, is beyond its clearance.
+// Whether bearing b is beyond its clearance at x.
 inline bool beyond_clearance(const Train& train, std::int64_t b, const double* x) {
     if (is_linear(train.moving, b)) return true;
     return bearing_energy(train, b, x) > 0.0;
 }
 
-// Energy [J] of the centrifugal forces in the frame, which belongs to the kinetic energy: what the
-// rigid motion of the frame has beside the speeds of the bodies.
+// Energy [J] of the centrifugal forces in the frame, a part of the kinetic energy: that of the
+// rigid motion of the frame in addition to the speeds of the bodies.
 inline double centrifugal_energy(const Train& train, double turning, const double* x) {
     const MovingAxes& axes = train.moving;
     double total = 0.0;
@@ -215,8 +218,8 @@ inline double centrifugal_energy(const Train& train, double turning, const doubl
     return turning * turning * total;
 }
 
-// Let the displacements follow where the frame jumps ahead by `angle` [rad] and turns faster by
-// `rate` [rad/s], after the rigid motion has been taken out.
+// Transform the displacements to a frame that is ahead by `angle` [rad] and faster by `rate`
+// [rad/s], after the rigid motion has been subtracted.
 inline void turn_displacements(const Train& train, double angle, double rate, State& state) {
     const MovingAxes& axes = train.moving;
     auto [sine, cosine] = sin_cos(angle);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How fast a body turns: with the rigid frame, and against it.
+// Speed of a body: with the rigid frame, and absolute.
 
 #include "train/state.hpp"
 #include "train/train.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-// All that train, meshes and tooth contacts offer.
+// All functions of train, meshes and tooth contacts.
 
 #include "mesh/add_sums.hpp"
 #include "mesh/backlash.hpp"

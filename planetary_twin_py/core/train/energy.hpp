@@ -1,6 +1,6 @@
 #pragma once
 
-// Energy stored in the train, the other side of the ledger.
+// Energy stored in the train, which the ledger must balance.
 
 #include "mesh/contact_change.hpp"
 #include "train/bearings.hpp"
@@ -13,7 +13,7 @@ struct Energies {
     double kinetic, elastic;  // [J]
 };
 
-// Kinetic energy of all bodies, machines included [J], but for those whose motion is given.
+// Kinetic energy of all bodies, machines included [J], without those with given motion.
 inline double kinetic(const Model& model, const State& state) {
     const Train& train = model.train;
     double total = 0.0;
@@ -35,7 +35,7 @@ inline double kinetic(const Model& model, const State& state) {
 }
 
 // Elastic energy of meshes in contact, couplings and bearings, and potential energy of weight [J];
-// `step` is room to work in.
+// `step` is work space.
 inline double elastic(const Model& model, const State& state, StepConstants& step) {
     const Train& train = model.train;
     double total = 0.0;
@@ -47,7 +47,7 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
     if constexpr (MOVING) {
         for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
             total += bearing_energy(train, b, state.x);
-            if (tilts(train)) total += lean_energy(train, b, state.x);
+            if (tilts(train)) total += axial_tilt_energy(train, b, state.x);
         }
         total += weight_energy(train, state);
     }

@@ -19,53 +19,54 @@
 namespace gearbox {
 
 // Add the friction torques of all meshes as forces on the bodies.
-inline void add_friction_forces(const Train& train, const DragOfMeshes& drag, double* rubbing) {
+inline void add_friction_forces(const Train& train, const DragOfMeshes& drag,
+                                double* friction_force) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (MOVING && drag.torque[0][i] == 0.0 && drag.torque[1][i] == 0.0) continue;
         for (int j = 0; j < GEARS; ++j) {
             double force = drag.torque[j][i] * train.lever[j][i];
-            rubbing[train.body[i][j]] += train.copies[i] * force;
+            friction_force[train.body[i][j]] += train.copies[i] * force;
         }
         for (int j = GEARS; j < IN_PLANE; ++j)
-            rubbing[train.body[i][j]] +=
+            friction_force[train.body[i][j]] +=
                 train.copies[i] * drag.torque[2][i] * train.moving.line[i][j];
     }
 }
 
-// Power that the friction of all meshes takes [W].
+// Power lost to the friction of all meshes [W].
 inline double friction_power(const Train& train, const DragOfMeshes& drag) {
     double power = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) power += train.copies[i] * drag.power[i];
     return power;
 }
 
-// Friction of the tooth pairs and drag, in out.rubbing; the meshes have their forces.
+// Friction of the tooth pairs and drag in out.friction_force, from the forces of the meshes.
 inline void apply_friction(const Model& model, const State& state, const StepConstants& step,
                            const double* v, Evaluation& out) {
     const Train& train = model.train;
-    for (double& force : out.rubbing) force = 0.0;
+    for (double& force : out.friction_force) force = 0.0;
     if (train.friction) {
         share_loads(model, step, out);
         turn_pairs(train, step, v, out.pairs);
         evaluate(model, out.pairs);
         collect(train, out.pairs, out.dragging);
         if (train.printed_torque) print_torques(train, step, v, out.dragging);
-        add_friction_forces(train, out.dragging, out.rubbing);
+        add_friction_forces(train, out.dragging, out.friction_force);
         out.power[FRICTION] += friction_power(train, out.dragging);
     }
     if (train.joints + train.discs > 0)
-        apply_drag(model, state, v, out.now.push, out.rubbing, out.power);
+        apply_drag(model, state, v, out.now.normal_force, out.friction_force, out.power);
 }
 
-// Forces on the machines and the members that they are coupled to [N].
+// Forces on the machines and the members coupled to them [N].
 struct MachineForces {
     double machine[MACHINES];
     double member[MACHINES];
 };
 
 // Shafts between the machines and their members.
-LAW void apply_couplings(const Train& train, const double* x, const double* v,
-                         MachineForces& forces, double* power) {
+ALWAYS_INLINE void apply_couplings(const Train& train, const double* x, const double* v,
+                                   MachineForces& forces, double* power) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
         double rate = v[machine] - v[member];
@@ -77,13 +78,13 @@ LAW void apply_couplings(const Train& train, const double* x, const double* v,
     }
 }
 
-// Add the torques of the motors, which keep their speeds, and of the load; or what is given.
+// Add the torques of the motors, which control their speeds, and of the load; or given ones.
 //
-// A shaft whose motion is given answers with the torque of its coupling. Its end moves as its mass
-// would under the force here: the inertia of what moves it is not part of the train.
-LAW void apply_machines(const Model& model, const State& state, const StepConstants& step,
-                        const double* x, const double* v, double delay, const double* trim,
-                        MachineForces& forces, double* power) {
+// The torque of a shaft with given motion is that of its coupling. The force here accelerates the
+// mass of its end as given: the inertia of the drive is not part of the train.
+ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const StepConstants& step,
+                                  const double* x, const double* v, double delay,
+                                  const double* trim, MachineForces& forces, double* power) {
     const Train& train = model.train;
     const Load& load = model.load;
     for (std::int64_t c = 0; c < train.machines; ++c) {
@@ -118,16 +119,17 @@ LAW void apply_machines(const Model& model, const State& state, const StepConsta
     }
 }
 
-// All forces together: pushes of the meshes, friction and drag, couplings, machines.
+// Sum of all forces: meshes, friction and drag, couplings, machines.
 inline void assemble_forces(const Model& model, const State& state, const StepConstants& step,
                             const double* x, const double* v, double delay, const double* trim,
                             Evaluation& out) {
     const Train& train = model.train;
-    for (int j = 0; j < BODIES; ++j) out.force[j] = out.rubbing[j];
+    for (int j = 0; j < BODIES; ++j) out.force[j] = out.friction_force[j];
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double push = train.copies[i] * static_cast<double>(state.side[i]) * out.now.push[i];
+        double normal_force =
+            train.copies[i] * static_cast<double>(state.side[i]) * out.now.normal_force[i];
         for (int j = 0; j < entries_of(train); ++j)
-            out.force[train.body[i][j]] -= push * train.sign[i][j];
+            out.force[train.body[i][j]] -= normal_force * train.sign[i][j];
     }
     MachineForces forces;
     apply_couplings(train, x, v, forces, out.power);

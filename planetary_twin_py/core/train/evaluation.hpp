@@ -2,16 +2,16 @@
 
 #include <cstdint>
 
+#include "capacities.hpp"
 #include "mesh/meshes_now.hpp"
-#include "rooms.hpp"
 #include "tribology/tooth_pairs.hpp"
 
 namespace gearbox {
 
 struct alignas(64) Evaluation {
-    alignas(64) double force[BODIES];    // [N]
-    alignas(64) double rubbing[BODIES];  // friction and drag alone [N]
-    alignas(64) double power[LEDGER];    // integrands of the energy ledger [W]
+    alignas(64) double force[BODIES];           // [N]
+    alignas(64) double friction_force[BODIES];  // friction and drag alone [N]
+    alignas(64) double power[LEDGER];           // integrands of the energy ledger [W]
     MeshesNow now;
     ToothPairs pairs;
     DragOfMeshes dragging;

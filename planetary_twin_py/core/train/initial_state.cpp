@@ -4,12 +4,12 @@
 #include <cmath>
 #include <memory>
 
+#include "capacities.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "rooms.hpp"
 #include "train/bearings.hpp"
 #include "train/equations.hpp"
 #include "train/set_step_constants.hpp"
@@ -23,16 +23,16 @@ namespace {
 
 constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
 constexpr int CYCLE_POINTS = 64;         // places in the mesh cycle over which friction is averaged
-constexpr int BALANCING_PASSES = 12;     // each leaves some per cent of what friction was off by
-// Of the stiffness of a tooth pair: holds what nothing else does.
-constexpr double LOOSE = 1e-9;
-constexpr int MOST_PASSES = 200;      // of finding which flanks and bearings touch
-constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as flanks might swap for ever
-constexpr double AT_REST = 1e-13;     // [m] by which a pass may still move the axes
-constexpr int SETTLING_PASSES = 3;    // the first winds up the couplings, the others find the tooth
-                                      // pairs there
+constexpr int BALANCING_PASSES = 12;     // each reduces the error of friction to some per cent
+// Stiffness of the regularisation of free coordinates, relative to that of a tooth pair.
+constexpr double REGULARISATION = 1e-9;
+constexpr int MOST_PASSES = 200;      // for the contacts of flanks and bearings
+constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as contacts might alternate
+constexpr double AT_REST = 1e-13;     // [m] allowed change of the axes by a pass
+constexpr int SETTLING_PASSES = 3;  // the first finds the wind-up of the couplings, the others the
+                                    // tooth pairs there
 
-// A train that is brought into balance.
+// Work space for the equilibrium of a train.
 struct Start {
     const Model& model;
     double force;  // mean force of every mesh [N]
@@ -41,7 +41,7 @@ struct Start {
     Balance balance;
 };
 
-// Let every mesh have the tooth pairs that belong to its place in the cycle.
+// Set the tooth pairs of every mesh to those at its place in the cycle.
 void place_pairs(Start& start) {
     const Train& train = start.model.train;
     State& state = start.state;
@@ -56,8 +56,8 @@ void place_pairs(Start& start) {
     set_step_constants(start.model, state, start.step);
 }
 
-// Let a body stay where it is.
-void hold_body(Balance& balance, std::int64_t body) {
+// Fix the position of a body.
+void fix_body(Balance& balance, std::int64_t body) {
     for (int j = 0; j < BODIES; ++j) balance.stiffness[body][j] = balance.stiffness[j][body] = 0.0;
     balance.stiffness[body][body] = 1.0;
     balance.force[body] = 0.0;
@@ -70,10 +70,10 @@ double stiffest(const Train& train, std::int64_t b, const double* x) {
     return std::max(axes.stiffness[b], bearing_law(axes, b, eccentricity(train, b, x)).stiffness);
 }
 
-// Add the stiffness of the bearings, as if none had clearance: so no step leads far away, at the
-// price of more of them. And a little of its own to every coordinate: what nothing holds, such as
-// an axis that floats without load, stays where it is.
-void hold_axes(Start& start) {
+// Add the stiffness of the bearings, neglecting clearances, which limits the length of steps at the
+// cost of more of them. And a small stiffness to every coordinate: free coordinates, such as those
+// of an axis that floats without load, do not move.
+void add_bearing_stiffness(Start& start) {
     const Train& train = start.model.train;
     double (*stiffness)[BODIES] = start.balance.stiffness;
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
@@ -82,11 +82,12 @@ void hold_axes(Start& start) {
             add_outer(stiffness, row.place, row.factor, row.size,
                       row.radial ? radial : row.stiffness);
     }
-    double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
-    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
+    double regularisation = REGULARISATION * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
 }
 
-// Move x by what springs of meshes and couplings yield to `balance.force`, the motors held.
+// Move x by the displacement of the springs of meshes and couplings under `balance.force`, with
+// fixed motors.
 void displace_by_forces(Start& start) {
     const Train& train = start.model.train;
     Balance& balance = start.balance;
@@ -100,16 +101,16 @@ void displace_by_forces(Start& start) {
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
         add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
-    if constexpr (MOVING) hold_axes(start);
-    for (std::int64_t a = 0; a < train.axes; ++a) hold_body(balance, train.coupling[2 * a][0]);
+    if constexpr (MOVING) add_bearing_stiffness(start);
+    for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling[2 * a][0]);
     factorise(balance.stiffness, train.bodies);
     solve(balance.stiffness, train.bodies, balance.force);
     for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += balance.force[j];
 }
 
-// Move x to where the forces on every body balance, the tooth pairs being those in contact.
+// Move x to the equilibrium of all bodies with the present tooth pairs.
 //
-// The motors stand still. More meshes than bodies are to carry the mean force: all of them do only
+// The motors stand still. There are more meshes than bodies: all of them carry the mean force only
 // if all are equally stiff at this angle.
 void balance_mean_forces(Start& start) {
     const Train& train = start.model.train;
@@ -120,21 +121,22 @@ void balance_mean_forces(Start& start) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
-        double push = start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
+        double normal_force =
+            start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
         for (int g = 0; g < ENTRIES; ++g)
-            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * push;
+            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * normal_force;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        double pull = load.torque[c] / train.radius[machine];
-        pull -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += pull;
-        force[member] -= pull;
+        double coupling_force = load.torque[c] / train.radius[machine];
+        coupling_force -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += coupling_force;
+        force[member] -= coupling_force;
     }
     displace_by_forces(start);
 }
 
-// Let those flanks touch that are squeezed at x; whether any of them changes.
+// Close the flanks that are compressed at x; whether any contact changes.
 bool touch_flanks(Start& start) {
     const Train& train = start.model.train;
     State& state = start.state;
@@ -162,26 +164,26 @@ void forces_at_rest(Start& start) {
         if (state.side[i] == OPEN) continue;
         double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
-        double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
+        double normal_force = k * (d - static_cast<double>(state.side[i]) * load.offset);
         for (int j = 0; j < entries_of(train); ++j)
-            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * push;
+            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * normal_force;
         if constexpr (MOVING)
             add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
                              force);
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        double pull = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += load.torque[c] / train.radius[machine] - pull;
-        force[member] += pull;
+        double coupling_force = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += load.torque[c] / train.radius[machine] - coupling_force;
+        force[member] += coupling_force;
     }
     double power[LEDGER] = {};
     apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
 }
 
-// Move x to where flanks that only push, and bearings with clearance, balance the mean torques:
-// Newton's method, of which a pass is exact once it is known what touches (see planar/statics.py).
+// Move x to the equilibrium of unilateral flanks and bearings with clearance under the mean
+// torques: Newton's method, which is exact once the contacts are known (see planar/statics.py).
 void balance_axes(Start& start) {
     const Train& train = start.model.train;
     State& state = start.state;
@@ -202,8 +204,8 @@ void balance_axes(Start& start) {
     }
 }
 
-// Largest force on a body at rest at x, into `found`: none where the axes have settled.
-void find_unbalanced(Start& start, Beginning& found) {
+// Write the largest force on a body at rest at x to `found`: zero in equilibrium.
+void find_unbalanced(Start& start, InitialState& found) {
     touch_flanks(start);
     place_pairs(start);
     forces_at_rest(start);
@@ -217,8 +219,8 @@ void find_unbalanced(Start& start, Beginning& found) {
 
 // Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 //
-// The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
-// stiffness decides how far the meshes yield.
+// The wind-up of the couplings is a considerable part of a mesh cycle, and moves the tooth pairs,
+// on whose stiffness the deflections of the meshes depend.
 void balance_at_angle(Start& start) {
     if constexpr (MOVING) return balance_axes(start);
     for (int n = 0; n < SETTLING_PASSES; ++n) {
@@ -244,8 +246,8 @@ double drag(const Start& start, std::int64_t axis) {
     return total;
 }
 
-// Drag of each motor's motion: friction, all else being balanced; a mean over a mesh cycle from
-// motor angle zero, where `state` is left.
+// Drag of each motor's motion by friction in equilibrium: a mean over a mesh cycle from motor angle
+// zero, at which `state` is left.
 void mean_drag(Start& start, double* drags) {
     const Train& train = start.model.train;
     std::fill(drags, drags + AXES, 0.0);
@@ -258,7 +260,8 @@ void mean_drag(Start& start, double* drags) {
     start.state.fraction[0] = 0.0;
 }
 
-// Let every mesh touch where its flanks are: errors of form beyond its deflection part them.
+// Set the sides of the meshes from the gaps of their flanks: errors of form beyond the deflection
+// separate them.
 void choose_sides(Start& start) {
     const Train& train = start.model.train;
     double half = start.model.load.half_backlash;
@@ -273,9 +276,9 @@ void choose_sides(Start& start) {
     place_pairs(start);
 }
 
-// Move x to where all forces balance, those of friction too, as where the gears creep.
+// Move x to the equilibrium of all forces with friction, for gears that creep.
 //
-// The motors stand still. Fills the torques that are missing along the motion of each.
+// The motors stand still. Fills the unbalanced torques along the motion of each.
 void balance_friction(Start& start, double* drags) {
     forces_at_constant_speed(start.model, start);
     const double* force = start.balance.evaluation.force;
@@ -286,7 +289,7 @@ void balance_friction(Start& start, double* drags) {
     for (std::int64_t a = 0; a < start.model.train.axes; ++a) drags[a] = drag(start, a);
 }
 
-// Let the machines give the drag along each rigid motion, by the trim of the speed loop.
+// Set the trim of the speed loop so that the machines balance the drag along each rigid motion.
 void trim(const Model& model, const double* drags, State& state) {
     const Train& train = model.train;
     double effect[AXES][AXES] = {};  // torque along motion a per trim b
@@ -297,7 +300,7 @@ void trim(const Model& model, const double* drags, State& state) {
     if (train.axes == 1 || effect[0][0] == 0.0 || effect[1][1] == 0.0) {
         for (std::int64_t a = 0; a < train.axes; ++a)
             if (effect[a][a] != 0.0) state.trim[a] += drags[a] / effect[a][a];
-        return;  // no machine holds the other speeds
+        return;  // no machine controls the other speeds
     }
     double determinant = effect[0][0] * effect[1][1] - effect[0][1] * effect[1][0];
     state.trim[0] += (drags[0] * effect[1][1] - drags[1] * effect[0][1]) / determinant;
@@ -311,9 +314,9 @@ bool is_closed(const Train& train, const State& state) {
 
 }  // namespace
 
-Beginning initial_state(const Model& model, const double* speed, double force) {
+InitialState initial_state(const Model& model, const double* speed, double force) {
     const Train& train = model.train;
-    Beginning found{};
+    InitialState found{};
     State& state = found.state;
     std::copy(speed, speed + AXES, state.speed);
     std::copy(speed, speed + AXES, state.set_speed);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the meshes show at one instant: the quantities that are published and recorded.
+// Quantities of the meshes at one instant that are published and recorded.
 
 #include <cmath>
 #include <limits>
@@ -14,8 +14,8 @@ namespace gearbox {
 // Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
 //
 // Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work` is
-// room to work in; out (QUANTITIES, meshes) has rows of `room` entries. Without `films`, what is
-// shown of them is zero.
+// work space; out (QUANTITIES, meshes) has rows of `room` entries. Without `films`, their
+// quantities are zero.
 inline void observe(const Model& model, const State& state, const StepConstants& step,
                     const double* x, const double* v, double delay, Evaluation& work, double* out,
                     std::int64_t room, bool films = true) {
@@ -30,10 +30,10 @@ inline void observe(const Model& model, const State& state, const StepConstants&
     mesh_forces(model, state, step, x, v, delay, work);
     share_loads(model, step, work);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double force = at_least(now.push[i], 0.0);
+        double force = at_least(now.normal_force[i], 0.0);
         at(DTE, i) = mesh_motion(train, i, x);
         at(MESH_FORCE, i) = static_cast<double>(state.side[i]) * force;
-        at(MESH_POWER, i) = force * train.base_pitch * std::abs(now.pace);
+        at(MESH_POWER, i) = force * train.base_pitch * std::abs(now.cycle_rate);
         if (state.side[i] == OPEN)
             at(FILM, i) = at(LAMBDA, i) = std::numeric_limits<double>::quiet_NaN();
     }
@@ -49,7 +49,7 @@ inline void observe(const Model& model, const State& state, const StepConstants&
             if (!train.friction) continue;
             at(BOUNDARY, i) += pairs.boundary[k];
             at(VISCOUS, i) += pairs.viscous[k];
-            double lost = pairs.held ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
+            double lost = pairs.has_bristles ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
             at(POWER_LOSS, i) += lost + pairs.rolling_power[k];
         }
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What holds during one step: where the meshes stand at its start, and what decides their force.
+// Constants of one step: positions of the meshes at its start, and the parameters of their forces.
 
 #include <cmath>
 #include <numbers>
@@ -14,7 +14,7 @@
 
 namespace gearbox {
 
-// Copy side and segment of mesh i from the tables; an open one carries nothing anywhere.
+// Copy side and segment of mesh i from the tables; those of an open mesh have no stiffness.
 inline void copy_segment(const Train& train, const State& state, StepConstants& step,
                          std::int64_t i) {
     std::int64_t kind = train.kind[i], segment = state.segment[i], side = state.side[i];
@@ -41,7 +41,7 @@ inline void copy_segment(const Train& train, const State& state, StepConstants& 
     }
 }
 
-// Fill what `step` holds of mesh i, whose drive side has gone through so many cycles.
+// Fill the entries of mesh i in `step`, from the cycles of its drive side.
 inline void place_mesh(const Train& train, const State& state, StepConstants& step, std::int64_t i,
                        double cycles) {
     std::int64_t side = state.side[i], kind = train.kind[i];
@@ -65,7 +65,7 @@ inline double frame_cycle_rate(const Train& train, const State& state) {
     return rate / (2.0 * std::numbers::pi);
 }
 
-// Torques of the load at a state; a given one may change with time.
+// Torques of the load at a state; given ones may change with time.
 inline void place_torques(const Load& load, const State& state, StepConstants& step) {
     double passed = static_cast<double>(state.seconds - load.since_seconds);
     passed += state.time - load.since;

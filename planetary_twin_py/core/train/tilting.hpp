@@ -1,6 +1,6 @@
 #pragma once
 
-// Axial motion and tilts of the axes: bearings, and the moments of a gyroscope.
+// Axial motion and tilts of the axes: bearings and gyroscopic moments.
 //
 // A body of polar inertia J_p and diametral inertia J_t with the spin w_0 has, in a frame that
 // turns at W, the tilts theta = theta_x + i theta_y under a moment M,
@@ -12,81 +12,83 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/bearing_rows.hpp"
 #include "train/train.hpp"
 #include "train/weight.hpp"
 
 namespace gearbox {
 
-// Whether the axes tilt and move axially.
+// Whether axial motion and tilts are simulated.
 inline bool tilts(const Train& train) {
     return MOVING && train.moving.entries > IN_PLANE;
 }
 
 // Motion across a bearing: along its axis, and tilts.
-struct Lean {
-    double lift;   // [m]
+struct AxialTilt {
+    double axial;  // [m]
     InPlane tilt;  // [rad]
 };
 
 // Motion of the body on bearing b relative to its support, from displacements x; its rate from v.
-inline Lean lean_across(const Train& train, std::int64_t b, const double* x) {
+inline AxialTilt axial_tilt_across(const Train& train, std::int64_t b, const double* x) {
     const TiltingAxis &own = train.moving.tilting[b],
                       &carrier = train.moving.tilting[CARRIER_BEARING];
-    Lean lean{x[own.lift], {own.lever * x[own.place[0]], own.lever * x[own.place[1]]}};
-    if (train.moving.carried[b] == 0.0) return lean;
+    AxialTilt motion{x[own.axial], {own.lever * x[own.place[0]], own.lever * x[own.place[1]]}};
+    if (train.moving.carried[b] == 0.0) return motion;
     auto [cosine, sine] = train.moving.direction[b];
     double first = carrier.lever * x[carrier.place[0]],
            second = carrier.lever * x[carrier.place[1]];
     double along = cosine * first + sine * second, across = cosine * second - sine * first;
-    return {lean.lift - x[carrier.lift] + train.moving.arm * across,
-            {lean.tilt.along - along, lean.tilt.across - across}};
+    return {motion.axial - x[carrier.axial] + train.moving.arm * across,
+            {motion.tilt.along - along, motion.tilt.across - across}};
 }
 
 // Add a force and moments on the body on bearing b to `force`, and their reactions.
-inline void add_lean(const Train& train, std::int64_t b, const Lean& pull, double* force) {
+inline void add_axial_tilt(const Train& train, std::int64_t b, const AxialTilt& reaction,
+                           double* force) {
     const TiltingAxis &own = train.moving.tilting[b],
                       &carrier = train.moving.tilting[CARRIER_BEARING];
-    force[own.lift] += pull.lift;
-    force[own.place[0]] += own.lever * pull.tilt.along;
-    force[own.place[1]] += own.lever * pull.tilt.across;
+    force[own.axial] += reaction.axial;
+    force[own.place[0]] += own.lever * reaction.tilt.along;
+    force[own.place[1]] += own.lever * reaction.tilt.across;
     if (train.moving.carried[b] == 0.0) return;
     auto [cosine, sine] = train.moving.direction[b];
-    double along = -pull.tilt.along, across = train.moving.arm * pull.lift - pull.tilt.across;
-    force[carrier.lift] -= pull.lift;
+    double along = -reaction.tilt.along,
+           across = train.moving.arm * reaction.axial - reaction.tilt.across;
+    force[carrier.axial] -= reaction.axial;
     force[carrier.place[0]] += carrier.lever * (cosine * along - sine * across);
     force[carrier.place[1]] += carrier.lever * (sine * along + cosine * across);
 }
 
-struct LeanForce {
-    Lean pull;    // force and moments on the body [N], [N m]
-    double lost;  // to damping [W]
+struct AxialTiltForce {
+    AxialTilt reaction;  // force and moments on the body [N], [N m]
+    double lost;         // to damping [W]
 };
 
 // Axial force and moments of bearing b in a frame that turns at `turning` [rad/s].
-inline LeanForce lean_force(const Train& train, std::int64_t b, double turning, const double* x,
-                            const double* v) {
+inline AxialTiltForce axial_tilt_force(const Train& train, std::int64_t b, double turning,
+                                       const double* x, const double* v) {
     const TiltingAxis& own = train.moving.tilting[b];
-    const Lean at = lean_across(train, b, x), rate = lean_across(train, b, v);
+    const AxialTilt at = axial_tilt_across(train, b, x), rate = axial_tilt_across(train, b, v);
     InPlane against = rate.tilt;
     if (train.moving.carried[b] == 0.0) {
         against.along -= turning * at.tilt.across;
         against.across += turning * at.tilt.along;
     }
-    const double axial = own.axial_damping * rate.lift, c = own.tilting_damping;
+    const double axial = own.axial_damping * rate.axial, c = own.tilting_damping;
     const double k = own.tilting_stiffness;
-    return {{-own.axial_stiffness * at.lift - axial,
+    return {{-own.axial_stiffness * at.axial - axial,
              {-k * at.tilt.along - c * against.along, -k * at.tilt.across - c * against.across}},
-            axial * rate.lift +
+            axial * rate.axial +
                 c * (against.along * rate.tilt.along + against.across * rate.tilt.across)};
 }
 
 // Add axial force and moments of bearing b to `force`; return the power lost to damping [W].
 inline double tilt_bearing(const Train& train, std::int64_t b, double turning, const double* x,
                            const double* v, double* force) {
-    const LeanForce found = lean_force(train, b, turning, x, v);
-    add_lean(train, b, found.pull, force);
+    const AxialTiltForce found = axial_tilt_force(train, b, turning, x, v);
+    add_axial_tilt(train, b, found.reaction, force);
     return found.lost;
 }
 
@@ -96,10 +98,10 @@ inline void add_gyroscopic(const Train& train, std::int64_t b, double turning, d
     const TiltingAxis& own = train.moving.tilting[b];
     const double square = own.lever * own.lever;
     const double whirl = square * (2.0 * turning * own.diametral - own.polar * spin);
-    const double pull = square * turning * (turning * own.diametral - own.polar * spin);
+    const double restoring = square * turning * (turning * own.diametral - own.polar * spin);
     const std::int64_t first = own.place[0], second = own.place[1];
-    force[first] += whirl * v[second] + pull * x[first];
-    force[second] += pull * x[second] - whirl * v[first];
+    force[first] += whirl * v[second] + restoring * x[first];
+    force[second] += restoring * x[second] - whirl * v[first];
 }
 
 // Add the rows of the axial displacement and of the tilts across bearing b.
@@ -112,7 +114,7 @@ inline void add_tilting_rows(const Train& train, std::int64_t b, BearingRows& ro
     const std::int64_t first = carrier.place[0], second = carrier.place[1];
     rows.add({false,
               4,
-              {own.lift, carrier.lift, first, second},
+              {own.axial, carrier.axial, first, second},
               {1.0, carried ? -1.0 : 0.0, -arm * lever * sine, arm * lever * cosine},
               own.axial_stiffness,
               own.axial_damping});
@@ -131,14 +133,14 @@ inline void add_tilting_rows(const Train& train, std::int64_t b, BearingRows& ro
 }
 
 // Elastic energy of bearing b by axial displacement and tilts [J].
-inline double lean_energy(const Train& train, std::int64_t b, const double* x) {
+inline double axial_tilt_energy(const Train& train, std::int64_t b, const double* x) {
     const TiltingAxis& own = train.moving.tilting[b];
-    const Lean at = lean_across(train, b, x);
+    const AxialTilt at = axial_tilt_across(train, b, x);
     double square = at.tilt.along * at.tilt.along + at.tilt.across * at.tilt.across;
-    return 0.5 * (own.axial_stiffness * at.lift * at.lift + own.tilting_stiffness * square);
+    return 0.5 * (own.axial_stiffness * at.axial * at.axial + own.tilting_stiffness * square);
 }
 
-// Energy [J] of the moments that turn with the frame, as `centrifugal_energy` of the forces.
+// Energy [J] of the inertial moments in the frame, like `centrifugal_energy` of the forces.
 inline double tilting_energy(const Train& train, double turning, double spin, std::int64_t b,
                              const double* x) {
     const TiltingAxis& own = train.moving.tilting[b];
@@ -151,7 +153,7 @@ struct Rotation {
     double sine, cosine;
 };
 
-// Let the tilts of what bearing b holds follow a jump of the frame, see `turn_displacements`.
+// Transform the tilts of the body on bearing b to another frame, see `turn_displacements`.
 inline void turn_tilts(const Train& train, std::int64_t b, Rotation by, double rate, double* x,
                        double* v) {
     const std::int64_t first = train.moving.tilting[b].place[0];
@@ -167,18 +169,18 @@ inline void turn_tilts(const Train& train, std::int64_t b, Rotation by, double r
     v[second] -= rate * x[first];
 }
 
-// Axial displacement and tilts of what bearing b holds, and its axial force and moments on the
+// Axial displacement and tilts of the body on bearing b, and its axial force and moments on the
 // bearing, six numbers.
-inline void show_lean(const Train& train, std::int64_t b, double turning, const double* x,
-                      const double* v, double* out) {
+inline void show_axial_tilt(const Train& train, std::int64_t b, double turning, const double* x,
+                            const double* v, double* out) {
     const TiltingAxis& own = train.moving.tilting[b];
-    const Lean pull = lean_force(train, b, turning, x, v).pull;
-    out[0] = x[own.lift];
+    const AxialTilt reaction = axial_tilt_force(train, b, turning, x, v).reaction;
+    out[0] = x[own.axial];
     out[1] = own.lever * x[own.place[0]];
     out[2] = own.lever * x[own.place[1]];
-    out[3] = -pull.lift;
-    out[4] = -pull.tilt.along;
-    out[5] = -pull.tilt.across;
+    out[3] = -reaction.axial;
+    out[4] = -reaction.tilt.along;
+    out[5] = -reaction.tilt.across;
 }
 
 }  // namespace gearbox

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/moving_axes.hpp"
 
 namespace gearbox {
@@ -11,7 +11,7 @@ struct alignas(64) Train {
     std::int64_t bodies;
     std::int64_t lanes;                         // bodies or meshes, in whole registers
     std::int64_t axes;                          // inputs, each with its rigid motion of the train
-    alignas(64) double body_copies[BODIES];     // bodies of equal motion in one entry
+    alignas(64) double body_copies[BODIES];     // number of bodies of equal motion in one entry
     alignas(64) double mass[BODIES];            // J/r^2 of all of them [kg]
     alignas(64) double radius[BODIES];          // r of x = r theta [m]
     alignas(64) double inverse_radius[BODIES];  // 1/r [1/m]
@@ -26,7 +26,7 @@ struct alignas(64) Train {
     std::int64_t sun;  // body or ground
     std::int64_t carrier;
     double sun_advance;                       // mesh cycles per x of the sun [1/m]
-    double carrier_advance;                   // and per x of the carrier
+    double carrier_advance;                   // mesh cycles per x of the carrier [1/m]
     alignas(64) double lever[GEARS][MESHES];  // 1/r of the gears and the carrier of a mesh [1/m]
     bool friction;
     bool printed_torque;  // friction torque P/w instead of -f dVs/dw
@@ -51,8 +51,7 @@ struct alignas(64) Train {
     double external[KINDS];            // +1: external, -1: internal
     std::int64_t segments[KINDS];      // number of segments in a mesh cycle
     alignas(64) double edge[KINDS][SEGMENTS + 1];
-    // Distance of a pair from the first [base pitches]; of parts of a pair, its fraction tells
-    // which.
+    // Distance of a pair from the first [base pitches]; its fraction identifies the part of a pair.
     alignas(64) double shift[KINDS][SEGMENTS][PAIRS];
     // Contact of a pair, at centre + travel * cycle [base pitches]: see `mesh/overlap.py`.
     alignas(64) double centre[KINDS][SEGMENTS][PAIRS];
@@ -65,38 +64,38 @@ struct alignas(64) Train {
     std::int64_t terms;                                 // of the polynomials below that are in use
     alignas(64) double weight[KINDS][SEGMENTS][PAIRS + 1][TERMS];
     std::int64_t lines[KINDS];
-    std::int64_t harmonics[KINDS];  // so many of them, the first, have no radial part
+    std::int64_t harmonics[KINDS];  // number of the first lines, without radial part
     alignas(64) double line_tangential[MESHES][LINES];   // amplitude of the sine in e_T [m]
     alignas(64) double line_radial[MESHES][LINES];       // amplitude of the cosine in e_R [m]
-    alignas(64) double line_harmonic[KINDS][LINES];      // sines ...
-    alignas(64) std::int64_t line_period[KINDS][LINES];  // ... in so many mesh cycles
+    alignas(64) double line_harmonic[KINDS][LINES];      // number of sines in ...
+    alignas(64) std::int64_t line_period[KINDS][LINES];  // ... this number of mesh cycles
     alignas(64) double line_phase[MESHES][LINES];        // [rad]
     alignas(64) std::int64_t
-        line_of_planet[KINDS][LINES];  // 1: of a planet, whose turns its sun mesh counts
+        line_of_planet[KINDS][LINES];  // 1: of a planet, by the turns at its sun mesh
     std::int64_t faults;
     std::int64_t fault_teeth[FAULTS];  // of the gear with the fault
     alignas(64) std::int64_t
         fault_pair[FAULTS][MESHES][2];  // pair on the drive and the coast side, or NOWHERE
     double fault_gap[FAULTS];           // missing material [m]
     alignas(64) double fault_factor[FAULTS][KINDS][SEGMENTS][PAIRS]
-                                   [TERMS];  // on the stiffness of the pair
-    std::int64_t joints;                     // bearings, and members with a drag of their own
-    alignas(64) std::int64_t joint_body[JOINTS][2];  // what turns, and against what
-    alignas(64) std::int64_t joint_planet[JOINTS];   // whose pin loads it, or NO_PLANET
-    alignas(64) double joint_idle[JOINTS];           // f0 dm^3 [m^3]
-    alignas(64) double joint_rubbing[JOINTS];        // f1 dm [m]
-    alignas(64) double joint_coulomb[JOINTS];        // [N m]
-    alignas(64) double joint_viscous[JOINTS];        // [N m s/rad]
+                                   [TERMS];           // on the stiffness of the pair
+    std::int64_t joints;                              // number of bearings, and members with drag
+    alignas(64) std::int64_t joint_body[JOINTS][2];   // body, and the body it rotates against
+    alignas(64) std::int64_t joint_planet[JOINTS];    // planet that loads it, or NO_PLANET
+    alignas(64) double joint_no_load_factor[JOINTS];  // f0 dm^3 [m^3]
+    alignas(64) double joint_load_factor[JOINTS];     // f1 dm [m]
+    alignas(64) double joint_coulomb[JOINTS];         // [N m]
+    alignas(64) double joint_viscous[JOINTS];         // [N m s/rad]
     double pin_share;  // load on a pin per sum of the forces of its planet's meshes [-]
     std::int64_t discs;
     std::int64_t disc_body[MEMBERS];
     double disc_radius[MEMBERS];  // [m]
     double disc_gap;              // [m]
-    double disc_fill;             // share of oil in what they turn in [-]
+    double disc_fill;             // share of oil in the fluid around them [-]
     MovingAxes moving;
 };
 
-// Number of the coordinates of which the meshes make their transmission errors.
+// Number of coordinates on which the transmission error of a mesh depends.
 inline int entries_of(const Train& train) {
     return MOVING ? static_cast<int>(train.moving.entries) : ENTRIES;
 }

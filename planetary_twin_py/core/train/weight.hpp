@@ -1,17 +1,17 @@
 #pragma once
 
-// Weight of the bodies whose axes move. Gravity is at rest in the housing, so it turns backwards on
-// the carrier, whose coupling may have wound up against the frame by much.
+// Weight of the bodies whose axes move. Gravity has a fixed direction in the housing, so it rotates
+// backwards relative to the carrier, whose wind-up relative to the frame may be large.
 //
-// A planet that the carrier takes along rises and falls by its whole radius. The forces act on the
-// displacements, as if each body were at its nominal place on the carrier. So what the weight of a
-// displaced body does as the carrier turns it is neither in the potential energy nor borne by the
-// motors: `add_weight` books it.
+// A planet rises and falls with the carrier by its whole radius. The forces act on the
+// displacements as if each body were at its nominal position on the carrier. So the work of the
+// weight of a displaced body as the carrier rotates is neither part of the potential energy nor
+// supplied by the motors: `add_weight` adds it to the ledger.
 
 #include <cmath>
 #include <numbers>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/body_speed.hpp"
 #include "train/state.hpp"
 #include "train/train.hpp"
@@ -23,8 +23,8 @@ struct InPlane {
     double along, across;  // x and y, or xi and eta
 };
 
-// Angle of the frame [rad] `delay` seconds after a state. Whole turns of the motors count by exact
-// fractions, so it keeps its digits however long the gearbox turns.
+// Angle of the frame [rad] `delay` seconds after a state. Whole turns of the motors are counted by
+// exact fractions, so its accuracy does not depend on the duration of the run.
 inline double frame_angle(const Train& train, const State& state, double delay) {
     const MovingAxes& axes = train.moving;
     double turns = 0.0, rate = 0.0;
@@ -40,7 +40,7 @@ inline double frame_angle(const Train& train, const State& state, double delay) 
     return 2.0 * std::numbers::pi * turns + rate * delay;
 }
 
-// Gravity [m/s^2] on the carrier, which x takes on from the frame at its angle [rad].
+// Gravity [m/s^2] relative to the carrier, from the angle of the frame [rad] and x.
 inline InPlane gravity_at(const Train& train, double angle, const double* x) {
     const MovingAxes& axes = train.moving;
     angle += x[train.carrier] * train.inverse_radius[train.carrier];
@@ -48,7 +48,7 @@ inline InPlane gravity_at(const Train& train, double angle, const double* x) {
     return {axes.gravity * cosine, axes.gravity * sine};
 }
 
-// The weight of what bearing b holds [N].
+// The weight of the body on bearing b [N].
 inline InPlane weight_of(const Train& train, std::int64_t b, const InPlane& gravity) {
     const MovingAxes& axes = train.moving;
     const double m = axes.mass[b];
@@ -58,8 +58,8 @@ inline InPlane weight_of(const Train& train, std::int64_t b, const InPlane& grav
             m * (cosine * gravity.across - sine * gravity.along)};
 }
 
-// Add the weight of all bodies to `force`, and what it does to displaced ones as the carrier turns
-// them to `power`; the frame turns at `turning` [rad/s].
+// Add the weight of all bodies to `force`, and its power on displaced bodies as the carrier rotates
+// to `power`; the frame rotates at `turning` [rad/s].
 inline void add_weight(const Train& train, double turning, const InPlane& gravity, const double* x,
                        const double* v, double* force, double& power) {
     const MovingAxes& axes = train.moving;

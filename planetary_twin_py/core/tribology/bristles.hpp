@@ -2,13 +2,13 @@
 
 // Static friction of all tooth pairs, where the gears creep or are at rest.
 //
-// The traction curve of a rolling contact gets narrower the slower its flanks roll. Below CREEPING
-// bristles join them instead, see `presliding.hpp`: each tooth pair has the share of its full
-// friction as a state of its own.
+// The traction curve of a rolling contact becomes narrower with decreasing rolling speed. Below
+// CREEPING it is replaced by a bristle model, see `presliding.hpp`: each tooth pair has its share
+// of the full friction as a state variable.
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/train.hpp"
 #include "tribology/oil.hpp"
 #include "tribology/presliding.hpp"
@@ -16,25 +16,25 @@
 
 namespace gearbox {
 
-constexpr double CREEPING = 5e-3;         // [m/s] rolling speed below which tooth pairs hold
-constexpr double LEAST_FRICTION = 1e-12;  // [N] a pair with less has no bristles to bend
+constexpr double CREEPING = 5e-3;  // [m/s] rolling speed below which tooth pairs have bristles
+constexpr double LEAST_FRICTION = 1e-12;  // [N] pairs with less friction have no bristles
 
-// Whether the frame turns so slowly that tooth pairs hold.
+// Whether the frame is so slow that tooth pairs have bristles.
 inline bool creeps(const Train& train, double cycle_rate) {
     bool slow = train.rolling_advance * std::abs(cycle_rate) < CREEPING;
     return slow && train.friction && !train.printed_torque;
 }
 
-// Let the pairs have the shares of friction that a state gives them.
+// Set the shares of friction of the pairs from those of a state.
 inline void place_bristles(ToothPairs& pairs, const double* share) {
-    if (!pairs.held) return;
-    for (int k = 0; k < ROOM; ++k) pairs.bristle[k] = share[k];
+    if (!pairs.has_bristles) return;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) pairs.bristle[k] = share[k];
 }
 
 // Replace the friction of the traction curve by that of the bristles.
 //
 // Reads the friction of `evaluate` and the shares in `pairs.bristle`.
-inline void hold(const Oil& oil, ToothPairs& pairs) {
+inline void apply_bristles(const Oil& oil, ToothPairs& pairs) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         double full = pairs.boundary[k] + pairs.viscous[k], share = pairs.bristle[k];
         double force = share;
@@ -58,18 +58,19 @@ inline void hold(const Oil& oil, ToothPairs& pairs) {
     }
 }
 
-// Fill the shares of friction (ROOM,) from the traction curve, as the pairs begin to hold.
+// Fill the shares of friction (PAIR_CAPACITY,) from the traction curve, at the start of the bristle
+// model.
 inline void steady_bristles(const ToothPairs& pairs, double* share) {
-    for (int k = 0; k < ROOM; ++k) share[k] = 0.0;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) share[k] = 0.0;
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         double full = pairs.boundary[k] + pairs.viscous[k];
         if (full > LEAST_FRICTION) share[k] = pairs.friction[k] / full;
     }
 }
 
-// Carry the shares of the pairs of mesh i over from a segment to the next in a direction.
+// Transfer the shares of the pairs of mesh i from a segment to the next in a direction.
 //
-// A pair stands at cycle + shift: where the cycle begins again, its shift is one more.
+// The position of a pair is cycle + shift: where the cycle restarts, its shift is larger by one.
 inline void pass_bristles(const Train& train, double* share, std::int64_t i, std::int64_t segment,
                           std::int64_t direction) {
     std::int64_t kind = train.kind[i], count = train.segments[kind];
@@ -87,7 +88,7 @@ inline void pass_bristles(const Train& train, double* share, std::int64_t i, std
             if (now[p] == before[q] + wrapped) share[p * train.meshes + i] = old[q];
 }
 
-// Flanks of mesh i part, or meet for the first time: nothing holds.
+// Set the shares of mesh i to zero when its flanks separate or come into contact.
 inline void clear_bristles(const Train& train, double* share, std::int64_t i) {
     for (std::int64_t p = 0; p < train.slots; ++p) share[p * train.meshes + i] = 0.0;
 }

@@ -8,29 +8,29 @@ namespace gearbox {
 
 namespace {
 
-LAW Lanes load_lanes(const double* from) {
+ALWAYS_INLINE Lanes load_lanes(const double* from) {
     Lanes lanes;
     std::memcpy(&lanes, from, sizeof lanes);
     return lanes;
 }
 
-LAW void store_lanes(double* to, Lanes lanes) {
+ALWAYS_INLINE void store_lanes(double* to, Lanes lanes) {
     std::memcpy(to, &lanes, sizeof lanes);
 }
 
-LAW Lanes part_of_face(const ToothPairs& pairs, int k) {
+ALWAYS_INLINE Lanes part_of_face(const ToothPairs& pairs, int k) {
     Lanes face = load_lanes(pairs.face + k);
     return face > 0.0 ? face : Lanes{} + 1.0;
 }
 
-// Laws are those of the whole face: where a part of it carries, they see its line load.
-LAW PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
+// Laws are those of the whole face: if only a part is loaded, they use its line load.
+ALWAYS_INLINE PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
     return {load_lanes(pairs.rho1 + k),     load_lanes(pairs.rho2 + k),
             load_lanes(pairs.external + k), load_lanes(pairs.speed1 + k),
             load_lanes(pairs.speed2 + k),   load_lanes(pairs.load + k) / part_of_face(pairs, k)};
 }
 
-LAW void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int k) {
+ALWAYS_INLINE void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int k) {
     const Lanes face = part_of_face(pairs, k);
     store_lanes(pairs.friction + k, found.friction * face);
     store_lanes(pairs.boundary + k, found.boundary * face);
@@ -42,15 +42,15 @@ LAW void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int
     store_lanes(pairs.rolling_power + k, found.rolling_power * face);
 }
 
-// One part of the laws after the other for all pairs: what waits for a result in one register has
-// the other registers beside it. `tooth_contact` is the same for one.
+// Each part of the laws is computed for all registers in turn, which hides latencies.
+// `tooth_contact` is the same for one pair.
 template <Laws laws>
 void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
     const double slowest = pairs.slowest_rolling, factor = area_factor(oil);
-    Flanks<Lanes> flanks[ROOM / WIDTH];
-    Logarithms<Lanes> logarithms[ROOM / WIDTH];
-    Contact<Lanes> contact[ROOM / WIDTH];
-    Friction<Lanes> full[ROOM / WIDTH];
+    Flanks<Lanes> flanks[PAIR_CAPACITY / WIDTH];
+    Logarithms<Lanes> logarithms[PAIR_CAPACITY / WIDTH];
+    Contact<Lanes> contact[PAIR_CAPACITY / WIDTH];
+    Friction<Lanes> full[PAIR_CAPACITY / WIDTH];
     for (int r = 0; r < registers; ++r)
         flanks[r] = flanks_of(load_motion(pairs, r * WIDTH), oil.sliding_threshold, slowest);
     for (int r = 0; r < registers; ++r) logarithms[r] = logarithms_of(flanks[r]);
@@ -67,12 +67,12 @@ void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
 
 }  // namespace
 
-// Whole registers, so that lanes beyond `count` are idle.
+// Whole registers; lanes beyond `count` are unused.
 void evaluate(const Model& model, ToothPairs& pairs) {
     const Oil& oil = model.oil;
     int registers = static_cast<int>((pairs.count + WIDTH - 1) / WIDTH);
     with_laws(oil, [&]<Laws laws>() { evaluate_pairs<laws>(oil, pairs, registers); });
-    if (pairs.held) hold(oil, pairs);
+    if (pairs.has_bristles) apply_bristles(oil, pairs);
 }
 
 }  // namespace gearbox

@@ -1,9 +1,10 @@
 #pragma once
 
-// A friction coefficient from a table, as it was measured or computed elsewhere.
+// A friction coefficient from a table of measured or computed values.
 //
-// Between its values it is linear in the logarithms of the quantities, beyond them it stays at the
-// last ones. It includes boundary friction; its sign is that of sliding, as with every law.
+// Interpolation is linear in the logarithms of the quantities, extrapolation constant. The
+// coefficient includes boundary friction; the sign of the friction is that of sliding, as with all
+// laws.
 
 #include <cstdint>
 
@@ -16,12 +17,13 @@ constexpr int TABLE_AXES = 4, TABLE_KNOTS = 16, TABLE_VALUES = 1024;
 constexpr int SLIDING_AXIS = TABLE_AXES - 1;
 
 struct alignas(64) FrictionTable {
-    std::int64_t size[TABLE_AXES];  // values of each quantity; 1: does not depend on it
+    std::int64_t size[TABLE_AXES];  // number of values of each quantity; 1: does not depend on it
     alignas(64) double knot[TABLE_AXES][TABLE_KNOTS];  // their logarithms, ascending
     alignas(64) double coefficient[TABLE_VALUES];      // [-], the last quantity fastest
 };
 
-// A friction coefficient [-], and its growth with the logarithm of the sliding speed.
+// A friction coefficient [-], and its derivative with respect to the logarithm of the sliding
+// speed.
 template <class Real>
 struct TabulatedFriction {
     Real coefficient, growth;
@@ -29,7 +31,7 @@ struct TabulatedFriction {
 
 namespace table {
 
-// A place between two values: `weight` of the second.
+// A position between two values: `weight` of the second.
 struct Cell {
     std::int64_t first;
     double weight, per_logarithm;
@@ -47,7 +49,7 @@ inline Cell cell_of(const FrictionTable& table, int axis, double logarithm) {
     return {first, weight, 1.0 / length};
 }
 
-// Linear in the axes from `axis` on, where `place` is that of the axes before.
+// Linear interpolation in the axes from `axis` on; `place` is the index of the axes before.
 inline double between(const FrictionTable& table, const Cell* cell, int axis, int axes,
                       std::int64_t place) {
     if (axis == axes) return table.coefficient[place];
@@ -57,7 +59,7 @@ inline double between(const FrictionTable& table, const Cell* cell, int axis, in
     return low + cell[axis].weight * (between(table, cell, axis + 1, axes, place + 1) - low);
 }
 
-// The same along the sliding speed: at both ends of its cell.
+// The same at both ends of the cell of the sliding speed.
 inline TabulatedFriction<double> read(const FrictionTable& table, const double* logarithm) {
     Cell cell[TABLE_AXES];
     for (int axis = 0; axis < TABLE_AXES; ++axis)

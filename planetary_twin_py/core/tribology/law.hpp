@@ -1,7 +1,7 @@
 #pragma once
 
-// Which laws of friction hold, decided once for all tooth pairs: a loop over pairs has them as
-// constants, and no branches.
+// Selection of the friction laws, once for all tooth pairs: they are compile-time constants of the
+// loops over pairs.
 
 #include "tribology/oil.hpp"
 
@@ -9,8 +9,8 @@ namespace gearbox {
 
 enum class TractionLaw { PLATEAU, EYRING, SCHLENK, TABLE };  // the values of Oil.traction_law
 
-// Whether a law has a form in single precision: the exponents of Eyring's are beyond its range, and
-// tables are read in double precision.
+// Whether a law is available in single precision: the exponents of Eyring's law are beyond its
+// range, and tables are read in double precision.
 constexpr bool has_single_precision(TractionLaw law) {
     return law == TractionLaw::PLATEAU || law == TractionLaw::SCHLENK;
 }
@@ -28,7 +28,7 @@ constexpr NamedLaw TRACTION_LAWS[] = {
 };
 
 enum class BoundaryLaw {
-    NONE,                 // Schlenk's regression and tables have it in them
+    NONE,                 // included in Schlenk's regression and in tables
     SHARING,              // by load sharing, see `load_sharing.hpp`
     SHARING_AT_RATIO,     // the same at the prescribed lambda ratio
     ASPERITIES,           // of Greenwood and Tripp's asperities, see `boundary.hpp`
@@ -39,7 +39,7 @@ enum class BoundaryLaw {
 struct Laws {
     TractionLaw traction;
     BoundaryLaw boundary;
-    bool rolling;  // whether rolling resists
+    bool rolling;  // whether there is rolling resistance
 };
 
 inline BoundaryLaw boundary_law(const Oil& oil) {

@@ -32,11 +32,11 @@ struct alignas(64) Columns {
 };
 
 template <int L>
-LAW void put(const Row<L>& row, double* column) {
+ALWAYS_INLINE void put(const Row<L>& row, double* column) {
     row.store(column);
 }
 template <int L>
-LAW void put(const Row<L>& row, float* column) {
+ALWAYS_INLINE void put(const Row<L>& row, float* column) {
     using Half [[gnu::vector_size(4 * WIDTH)]] = float;
     for (int k = 0; k < Row<L>::PARTS; ++k) {
         Half part = __builtin_convertvector(row.part[k], Half);
@@ -45,11 +45,11 @@ LAW void put(const Row<L>& row, float* column) {
 }
 
 template <int L>
-LAW Row<L> get(const double* column) {
+ALWAYS_INLINE Row<L> get(const double* column) {
     return Row<L>(column);
 }
 template <int L>
-LAW Row<L> get(const float* column) {
+ALWAYS_INLINE Row<L> get(const float* column) {
     using Half [[gnu::vector_size(4 * WIDTH)]] = float;
     Row<L> row;
     for (int k = 0; k < Row<L>::PARTS; ++k) {
@@ -72,20 +72,21 @@ struct RegisterOf<float> {
 };
 
 template <class Real, class Number>
-LAW Real load_register(const Number* column) {
+ALWAYS_INLINE Real load_register(const Number* column) {
     Real lanes;
     std::memcpy(&lanes, column, sizeof lanes);
     return lanes;
 }
 
 template <class Real, class Number>
-LAW void store_register(Number* column, const Real& lanes) {
+ALWAYS_INLINE void store_register(Number* column, const Real& lanes) {
     std::memcpy(column, &lanes, sizeof lanes);
 }
 
 template <int L, class Number>
-LAW void place_pairs(const Train& train, const StepConstants& step, const FrictionInstant& instant,
-                     Columns<Number>& pairs, std::int64_t first) {
+ALWAYS_INLINE void place_pairs(const Train& train, const StepConstants& step,
+                               const FrictionInstant& instant, Columns<Number>& pairs,
+                               std::int64_t first) {
     using V = Row<L>;
     V moved = path_position<L>(train, step, instant.meshes->advance), external(step.external);
     const V spin1(instant.spin[0]), spin2(instant.spin[1]);
@@ -132,15 +133,17 @@ void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, 
         store_register(pairs.friction + k, found.friction);
         store_register(pairs.boundary + k, found.boundary);
         store_register(pairs.viscous + k, found.viscous);
-        // The exponential may be off by a rounding.
+        // The exponential may have a rounding error.
         store_register(pairs.film + k, at_least(exp(found.log_film), Real{} + THINNEST_FILM));
     }
 }
 
-// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears, u1
+// and u2 the surface speeds.
 template <int L, class Number>
-LAW void add_up(const Train& train, const StepConstants& step, const Columns<Number>& pairs,
-                std::int64_t first, bool rolling, const FrictionInstant& instant) {
+ALWAYS_INLINE void add_up(const Train& train, const StepConstants& step,
+                          const Columns<Number>& pairs, std::int64_t first, bool rolling,
+                          const FrictionInstant& instant) {
     using V = Row<L>;
     MeshFriction& out = *instant.found;
     V moved = path_position<L>(train, step, instant.meshes->advance), external(step.external);
@@ -194,8 +197,8 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
         add_up<L>(train, step, pairs, n * of_instant, oil.rolling, instants[n]);
 }
 
-// Call `function` with the number of lanes that the closed meshes need. Where each flank has an
-// entry, those of the flanks that carry are often the first ones.
+// Call `function` with the number of lanes that the closed meshes need. If each flank has an entry,
+// those of the loaded flanks are often the first ones.
 template <class Function>
 void with_closed_lanes(const Train& train, const StepConstants& step, Function&& function) {
     constexpr int FIRST = 8;
@@ -207,7 +210,7 @@ void with_closed_lanes(const Train& train, const StepConstants& step, Function&&
     with_mesh_lanes(train, function);
 }
 
-// Let entries beyond the first `lanes` have no friction.
+// Set the friction of entries beyond the first `lanes` to zero.
 void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
     const std::int64_t count = mesh_lanes(train);
     for (std::int64_t i = lanes; i < count; ++i) {

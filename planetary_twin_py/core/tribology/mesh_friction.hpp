@@ -1,10 +1,10 @@
 #pragma once
 
-// Friction of all meshes at several instants of a step side by side.
+// Friction of all meshes at several instants of a step in parallel.
 //
-// The tooth pairs of all instants stand in columns. The laws run over them part by part: while one
-// register waits for a result, the others are computed. In single precision a register holds twice
-// as many, and friction errs by a millionth.
+// The tooth pairs of all instants form columns. The laws are evaluated part by part for all
+// registers, which hides latencies. In single precision a register has twice as many numbers, and
+// the relative error of friction is about 1e-6.
 
 #include "mesh/meshes_now.hpp"
 #include "train/model.hpp"
@@ -21,7 +21,7 @@ struct alignas(64) MeshFriction {
     alignas(64) double lost[MESHES];      // to friction and rolling resistance [W]
     alignas(64) double boundary[MESHES];  // [N]
     alignas(64) double viscous[MESHES];   // [N]
-    alignas(64) double film[MESHES];      // mean by the load [m]
+    alignas(64) double film[MESHES];      // mean weighted by load [m]
 };
 
 // An instant: positions of the meshes, the speeds of their gears [rad/s] relative to the carrier,
@@ -32,8 +32,7 @@ struct FrictionInstant {
     MeshFriction* found;
 };
 
-// Fill the results at so many instants, at most MOST_INSTANTS. Entries beyond the meshes are
-// zero.
+// Fill the results at several instants, at most MOST_INSTANTS. Entries beyond the meshes are zero.
 void find_friction(const Model& model, const StepConstants& step, const FrictionInstant* instants,
                    int count, bool single_precision);
 

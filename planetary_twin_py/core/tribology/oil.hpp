@@ -29,10 +29,10 @@ struct alignas(64) Oil {
     double asperity_shear;   // boundary friction per area at that ratio [Pa]
     bool printed_asperities;
     bool sharing;  // boundary friction: by load sharing, or of Greenwood and Tripp's asperities
-    double boundary_coefficient;  // [-], of the former
-    bool rolling;                 // whether rolling resists
+    double boundary_coefficient;  // [-], for load sharing
+    bool rolling;                 // whether there is rolling resistance
     double sliding_threshold;     // [-]
-    double presliding;            // elastic displacement of the flanks before they slide [m]
+    double presliding;            // elastic displacement of the flanks before sliding [m]
     FrictionTable table;
 };
 

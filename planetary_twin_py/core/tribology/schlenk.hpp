@@ -4,8 +4,8 @@
 //
 // mu = 0.048 (F_bt/b / (v_sum rho_red))^0.2 eta^-0.05 Ra^0.25 X_L with F_bt/b in N/mm, v_sum in
 // m/s, rho_red in mm, eta in mPa s and Ra in um: a regression of the losses of test gears, boundary
-// friction included. It is applied here to each tooth pair with its own load, speeds and radius; at
-// the pitch point, with the whole load on one pair, it is the printed value.
+// friction included. Here it is applied to each tooth pair with its own load, speeds and radius; at
+// the pitch point, with the whole load on one pair, this is the original value.
 
 #include "vector/math.hpp"
 
@@ -16,7 +16,8 @@ constexpr double SCHLENK_LOAD = 0.2;
 // Friction coefficient [-], from the factor of `lubrication/schlenk.py` and the logarithms of the
 // load of the pair in N, of the mean surface speed in m/s and of the reduced radius in m.
 template <class Real>
-LAW Real schlenk_coefficient(double log_factor, Real log_load, Real log_speed, Real log_radius) {
+ALWAYS_INLINE Real schlenk_coefficient(double log_factor, Real log_load, Real log_speed,
+                                       Real log_radius) {
     return exp(log_factor + SCHLENK_LOAD * (log_load - log_speed - log_radius));
 }
 

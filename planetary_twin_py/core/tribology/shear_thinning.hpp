@@ -1,14 +1,14 @@
 #pragma once
 
-// Viscous friction of a film that thins under shear, up to its limiting stress.
+// Viscous friction of a shear-thinning film, up to its limiting stress.
 //
 // The law of Ree and Eyring with a limiting stress (Johnson and Tevaarwerk 1977; Arana, Larranaga
-// and Ulacia 2019, eq. (7)), tau = min(tau0 asinh(eta Vs/(h tau0)), Lambda p), holds from the
-// Newtonian film under a light load to the plateau under a heavy one. eta = eta0 exp(alpha p)
-// (Barus 1893), so that tau0 and alpha are those of the plateau law of Evans and Johnson; the
-// limiting stress bounds what that viscosity exaggerates at high pressure. tau is averaged over the
-// elliptic pressure of the contact: at the mean pressure alone, friction under a light load comes
-// out too low by up to half.
+// and Ulacia 2019, eq. (7)), tau = min(tau0 asinh(eta Vs/(h tau0)), Lambda p), covers the Newtonian
+// film under a light load and the plateau under a heavy one. eta = eta0 exp(alpha p) (Barus 1893),
+// so that tau0 and alpha are those of the plateau law of Evans and Johnson; the limiting stress
+// bounds the excessive viscosity at high pressure. tau is averaged over the elliptic pressure of
+// the contact: with the mean pressure alone, friction under a light load would be too low by up to
+// half.
 //
 // The film warms by dT = tau Vs (h/(8 K) + 1.06/2 sqrt(b/V)/sqrt(K' rho' c')) (ibid., eqs. (27) and
 // (28), two bodies of one material at one speed), and its viscosity falls by exp(-beta_T dT).
@@ -20,9 +20,9 @@
 
 namespace gearbox {
 
-// Bounds eta/(tau0 h) to e^200 s/m; long before that the stress is the limiting one.
+// Bounds eta/(tau0 h) to e^200 s/m; the stress reaches its limit far below.
 constexpr double LARGEST_GAIN = 200.0;
-constexpr double NEWTONIAN = 1e-5;  // asinh(x) is x below, more exactly than by a logarithm
+constexpr double NEWTONIAN = 1e-5;  // below it asinh(x) is x, more accurate than by a logarithm
 
 // Gauss rule for the mean over a line contact, orthogonal to the moments of p/p0 = sqrt(1 - x^2),
 // x in [0, 1]: pressures over the largest one, and weights.
@@ -34,14 +34,14 @@ struct FilmShear {
     Real friction, growth;  // stress [Pa] or friction [N]; with the speed [Pa s/m] or [N s/m]
 };
 
-// Shear stress at one pressure [Pa], and its growth with the speed.
+// Shear stress at one pressure [Pa], and its derivative with respect to the speed.
 //
 // With x = eta Vs/(h tau0) of the cool film, s = tau/tau0 and c = beta_T dT/s, the warm film has
-// sinh(s) = x exp(-c s). One step of Newton from asinh(x) gives asinh(x)/(1 + c tanh(asinh(x))),
-// which is exact both for small x and for large x.
+// sinh(s) = x exp(-c s). One step of Newton's method from s = asinh(x), for the logarithm of this
+// equation, gives asinh(x)/(1 + c tanh(asinh(x))), which is exact both for small x and for large x.
 template <class Real>
-LAW FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real log_film,
-                                 Real softening, Real speed) {
+ALWAYS_INLINE FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real log_film,
+                                           Real softening, Real speed) {
     Real exponent = film.log_shear_time + film.pressure_viscosity * pressure - log_film;
     Real gain = exp(at_most(exponent, LARGEST_GAIN));
     Real x = gain * speed;
@@ -52,12 +52,13 @@ LAW FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real 
     return {at_most(stress, limit), stress < limit ? gain * inverse : Real{}};
 }
 
-// Friction of the film [N], and its growth with the sliding speed at the film's temperature.
+// Friction of the film [N], and its derivative with respect to the sliding speed at the temperature
+// of the film.
 //
 // Arguments as of `viscous_friction`, and the magnitude of the sliding speed Vs [m/s].
 template <class Real>
-LAW FilmShear<Real> film_shear(const ShearThinning& film, Real load, Real area, Real log_film,
-                               Real log_heat, Real speed) {
+ALWAYS_INLINE FilmShear<Real> film_shear(const ShearThinning& film, Real load, Real area,
+                                         Real log_film, Real log_heat, Real speed) {
     Real peak = 4.0 / std::numbers::pi * load / area;
     Real heating = film.film_heating * exp(log_film) + film.flash_heating * exp(log_heat);
     Real softening = heating * speed;

@@ -19,10 +19,10 @@
 namespace gearbox {
 
 constexpr double LIGHTEST_LOAD = 1e-6;    // [N] keeps logarithms finite
-constexpr double SLOWEST_ROLLING = 1e-9;  // [m/s] below it the sense of sliding fades out
+constexpr double SLOWEST_ROLLING = 1e-9;  // [m/s] below it friction decreases to zero
 
 // Specific film thickness [-]: as given, or film over roughness.
-LAW double lambda_ratio_of(const Oil& oil, double log_film) {
+ALWAYS_INLINE double lambda_ratio_of(const Oil& oil, double log_film) {
     return oil.prescribed ? oil.lambda_ratio : exp(log_film - oil.log_roughness);
 }
 
@@ -42,12 +42,12 @@ struct Contact {
 template <class Real>
 struct Friction {
     Real boundary, viscous;  // [N]
-    Real growth;             // of the latter with the sliding speed [N s/m]
+    Real growth;             // derivative of the latter with respect to the sliding speed [N s/m]
 };
 
 template <Laws laws, class Real>
-LAW Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
-    // All laws that divide by the speed are of moving flanks.
+ALWAYS_INLINE Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
+    // Lower bound of the speed for laws that divide by it.
     Real log_moving = at_least(contact.log_speed, LOG_SLOWEST);
     if constexpr (laws.traction == TractionLaw::SCHLENK) {
         Real mu =
@@ -77,7 +77,7 @@ LAW Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
 }
 
 template <Laws laws, class Real>
-LAW Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) {
+ALWAYS_INLINE Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) {
     Friction<Real> film = film_friction<laws>(oil, contact);
     Real log_film = contact.log_film;
     if constexpr (laws.boundary == BoundaryLaw::NONE) return film;
@@ -100,7 +100,7 @@ LAW Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) 
             share * film.growth};
 }
 
-// A tooth pair as it is found.
+// State of a tooth pair.
 template <class Real>
 struct PairMotion {
     Real rho1, rho2;      // radii of curvature of both flanks [m]
@@ -116,19 +116,19 @@ struct PairFriction {
     Real boundary, viscous;  // [N]
     Real log_film;           // logarithm of the film in metres
     Real sliding;            // [m/s]
-    Real slope;              // growth of the friction with the sliding speed [N s/m]
+    Real slope;              // derivative of the friction with respect to the sliding speed [N s/m]
     Real rolling;            // resistance against the mean motion of both flanks [N]
-    Real rolling_power;      // that it takes [W]
+    Real rolling_power;      // power lost to it [W]
 };
 
-// How the flanks of a pair move, and how they are pressed.
+// Motion and load of the flanks of a pair.
 template <class Real>
 struct Flanks {
     Real sliding;    // [m/s]
     Real sum;        // of the surface speeds [m/s]
     Real radius;     // reduced radius of curvature [m]
-    Real load;       // normal, no less than LIGHTEST_LOAD [N]
-    Real steepness;  // of the sense of sliding [s/m]
+    Real load;       // normal, at least LIGHTEST_LOAD [N]
+    Real steepness;  // of the smoothed sign of sliding [s/m]
     Real fade;       // share of friction: it vanishes with the load
 };
 
@@ -139,17 +139,19 @@ struct SurfaceSpeeds {
 };
 
 template <class Real>
-LAW SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& rho2, const Real& external,
-                                       const Real& spin1, const Real& spin2) {
+ALWAYS_INLINE SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& rho2,
+                                                 const Real& external, const Real& spin1,
+                                                 const Real& spin2) {
     Real u1 = rho1 * spin1, u2 = external * rho2 * spin2;
     return {u1 + u2, u1 - u2};
 }
 
 // `slowest_rolling` [m/s] sets the least width of the layer in which friction reverses.
 template <class Real>
-LAW Flanks<Real> flanks_of(Real rho1, Real rho2, Real external, const SurfaceSpeeds<Real>& speeds,
-                           Real load, double sliding_threshold, double slowest_rolling) {
-    // Three divisions in one, as they take longest of all in a loop over pairs.
+ALWAYS_INLINE Flanks<Real> flanks_of(Real rho1, Real rho2, Real external,
+                                     const SurfaceSpeeds<Real>& speeds, Real load,
+                                     double sliding_threshold, double slowest_rolling) {
+    // One division for three, since divisions are the slowest operations of the loop over pairs.
     Real distance = rho2 + external * rho1, loaded = load + LIGHTEST_LOAD;
     Real threshold = sliding_threshold * at_least(magnitude(0.5 * speeds.sum), slowest_rolling);
     Real inverse = 1.0 / (distance * loaded * threshold);
@@ -160,8 +162,8 @@ LAW Flanks<Real> flanks_of(Real rho1, Real rho2, Real external, const SurfaceSpe
 }
 
 template <class Real>
-LAW Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshold,
-                           double slowest_rolling) {
+ALWAYS_INLINE Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshold,
+                                     double slowest_rolling) {
     SurfaceSpeeds<Real> speeds =
         surface_speeds(pair.rho1, pair.rho2, pair.external, pair.speed1, pair.speed2);
     return flanks_of(pair.rho1, pair.rho2, pair.external, speeds, pair.load, sliding_threshold,
@@ -176,23 +178,24 @@ struct Logarithms {
 };
 
 template <class Real>
-LAW Logarithms<Real> logarithms_of(const Flanks<Real>& flanks) {
+ALWAYS_INLINE Logarithms<Real> logarithms_of(const Flanks<Real>& flanks) {
     Real speed = at_least(magnitude(0.5 * flanks.sum), STANDSTILL);
     auto [log_radius, log_speed, log_load] = logs(flanks.radius, speed, flanks.load);
     return {log_radius, log_speed, log_load};
 }
 
 // Apparent contact area over sqrt(radius * load) [(m/N)^0.5 m].
-LAW double area_factor(const Oil& oil) {
+ALWAYS_INLINE double area_factor(const Oil& oil) {
     return 2.0 * oil.face_width * half_width(1.0, 1.0, oil.face_width, oil.contact_modulus);
 }
 
 template <class Real>
-LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Real>& flanks,
-                             const Logarithms<Real>& logarithms) {
+ALWAYS_INLINE Contact<Real> contact_of(const Oil& oil, double area_factor,
+                                       const Flanks<Real>& flanks,
+                                       const Logarithms<Real>& logarithms) {
     Real log_speed_group = logarithms.speed - logarithms.radius + oil.log_speed_group;  // of U
     Real log_load_group = logarithms.load - logarithms.radius + oil.log_load_group;     // of W
-    // Where gears creep, bristles decide how much of the friction of a sliding contact acts.
+    // Below CREEPING the bristles determine the share of the friction of a sliding contact.
     Real slowest = where_less(magnitude(0.5 * flanks.sum), CREEPING,
                               oil.sliding_threshold * CREEPING, STANDSTILL);
     return {flanks.load,
@@ -207,12 +210,14 @@ LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Re
 
 // The friction of sliding from its magnitudes.
 template <Laws laws, class Real>
-LAW PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flanks,
-                                        const Contact<Real>& contact, const Friction<Real>& full) {
+ALWAYS_INLINE PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flanks,
+                                                  const Contact<Real>& contact,
+                                                  const Friction<Real>& full) {
     Real steepness = flanks.steepness;
-    Real softer{};  // by what the friction grows with the sliding, its sense is less steep
+    Real softer{};  // the smoothed sign is less steep by the slope of the friction
     if constexpr (laws.traction == TractionLaw::EYRING) {
-        // Up to the friction force, flanks and film are elastic: less friction needs less sliding.
+        // Up to the friction force, flanks and film are elastic: less friction requires less
+        // sliding.
         Real scale =
             oil.shear_thinning.limiting_stress * contact.load / (full.boundary + full.viscous);
         steepness *= at_least(scale, 1.0);
@@ -235,13 +240,13 @@ LAW PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flan
 
 // Add the rolling resistance of the film.
 template <class Real>
-LAW void add_rolling(const Oil& oil, const Flanks<Real>& flanks, const Contact<Real>& contact,
-                     PairFriction<Real>& found) {
+ALWAYS_INLINE void add_rolling(const Oil& oil, const Flanks<Real>& flanks,
+                               const Contact<Real>& contact, PairFriction<Real>& found) {
     Real size = flanks.radius * oil.face_width / oil.traction.pressure_viscosity;
     Real log_speed_group = contact.log_speed - contact.log_radius + oil.log_speed_group;
     Real log_load_group = contact.log_load - contact.log_radius + oil.log_load_group;
     Real force = rolling_resistance(size, log_speed_group, oil.log_material, log_load_group);
-    // The formula is one of loaded films, and would act with no load at all.
+    // The formula applies to loaded films, and is not zero without load.
     force /= 1.0 + force / contact.load;
     force *= flanks.fade * sliding_sense(flanks.sum / SLOWEST_SPEED);
     found.rolling = force;
@@ -249,8 +254,9 @@ LAW void add_rolling(const Oil& oil, const Flanks<Real>& flanks, const Contact<R
 }
 
 template <Laws laws, class Real>
-LAW PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
-                                     const PairMotion<Real>& pair, double slowest_rolling) {
+ALWAYS_INLINE PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
+                                               const PairMotion<Real>& pair,
+                                               double slowest_rolling) {
     Flanks<Real> flanks = flanks_of(pair, oil.sliding_threshold, slowest_rolling);
     Contact<Real> contact = contact_of(oil, area_factor, flanks, logarithms_of(flanks));
     Friction<Real> full = mixed_friction<laws>(oil, contact);

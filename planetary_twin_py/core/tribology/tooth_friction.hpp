@@ -1,14 +1,14 @@
 #pragma once
 
-// Friction of all loaded tooth pairs of the train, side by side.
+// Friction of all loaded tooth pairs of the train in parallel.
 //
-// The pairs of all meshes stand in columns, so that the laws of friction run over them in vector
-// registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which takes exactly f
-// Vs out of the motion, whatever turns and whatever is held.
+// The pairs of all meshes form columns, for which the friction laws are evaluated in vector
+// registers. Each friction force is applied as a generalised force Q_j = -f dVs/dw_j, which
+// dissipates exactly f Vs, whichever members rotate or are fixed.
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/evaluation.hpp"
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
@@ -18,11 +18,12 @@
 
 namespace gearbox {
 
-// Friction reverses within a layer as wide as at this part of the rolling speed without vibration,
-// at least: where vibration stops the gears, the layer would vanish and no step could resolve it.
+// Least width of the range of sliding speeds in which friction reverses: that at this share of the
+// rolling speed without vibration. If vibration stops the gears, the range would vanish and no step
+// could resolve it.
 constexpr double SLOWEST = 0.1;
-constexpr double NARROWEST = 5e-3;  // slide-to-roll ratio: friction reversing within less is a step
-constexpr double SLOWEST_TURN = 1e-3;  // [rad/s] below which the printed torque fades out
+constexpr double NARROWEST = 5e-3;     // slide-to-roll ratio: narrower reversals count as a step
+constexpr double SLOWEST_TURN = 1e-3;  // [rad/s] below which the printed torque decreases to zero
 
 // Rolling speed that sets the least width of the layer in which friction reverses [m/s].
 inline double slowest_rolling(const Train& train, const StepConstants& step) {
@@ -37,8 +38,8 @@ inline double turning_of_line(const Train& train, std::int64_t i, const double* 
     return turning;
 }
 
-// Speeds of the gears of all pairs against the carrier, and against the line of action where that
-// turns.
+// Speeds of the gears of all pairs relative to the carrier, and to the line of action if that
+// rotates.
 inline void turn_pairs(const Train& train, const StepConstants& step, const double* v,
                        ToothPairs& pairs) {
     std::int64_t meshes = train.meshes;
@@ -56,9 +57,9 @@ inline void turn_pairs(const Train& train, const StepConstants& step, const doub
     }
 }
 
-// Sliding speed [m/s] within which friction reverses at the pitch point.
+// Range of sliding speeds [m/s] in which friction reverses at the pitch point.
 //
-// Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, at either kind of mesh.
+// Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, in both kinds of mesh.
 inline double friction_layer(const Train& train, const Oil& oil, double cycle_rate) {
     double rolling = train.rolling_advance * std::abs(cycle_rate);
     return at_least(oil.sliding_threshold, NARROWEST) * at_least(rolling, CREEPING);
@@ -67,7 +68,8 @@ inline double friction_layer(const Train& train, const Oil& oil, double cycle_ra
 // Film and friction of `pairs.count` pairs.
 void evaluate(const Model& model, ToothPairs& pairs);
 
-// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+// Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears, u1
+// and u2 the surface speeds.
 inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
     for (std::int64_t i = 0; i < train.meshes; ++i)
         out.torque[0][i] = out.torque[1][i] = out.power[i] = 0.0;
@@ -86,9 +88,9 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
 
 // Friction torque as Salagianni et al. 2017 print it.
 //
-// T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns,
-// and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
-// Replaces what `collect` found.
+// T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear in its direction of
+// rotation, and so supplies twice the power that is lost. Divided by (w^2 + w0^2)/w, since at rest
+// P/w is 0/0. Replaces the result of `collect`.
 inline void print_torques(const Train& train, const StepConstants& step, const double* v,
                           DragOfMeshes& out) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -122,12 +124,12 @@ inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row
         for (int b = 0; b < size; ++b) matrix[body[a]][body[b]] += factor * row[a] * row[b];
 }
 
-// Add to `matrix` what friction adds to the damping matrix: slope dVs/dv dVs/dv^T.
+// Add the damping by friction, slope dVs/dv dVs/dv^T, to `matrix`.
 //
-// Large where little slides: at the pitch point, and for everything near standstill. Where the
-// forces on the bodies would turn the sliding round within h seconds, the slope is that of the
-// chord to rest: beside it the tangent is flat, and steps would reverse the sliding each time.
-// `row` (IN_PLANE,) is room to work in.
+// It is large at small sliding speeds: at the pitch point, and for all pairs near standstill. Where
+// the forces on the bodies would reverse the sliding within h seconds, the slope is that of the
+// chord to rest: with the much smaller tangent, each step would reverse the sliding. `row`
+// (IN_PLANE,) is work space.
 inline void friction_damping(const Train& train, const ToothPairs& pairs, const double* force,
                              double h, double* row, Matrix matrix) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
@@ -143,7 +145,7 @@ inline void friction_damping(const Train& train, const ToothPairs& pairs, const 
     }
 }
 
-// Copy what `friction_damping` reads.
+// Copy the inputs of `friction_damping`.
 inline void copy_friction(const ToothPairs& source, ToothPairs& target) {
     target.count = source.count;
     for (std::int64_t k = 0; k < source.count; ++k) {
@@ -154,8 +156,8 @@ inline void copy_friction(const ToothPairs& source, ToothPairs& target) {
         target.sliding[k] = source.sliding[k];
         target.slope[k] = source.slope[k];
     }
-    if (!source.held) return;
-    for (int k = 0; k < ROOM; ++k) {
+    if (!source.has_bristles) return;
+    for (int k = 0; k < PAIR_CAPACITY; ++k) {
         target.bristle[k] = source.bristle[k];
         target.full[k] = source.full[k];
         target.bristle_rate[k] = source.bristle_rate[k];

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 
@@ -10,29 +10,30 @@ struct alignas(64) ToothPairs {
     std::int64_t count;
     double
         slowest_rolling;  // that sets the least width of the layer in which friction reverses [m/s]
-    alignas(64) double share[ROOM];  // of the mesh force [-]
-    alignas(64) double rho1[ROOM];   // radii of curvature [m]
-    alignas(64) double rho2[ROOM];
-    alignas(64) double external[ROOM];  // +1: external mesh, -1: internal
-    alignas(64) double speed1[ROOM];    // of the gears relative to the carrier [rad/s]
-    alignas(64) double speed2[ROOM];
-    alignas(64) double load[ROOM];           // [N]
-    alignas(64) double face[ROOM];           // part of the face that carries it; 0: not known, all
-    alignas(64) double friction[ROOM];       // signed, against the sliding [N]
-    alignas(64) double boundary[ROOM];       // [N]
-    alignas(64) double viscous[ROOM];        // [N]
-    alignas(64) double log_film[ROOM];       // logarithm of the film thickness in metres
-    alignas(64) double sliding[ROOM];        // [m/s]
-    alignas(64) double slope[ROOM];          // of friction over sliding [N s/m]
-    alignas(64) double rolling[ROOM];        // rolling resistance, signed [N]
-    alignas(64) double rolling_power[ROOM];  // that it takes [W]
-    bool held;  // whether bristles join the flanks, see `bristles`; then, of each pair:
-    alignas(64) double bristle[ROOM];        // share of the full friction [-]
-    alignas(64) double full[ROOM];           // that friction [N]
-    alignas(64) double bristle_rate[ROOM];   // of the share [1/s]
-    alignas(64) double bristle_decay[ROOM];  // by which that falls as the share grows [1/s]
-    alignas(64) double bristle_gain[ROOM];   // by which it grows with the sliding [1/m]
-    alignas(64) double lost[ROOM];           // power that is not stored in the bristles [W]
+    alignas(64) double share[PAIR_CAPACITY];  // of the mesh force [-]
+    alignas(64) double rho1[PAIR_CAPACITY];   // radii of curvature [m]
+    alignas(64) double rho2[PAIR_CAPACITY];
+    alignas(64) double external[PAIR_CAPACITY];  // +1: external mesh, -1: internal
+    alignas(64) double speed1[PAIR_CAPACITY];    // of the gears relative to the carrier [rad/s]
+    alignas(64) double speed2[PAIR_CAPACITY];
+    alignas(64) double load[PAIR_CAPACITY];           // [N]
+    alignas(64) double face[PAIR_CAPACITY];           // loaded part of the face; 0: not known
+    alignas(64) double friction[PAIR_CAPACITY];       // signed, against the sliding [N]
+    alignas(64) double boundary[PAIR_CAPACITY];       // [N]
+    alignas(64) double viscous[PAIR_CAPACITY];        // [N]
+    alignas(64) double log_film[PAIR_CAPACITY];       // logarithm of the film thickness in metres
+    alignas(64) double sliding[PAIR_CAPACITY];        // [m/s]
+    alignas(64) double slope[PAIR_CAPACITY];          // of friction over sliding [N s/m]
+    alignas(64) double rolling[PAIR_CAPACITY];        // rolling resistance, signed [N]
+    alignas(64) double rolling_power[PAIR_CAPACITY];  // power lost to it [W]
+    bool has_bristles;  // whether pairs have bristles, see `bristles.hpp`; then, of each pair:
+    alignas(64) double bristle[PAIR_CAPACITY];        // share of the full friction [-]
+    alignas(64) double full[PAIR_CAPACITY];           // full friction [N]
+    alignas(64) double bristle_rate[PAIR_CAPACITY];   // of the share [1/s]
+    alignas(64) double bristle_decay[PAIR_CAPACITY];  // -d(rate)/d(share) [1/s]
+    alignas(64) double bristle_gain[PAIR_CAPACITY];   // d(rate)/d(sliding) [1/m]
+    alignas(64) double lost[PAIR_CAPACITY];  // dissipated power, without that stored in the
+                                             // bristles [W]
 };
 
 struct alignas(64) DragOfMeshes {

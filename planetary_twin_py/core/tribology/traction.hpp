@@ -4,7 +4,7 @@
 //
 // Salagianni et al. 2017, eqs. (12), (13). The root of (12) needs a temperature coefficient of
 // viscosity beta_T [1/K] to be dimensionless; `log_root` carries it. The printed form is the same
-// with beta_T = 1/K, and falls below zero under a light load.
+// with beta_T = 1/K, and is negative under a light load.
 
 #include "tribology/constants.hpp"
 #include "vector/math.hpp"
@@ -17,12 +17,12 @@ namespace gearbox {
 // in metres; logarithm of sqrt(R p/V) in (Pa s)^0.5, R being the reduced radius of curvature, p the
 // mean pressure load/area and V the mean surface speed.
 template <class Real>
-LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
-                          Real log_heat) {
-    // 1 + 9.6 zeta, with R/h sqrt(p/(R V)) of (13) written so that one root is enough.
+ALWAYS_INLINE Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
+                                    Real log_heat) {
+    // 1 + 9.6 zeta, with R/h sqrt(p/(R V)) of (13) written with one root.
     Real heating = 1.0 + exp(traction.log_heating + log_heat - log_film);
     Real log_argument = traction.log_root - 2.0 * log_film - log(heating);
-    // 1.74 tau0/p * load is 1.74 tau0 * area: no division by a pressure that may vanish.
+    // 1.74 tau0/p * load is 1.74 tau0 * area, without a division by a pressure that may vanish.
     Real friction = traction.shear_stress *
                     (0.87 * traction.pressure_viscosity * load + 0.87 * area * log_argument);
     return at_least(friction, traction.least);
@@ -30,10 +30,10 @@ LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real l
 
 // Share of the plateau at a small slide-to-roll ratio, odd in it, within [-1, 1].
 //
-// A tanh in the ratio over its threshold: the plateau of (12) has no sliding speed in it, which
-// would make friction jump at the pitch point.
+// A tanh of the ratio over its threshold: the plateau of (12) does not depend on the sliding speed,
+// so friction would jump at the pitch point.
 template <class Real>
-LAW Real sliding_sense(Real ratio) {
+ALWAYS_INLINE Real sliding_sense(Real ratio) {
     Real decay = falling_exp(-2.0 * magnitude(ratio));
     return with_sign((1.0 - decay) / (1.0 + decay), ratio);
 }

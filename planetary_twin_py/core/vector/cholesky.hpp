@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 
@@ -25,7 +25,7 @@ inline void factorise(Matrix a, std::int64_t n) {
     }
 }
 
-// Let b (n,) hold the solution, from what `factorise` left in `a`.
+// Replace b (n,) by the solution, with the factor `a` of `factorise`.
 inline void solve(const double (*a)[BODIES], std::int64_t n, double* b) {
     for (std::int64_t i = 0; i < n; ++i) {
         double value = b[i];

@@ -2,10 +2,10 @@
 
 // Products of a small matrix and vectors, in vector registers.
 //
-// out[i] = sum over m of rows[m][i] weights[m], for all i there is room for. Rows beyond those in
-// use are zero, so that they come in blocks of eight.
+// out[i] = sum over m of rows[m][i] weights[m], for all i up to the capacity. Rows are added in
+// blocks of eight; those beyond `count` are zero.
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 

@@ -1,14 +1,14 @@
 #pragma once
 
 // Floats in one vector register, twice as many as doubles: for formulas that are templates over
-// `Real`, where six digits are enough. exp and log err by some units of the last digit.
+// `Real`, where six digits are enough. exp and log have errors of some units of the last digit.
 
 #include <cstdint>
 
 #include <immintrin.h>
 
+#include "vector/attributes.hpp"
 #include "vector/lanes.hpp"
-#include "vector/law.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
@@ -22,73 +22,73 @@ struct Floats {
     FloatRegister value;
 
     Floats() = default;
-    LAW Floats(FloatRegister lanes) : value(lanes) {}
-    LAW Floats(double each) : value(static_cast<float>(each) - FloatRegister{}) {}
+    ALWAYS_INLINE Floats(FloatRegister lanes) : value(lanes) {}
+    ALWAYS_INLINE Floats(double each) : value(static_cast<float>(each) - FloatRegister{}) {}
 
-    LAW Floats& operator+=(Floats other) {
+    ALWAYS_INLINE Floats& operator+=(Floats other) {
         value += other.value;
         return *this;
     }
-    LAW Floats& operator*=(Floats other) {
+    ALWAYS_INLINE Floats& operator*=(Floats other) {
         value *= other.value;
         return *this;
     }
-    LAW Floats& operator/=(Floats other) {
+    ALWAYS_INLINE Floats& operator/=(Floats other) {
         value /= other.value;
         return *this;
     }
 };
 
-LAW Floats operator+(Floats a, Floats b) {
+ALWAYS_INLINE Floats operator+(Floats a, Floats b) {
     return a.value + b.value;
 }
-LAW Floats operator-(Floats a, Floats b) {
+ALWAYS_INLINE Floats operator-(Floats a, Floats b) {
     return a.value - b.value;
 }
-LAW Floats operator*(Floats a, Floats b) {
+ALWAYS_INLINE Floats operator*(Floats a, Floats b) {
     return a.value * b.value;
 }
-LAW Floats operator/(Floats a, Floats b) {
+ALWAYS_INLINE Floats operator/(Floats a, Floats b) {
     return a.value / b.value;
 }
-LAW Floats operator-(Floats a) {
+ALWAYS_INLINE Floats operator-(Floats a) {
     return -a.value;
 }
 
 #if defined(__AVX512F__)
-LAW Floats at_least(Floats x, Floats bound) {
+ALWAYS_INLINE Floats at_least(Floats x, Floats bound) {
     return FloatRegister(_mm512_maskz_max_ps(0xFFFF, bound.value, x.value));
 }
-LAW Floats at_most(Floats x, Floats bound) {
+ALWAYS_INLINE Floats at_most(Floats x, Floats bound) {
     return FloatRegister(_mm512_maskz_min_ps(0xFFFF, bound.value, x.value));
 }
-LAW Floats square_root(Floats x) {
+ALWAYS_INLINE Floats square_root(Floats x) {
     return FloatRegister(_mm512_maskz_sqrt_ps(0xFFFF, x.value));
 }
 #elif defined(__AVX__)
-LAW Floats at_least(Floats x, Floats bound) {
+ALWAYS_INLINE Floats at_least(Floats x, Floats bound) {
     return FloatRegister(_mm256_max_ps(bound.value, x.value));
 }
-LAW Floats at_most(Floats x, Floats bound) {
+ALWAYS_INLINE Floats at_most(Floats x, Floats bound) {
     return FloatRegister(_mm256_min_ps(bound.value, x.value));
 }
-LAW Floats square_root(Floats x) {
+ALWAYS_INLINE Floats square_root(Floats x) {
     return FloatRegister(_mm256_sqrt_ps(x.value));
 }
 #else
-LAW Floats at_least(Floats x, Floats bound) {
+ALWAYS_INLINE Floats at_least(Floats x, Floats bound) {
     return FloatRegister(_mm_max_ps(bound.value, x.value));
 }
-LAW Floats at_most(Floats x, Floats bound) {
+ALWAYS_INLINE Floats at_most(Floats x, Floats bound) {
     return FloatRegister(_mm_min_ps(bound.value, x.value));
 }
-LAW Floats square_root(Floats x) {
+ALWAYS_INLINE Floats square_root(Floats x) {
     return FloatRegister(_mm_sqrt_ps(x.value));
 }
 #endif
 
 // a b + c as for doubles.
-LAW Floats fused(Floats a, Floats b, Floats c) {
+ALWAYS_INLINE Floats fused(Floats a, Floats b, Floats c) {
 #if defined(__AVX512F__)
     return FloatRegister(_mm512_fmadd_ps(a.value, b.value, c.value));
 #elif defined(__FMA__)
@@ -100,10 +100,10 @@ LAW Floats fused(Floats a, Floats b, Floats c) {
 
 namespace vector {
 
-LAW FloatBits to_bits(Floats x) {
+ALWAYS_INLINE FloatBits to_bits(Floats x) {
     return std::bit_cast<FloatBits>(x.value);
 }
-LAW Floats to_floats(FloatBits bits) {
+ALWAYS_INLINE Floats to_floats(FloatBits bits) {
     return std::bit_cast<FloatRegister>(bits);
 }
 
@@ -127,7 +127,7 @@ struct SplitFloats {
     Floats mantissa, exponent;
 };
 
-LAW SplitFloats split(Floats x) {
+ALWAYS_INLINE SplitFloats split(Floats x) {
     constexpr std::uint32_t ROOT_HALF = 0x3f3504f3, ONE = FLOAT_BIAS << FLOAT_MANTISSA;
     constexpr std::uint32_t FRACTION = (std::uint32_t{1} << FLOAT_MANTISSA) - 1;
     constexpr std::uint32_t WHOLE = 0x4b000000;  // bits of 2^23, whose last counts 1
@@ -137,7 +137,7 @@ LAW SplitFloats split(Floats x) {
         to_floats((bits >> FLOAT_MANTISSA) | WHOLE) - (0x1p23 + static_cast<double>(FLOAT_BIAS))};
 }
 
-LAW Floats log_of(Floats t, Floats exponent) {
+ALWAYS_INLINE Floats log_of(Floats t, Floats exponent) {
     Floats s = t * t;
     Floats series = fused(s, fused(s, FLOAT_ARTANH[2], FLOAT_ARTANH[1]), FLOAT_ARTANH[0]);
     return fused(exponent, LN2_HIGH + LN2_LOW, t * series);
@@ -145,21 +145,21 @@ LAW Floats log_of(Floats t, Floats exponent) {
 
 }  // namespace vector
 
-LAW Floats magnitude(Floats x) {
+ALWAYS_INLINE Floats magnitude(Floats x) {
     return vector::to_floats(vector::to_bits(x) & ~vector::FLOAT_SIGN);
 }
 
-LAW Floats with_sign(Floats x, Floats y) {
+ALWAYS_INLINE Floats with_sign(Floats x, Floats y) {
     return vector::to_floats((vector::to_bits(x) & ~vector::FLOAT_SIGN) |
                              (vector::to_bits(y) & vector::FLOAT_SIGN));
 }
 
-LAW Floats where_less(Floats x, double bound, Floats then, Floats otherwise) {
+ALWAYS_INLINE Floats where_less(Floats x, double bound, Floats then, Floats otherwise) {
     return FloatRegister(x.value < Floats(bound).value ? then.value : otherwise.value);
 }
 
 // e**x, saturating at the ends of the range.
-LAW Floats exp(Floats x) {
+ALWAYS_INLINE Floats exp(Floats x) {
     using namespace vector;
     x = at_most(at_least(x, -FLOAT_LARGEST), FLOAT_LARGEST);
     Floats shifted = fused(x, INVERSE_LN2, FLOAT_ROUNDING), n = shifted - FLOAT_ROUNDING;
@@ -170,18 +170,18 @@ LAW Floats exp(Floats x) {
            to_floats((to_bits(shifted) + FLOAT_BIAS) << FLOAT_MANTISSA);
 }
 
-LAW Floats falling_exp(Floats x) {
+ALWAYS_INLINE Floats falling_exp(Floats x) {
     return exp(x);
 }
 
 // Natural logarithm of a positive normal number.
-LAW Floats log(Floats x) {
+ALWAYS_INLINE Floats log(Floats x) {
     auto [mantissa, exponent] = vector::split(x);
     return vector::log_of((mantissa - 1.0) / (mantissa + 1.0), exponent);
 }
 
 // Natural logarithms of three, with one division for all.
-LAW Three<Floats> logs(Floats x, Floats y, Floats z) {
+ALWAYS_INLINE Three<Floats> logs(Floats x, Floats y, Floats z) {
     auto [a, i] = vector::split(x);
     auto [b, j] = vector::split(y);
     auto [c, k] = vector::split(z);

@@ -1,10 +1,10 @@
 #pragma once
 
 // Several doubles in one vector register. Formulas that are templates over `Real` take a double or
-// `Lanes`; either gives the same bits.
+// `Lanes`, with bitwise identical results.
 //
-// A product is fused with a sum where a formula says so, never by the compiler: levels v3 and v4
-// give the same bits, whatever compiles them.
+// Products are fused with sums only where a formula requests it, never by the compiler: levels v3
+// and v4 give bitwise identical results with any compiler.
 
 #include <bit>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include <immintrin.h>
 
-#include "vector/law.hpp"
+#include "vector/attributes.hpp"
 
 namespace gearbox {
 
@@ -48,12 +48,12 @@ struct bits_of<Lanes> {
 };
 
 template <class Real>
-LAW typename bits_of<Real>::type to_bits(Real x) {
+ALWAYS_INLINE typename bits_of<Real>::type to_bits(Real x) {
     return std::bit_cast<typename bits_of<Real>::type>(x);
 }
 
 template <class Real>
-LAW Real from_bits(typename bits_of<Real>::type bits) {
+ALWAYS_INLINE Real from_bits(typename bits_of<Real>::type bits) {
     return std::bit_cast<Real>(bits);
 }
 
@@ -61,68 +61,68 @@ constexpr std::uint64_t SIGN = std::uint64_t{1} << 63;
 
 }  // namespace vector
 
-// The larger (smaller) of both; `x` if that is NaN, so that an error is not lost in a bound.
-LAW constexpr double at_least(double x, double bound) {
+// The larger (smaller) of both; `x` if that is NaN, so that a bound does not hide an error.
+ALWAYS_INLINE constexpr double at_least(double x, double bound) {
     return bound > x ? bound : x;
 }
-LAW constexpr double at_most(double x, double bound) {
+ALWAYS_INLINE constexpr double at_most(double x, double bound) {
     return bound < x ? bound : x;
 }
 
-#if defined(__AVX512F__)  // with masks gcc 12 does not warn of its own headers
-LAW Lanes at_least(Lanes x, Lanes bound) {
+#if defined(__AVX512F__)  // with masks gcc 12 does not warn about its own headers
+ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
     return _mm512_maskz_max_pd(0xFF, bound, x);
 }
-LAW Lanes at_most(Lanes x, Lanes bound) {
+ALWAYS_INLINE Lanes at_most(Lanes x, Lanes bound) {
     return _mm512_maskz_min_pd(0xFF, bound, x);
 }
 #elif defined(__AVX__)
-LAW Lanes at_least(Lanes x, Lanes bound) {
+ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
     return _mm256_max_pd(bound, x);
 }
-LAW Lanes at_most(Lanes x, Lanes bound) {
+ALWAYS_INLINE Lanes at_most(Lanes x, Lanes bound) {
     return _mm256_min_pd(bound, x);
 }
 #else
-LAW Lanes at_least(Lanes x, Lanes bound) {
+ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
     return _mm_max_pd(bound, x);
 }
-LAW Lanes at_most(Lanes x, Lanes bound) {
+ALWAYS_INLINE Lanes at_most(Lanes x, Lanes bound) {
     return _mm_min_pd(bound, x);
 }
 #endif
-LAW Lanes at_least(Lanes x, double bound) {
+ALWAYS_INLINE Lanes at_least(Lanes x, double bound) {
     return at_least(x, Lanes{} + bound);
 }
-LAW Lanes at_most(Lanes x, double bound) {
+ALWAYS_INLINE Lanes at_most(Lanes x, double bound) {
     return at_most(x, Lanes{} + bound);
 }
 
 template <class Real>
-LAW Real magnitude(Real x) {
+ALWAYS_INLINE Real magnitude(Real x) {
     return vector::from_bits<Real>(vector::to_bits(x) & ~vector::SIGN);
 }
 
 // The magnitude of x with the sign of y.
 template <class Real>
-LAW Real with_sign(Real x, Real y) {
+ALWAYS_INLINE Real with_sign(Real x, Real y) {
     return vector::from_bits<Real>((vector::to_bits(x) & ~vector::SIGN) |
                                    (vector::to_bits(y) & vector::SIGN));
 }
 
 // `then` where x is less than the bound.
-LAW double where_less(double x, double bound, double then, double otherwise) {
+ALWAYS_INLINE double where_less(double x, double bound, double then, double otherwise) {
     return x < bound ? then : otherwise;
 }
-LAW Lanes where_less(Lanes x, double bound, Lanes then, Lanes otherwise) {
+ALWAYS_INLINE Lanes where_less(Lanes x, double bound, Lanes then, Lanes otherwise) {
     return x < bound ? then : otherwise;
 }
-LAW Lanes where_less(Lanes x, double bound, double then, double otherwise) {
+ALWAYS_INLINE Lanes where_less(Lanes x, double bound, double then, double otherwise) {
     return where_less(x, bound, then - Lanes{}, otherwise - Lanes{});
 }
 
 // a b + c, rounded once where the level has fused products, else twice.
-LAW double fused(double a, double b, double c) {
+ALWAYS_INLINE double fused(double a, double b, double c) {
 #if defined(__FMA__)
     return __builtin_fma(a, b, c);
 #else
@@ -130,7 +130,7 @@ LAW double fused(double a, double b, double c) {
 #endif
 }
 
-LAW Lanes fused(Lanes a, Lanes b, Lanes c) {
+ALWAYS_INLINE Lanes fused(Lanes a, Lanes b, Lanes c) {
 #if defined(__AVX512F__)
     return _mm512_fmadd_pd(a, b, c);
 #elif defined(__FMA__)
@@ -139,21 +139,21 @@ LAW Lanes fused(Lanes a, Lanes b, Lanes c) {
     return a * b + c;
 #endif
 }
-LAW Lanes fused(Lanes a, double b, Lanes c) {
+ALWAYS_INLINE Lanes fused(Lanes a, double b, Lanes c) {
     return fused(a, b - Lanes{}, c);
 }
-LAW Lanes fused(Lanes a, Lanes b, double c) {
+ALWAYS_INLINE Lanes fused(Lanes a, Lanes b, double c) {
     return fused(a, b, c - Lanes{});
 }
-LAW Lanes fused(Lanes a, double b, double c) {
+ALWAYS_INLINE Lanes fused(Lanes a, double b, double c) {
     return fused(a, b - Lanes{}, c - Lanes{});
 }
 
-LAW double square_root(double x) {
+ALWAYS_INLINE double square_root(double x) {
     return std::sqrt(x);
 }
 
-LAW Lanes square_root(Lanes x) {
+ALWAYS_INLINE Lanes square_root(Lanes x) {
 #if defined(__AVX512F__)
     return _mm512_maskz_sqrt_pd(0xFF, x);
 #elif defined(__AVX__)

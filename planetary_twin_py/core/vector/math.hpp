@@ -3,7 +3,7 @@
 // exp, log, sine and cosine without branches or calls, so that loops over them vectorise.
 //
 // Relative error below 1e-11 of exp, absolute error below 1e-12 of log; precise_exp and sin_cos are
-// exact to the last digits. No conversion between doubles and 64-bit integers, which AVX2 lacks:
+// accurate to the last digits. No conversion between doubles and 64-bit integers, which AVX2 lacks:
 // adding 1.5 * 2^52 rounds to a whole number and leaves it in the low bits.
 
 #include <bit>
@@ -36,16 +36,17 @@ constexpr double inverse_factorial(int n) {
 
 // Polynomial with these coefficients, lowest first, in x^2 alone: every other one from `LAST` down.
 template <int LAST, class Real>
-LAW Real every_other(const double* coefficient, Real square) {
+ALWAYS_INLINE Real every_other(const double* coefficient, Real square) {
     Real sum = fused(square, coefficient[LAST], coefficient[LAST - 2]);
 #pragma GCC unroll 16
     for (int n = LAST - 4; n >= 0; n -= 2) sum = fused(sum, square, coefficient[n]);
     return sum;
 }
 
-// Polynomial with these coefficients, lowest first: even and odd powers, half as long to wait for.
+// Polynomial with these coefficients, lowest first: even and odd powers apart, which halves the
+// latency.
 template <class Real, int COUNT>
-LAW Real polynomial_of(const double (&coefficient)[COUNT], Real x) {
+ALWAYS_INLINE Real polynomial_of(const double (&coefficient)[COUNT], Real x) {
     Real square = x * x;
     Real last = every_other<COUNT - 1>(coefficient, square);
     Real other = every_other<COUNT - 2>(coefficient, square);
@@ -72,7 +73,7 @@ struct Reduced {
 };
 
 template <class Real>
-LAW Reduced<Real> reduce(Real x) {
+ALWAYS_INLINE Reduced<Real> reduce(Real x) {
     Real shifted = fused(x, INVERSE_LN2, ROUNDING);
     Real n = shifted - ROUNDING;
     return {fused(n, -LN2_LOW, fused(n, -LN2_HIGH, x)),
@@ -80,7 +81,7 @@ LAW Reduced<Real> reduce(Real x) {
 }
 
 template <class Real>
-LAW Real short_exp(Real x) {
+ALWAYS_INLINE Real short_exp(Real x) {
     Reduced<Real> reduced = reduce(x);
     Real r = reduced.rest;
     return fused(r, polynomial_of(REST_OF_EXP, r), 1.0) * reduced.scale;
@@ -90,20 +91,20 @@ LAW Real short_exp(Real x) {
 
 // e**x for any finite x, saturating at the ends of the double range.
 template <class Real>
-LAW Real exp(Real x) {
+ALWAYS_INLINE Real exp(Real x) {
     return vector::short_exp(
         at_most(at_least(x, -vector::LARGEST_EXPONENT), vector::LARGEST_EXPONENT));
 }
 
 // The same for x <= 700.
 template <class Real>
-LAW Real falling_exp(Real x) {
+ALWAYS_INLINE Real falling_exp(Real x) {
     return vector::short_exp(at_least(x, -vector::LARGEST_EXPONENT));
 }
 
 // e**x to the last digits for x <= 0, saturating at the end of the double range.
 template <class Real>
-LAW Real precise_exp(Real x) {
+ALWAYS_INLINE Real precise_exp(Real x) {
     vector::Reduced<Real> reduced = vector::reduce(at_least(x, -vector::LARGEST_EXPONENT));
     return vector::polynomial_of(vector::TAYLOR_OF_EXP, reduced.rest) * reduced.scale;
 }
@@ -113,7 +114,7 @@ struct SinCos {
 };
 
 // Sine and cosine of -1e5 <= x <= 1e5.
-LAW SinCos sin_cos(double x) {
+ALWAYS_INLINE SinCos sin_cos(double x) {
     using namespace vector;
     double shifted = fused(x, INVERSE_RIGHT_ANGLE, ROUNDING);
     double n = shifted - ROUNDING;
@@ -161,7 +162,7 @@ struct Split {
 };
 
 template <class Real>
-LAW Split<Real> split(Real x) {
+ALWAYS_INLINE Split<Real> split(Real x) {
     constexpr std::uint64_t TO_ROOT_HALF = 0x95F619980C433;  // from the mantissa of sqrt(2) to 2
     constexpr std::uint64_t FRACTION = (std::uint64_t{1} << MANTISSA) - 1;
     constexpr std::uint64_t ONE = BIAS << MANTISSA;
@@ -173,7 +174,7 @@ LAW Split<Real> split(Real x) {
 
 // 2 artanh(t) + exponent log(2).
 template <class Real>
-LAW Real log_of(Real t, Real exponent) {
+ALWAYS_INLINE Real log_of(Real t, Real exponent) {
     return fused(exponent, LN2_HIGH + LN2_LOW, t * polynomial_of(ARTANH, t * t));
 }
 
@@ -181,13 +182,13 @@ LAW Real log_of(Real t, Real exponent) {
 
 // Natural logarithm of a positive normal number.
 template <class Real>
-LAW Real log(Real x) {
+ALWAYS_INLINE Real log(Real x) {
     auto [mantissa, exponent] = vector::split(x);
     return vector::log_of((mantissa - 1.0) / (mantissa + 1.0), exponent);
 }
 
 // x**y for x >= 0 to a relative error of 1e-11; for x = 0 and y > 0 not quite 0.
-LAW double power(double x, double y) {
+ALWAYS_INLINE double power(double x, double y) {
     return exp(y * log(x));
 }
 
@@ -198,7 +199,7 @@ struct Three {
 
 // Natural logarithms of three positive normal numbers, with one division for all.
 template <class Real>
-LAW Three<Real> logs(Real x, Real y, Real z) {
+ALWAYS_INLINE Three<Real> logs(Real x, Real y, Real z) {
     auto [a, i] = vector::split(x);
     auto [b, j] = vector::split(y);
     auto [c, k] = vector::split(z);

@@ -2,24 +2,24 @@
 
 // Rows of numbers in vector registers, one for each body, mode or mesh.
 //
-// Every operation acts on each number by itself, so what comes out does not depend on the width of
-// the registers.
+// Every operation acts on each number separately, so results do not depend on the width of the
+// registers.
 
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 #include "train/train.hpp"
+#include "vector/attributes.hpp"
 #include "vector/lanes.hpp"
-#include "vector/law.hpp"
 
 namespace gearbox {
 
 using MaskRegister [[gnu::vector_size(8 * WIDTH)]] = std::int64_t;
 
-// Which numbers of a row a condition holds for.
+// For each number of a row, whether a condition holds.
 template <int L>
 struct Mask {
     MaskRegister part[L / WIDTH];
@@ -32,40 +32,40 @@ struct Row {
 
     Row() = default;
 
-    LAW Row(double value) {
+    ALWAYS_INLINE Row(double value) {
         for (int k = 0; k < PARTS; ++k) part[k] = value - Lanes{};
     }
 
-    LAW explicit Row(const double* values) {
+    ALWAYS_INLINE explicit Row(const double* values) {
         for (int k = 0; k < PARTS; ++k) __builtin_memcpy(&part[k], values + k * WIDTH, 8 * WIDTH);
     }
 
-    LAW void store(double* values) const {
+    ALWAYS_INLINE void store(double* values) const {
         for (int k = 0; k < PARTS; ++k) __builtin_memcpy(values + k * WIDTH, &part[k], 8 * WIDTH);
     }
 
-    LAW double operator[](int i) const { return part[i / WIDTH][i % WIDTH]; }
+    ALWAYS_INLINE double operator[](int i) const { return part[i / WIDTH][i % WIDTH]; }
 
-    LAW Row& operator+=(const Row& other) { return *this = *this + other; }
-    LAW Row& operator-=(const Row& other) { return *this = *this - other; }
-    LAW Row& operator*=(const Row& other) { return *this = *this * other; }
+    ALWAYS_INLINE Row& operator+=(const Row& other) { return *this = *this + other; }
+    ALWAYS_INLINE Row& operator-=(const Row& other) { return *this = *this - other; }
+    ALWAYS_INLINE Row& operator*=(const Row& other) { return *this = *this * other; }
 };
 
 #define ROW_ARITHMETIC(sign)                                                            \
     template <int L>                                                                    \
-    LAW Row<L> operator sign(const Row<L>& a, const Row<L>& b) {                        \
+    ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, const Row<L>& b) {              \
         Row<L> out;                                                                     \
         for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k]; \
         return out;                                                                     \
     }                                                                                   \
     template <int L>                                                                    \
-    LAW Row<L> operator sign(const Row<L>& a, double b) {                               \
+    ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, double b) {                     \
         Row<L> out;                                                                     \
         for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b;         \
         return out;                                                                     \
     }                                                                                   \
     template <int L>                                                                    \
-    LAW Row<L> operator sign(double a, const Row<L>& b) {                               \
+    ALWAYS_INLINE Row<L> operator sign(double a, const Row<L>& b) {                     \
         Row<L> out;                                                                     \
         for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a sign b.part[k];         \
         return out;                                                                     \
@@ -77,7 +77,7 @@ ROW_ARITHMETIC(/)
 #undef ROW_ARITHMETIC
 
 template <int L>
-LAW Row<L> operator-(const Row<L>& a) {
+ALWAYS_INLINE Row<L> operator-(const Row<L>& a) {
     Row<L> out;
     for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = -a.part[k];
     return out;
@@ -85,29 +85,29 @@ LAW Row<L> operator-(const Row<L>& a) {
 
 // a b + c of each number, see `lanes.hpp`.
 template <int L>
-LAW Row<L> fused(const Row<L>& a, const Row<L>& b, const Row<L>& c) {
+ALWAYS_INLINE Row<L> fused(const Row<L>& a, const Row<L>& b, const Row<L>& c) {
     Row<L> out;
     for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = fused(a.part[k], b.part[k], c.part[k]);
     return out;
 }
 template <int L>
-LAW Row<L> fused(const Row<L>& a, double b, const Row<L>& c) {
+ALWAYS_INLINE Row<L> fused(const Row<L>& a, double b, const Row<L>& c) {
     return fused(a, Row<L>(b), c);
 }
 template <int L>
-LAW Row<L> fused(double a, const Row<L>& b, const Row<L>& c) {
+ALWAYS_INLINE Row<L> fused(double a, const Row<L>& b, const Row<L>& c) {
     return fused(Row<L>(a), b, c);
 }
 
 #define ROW_COMPARISON(sign)                                                            \
     template <int L>                                                                    \
-    LAW Mask<L> operator sign(const Row<L>& a, const Row<L>& b) {                       \
+    ALWAYS_INLINE Mask<L> operator sign(const Row<L>& a, const Row<L>& b) {             \
         Mask<L> out;                                                                    \
         for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k]; \
         return out;                                                                     \
     }                                                                                   \
     template <int L>                                                                    \
-    LAW Mask<L> operator sign(const Row<L>& a, double b) {                              \
+    ALWAYS_INLINE Mask<L> operator sign(const Row<L>& a, double b) {                    \
         return a sign Row<L>(b);                                                        \
     }
 ROW_COMPARISON(<)
@@ -116,14 +116,14 @@ ROW_COMPARISON(==)
 #undef ROW_COMPARISON
 
 template <int L>
-LAW Mask<L> operator&(const Mask<L>& a, const Mask<L>& b) {
+ALWAYS_INLINE Mask<L> operator&(const Mask<L>& a, const Mask<L>& b) {
     Mask<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = a.part[k] & b.part[k];
     return out;
 }
 
 template <int L>
-LAW Mask<L> operator!(const Mask<L>& a) {
+ALWAYS_INLINE Mask<L> operator!(const Mask<L>& a) {
     Mask<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = ~a.part[k];
     return out;
@@ -131,7 +131,7 @@ LAW Mask<L> operator!(const Mask<L>& a) {
 
 // Whether a condition holds for no number.
 template <int L>
-LAW bool none(const Mask<L>& a) {
+ALWAYS_INLINE bool none(const Mask<L>& a) {
     MaskRegister any = a.part[0];
     for (int k = 1; k < L / WIDTH; ++k) any |= a.part[k];
     std::int64_t found = 0;
@@ -150,52 +150,52 @@ inline constexpr Places PLACES;
 
 // The first numbers of a row.
 template <int L>
-LAW Mask<L> first_of_row(std::int64_t count) {
+ALWAYS_INLINE Mask<L> first_of_row(std::int64_t count) {
     return Row<L>(PLACES.number) < static_cast<double>(count);
 }
 
 // `a` where the mask holds, else `b`.
 template <int L>
-LAW Row<L> select(const Mask<L>& mask, const Row<L>& a, const Row<L>& b) {
+ALWAYS_INLINE Row<L> select(const Mask<L>& mask, const Row<L>& a, const Row<L>& b) {
     Row<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = mask.part[k] ? a.part[k] : b.part[k];
     return out;
 }
 
 template <int L>
-LAW Row<L> select(const Mask<L>& mask, const Row<L>& a, double b) {
+ALWAYS_INLINE Row<L> select(const Mask<L>& mask, const Row<L>& a, double b) {
     return select(mask, a, Row<L>(b));
 }
 
 template <int L>
-LAW Row<L> select(const Mask<L>& mask, double a, const Row<L>& b) {
+ALWAYS_INLINE Row<L> select(const Mask<L>& mask, double a, const Row<L>& b) {
     return select(mask, Row<L>(a), b);
 }
 
 // The larger (smaller) of both; the first if it is not a number.
 template <int L>
-LAW Row<L> larger(const Row<L>& a, const Row<L>& b) {
+ALWAYS_INLINE Row<L> larger(const Row<L>& a, const Row<L>& b) {
     Row<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = at_least(a.part[k], b.part[k]);
     return out;
 }
 
 template <int L>
-LAW Row<L> smaller(const Row<L>& a, const Row<L>& b) {
+ALWAYS_INLINE Row<L> smaller(const Row<L>& a, const Row<L>& b) {
     Row<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = at_most(a.part[k], b.part[k]);
     return out;
 }
 
 template <int L>
-LAW Row<L> absolute(const Row<L>& a) {
+ALWAYS_INLINE Row<L> absolute(const Row<L>& a) {
     Row<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = magnitude(a.part[k]);
     return out;
 }
 
 template <int L>
-LAW Row<L> square_root(const Row<L>& a) {
+ALWAYS_INLINE Row<L> square_root(const Row<L>& a) {
     Row<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = square_root(a.part[k]);
     return out;
@@ -203,7 +203,7 @@ LAW Row<L> square_root(const Row<L>& a) {
 
 // Join all numbers of a row by halves, in an order that does not depend on the registers.
 template <int L, class Join>
-LAW double fold(const Row<L>& a, Join&& join) {
+ALWAYS_INLINE double fold(const Row<L>& a, Join&& join) {
     double part[L];
 #pragma GCC unroll 64
     for (int i = 0; i < L; ++i) part[i] = a[i];
@@ -220,18 +220,18 @@ LAW double fold(const Row<L>& a, Join&& join) {
 }
 
 template <int L>
-LAW double total(const Row<L>& a) {
+ALWAYS_INLINE double total(const Row<L>& a) {
     return fold(a, [](double x, double y) { return x + y; });
 }
 
-// The largest number; what is no number may be lost.
+// The largest number; NaN may be ignored.
 template <int L>
-LAW double largest(const Row<L>& a) {
+ALWAYS_INLINE double largest(const Row<L>& a) {
     return fold(a, [](double x, double y) { return y > x ? y : x; });
 }
 
-// Lanes in which small trains have room: 3 planets, or planets of the same motion where axes move;
-// then 4 planets whose axes move in the plane, 7 of these, and 4 whose axes tilt.
+// Lanes of small trains: 3 planets, or planets of the same motion where axes move; then 4 planets
+// whose axes move in the plane, 7 of these, and 4 whose axes tilt.
 inline constexpr int FEW_LANES = 8, MORE_LANES = 24, MANY_LANES = 40, TILTING_LANES = 48;
 
 // Lanes of the meshes of a train with L lanes of bodies: where axes move, it has fewer meshes.
@@ -270,7 +270,7 @@ inline std::int64_t mesh_lanes(const Train& train) {
 }
 
 template <int L>
-LAW void copy(const double* source, double* target) {
+ALWAYS_INLINE void copy(const double* source, double* target) {
     Row<L>(source).store(target);
 }
 
@@ -286,10 +286,10 @@ struct MatrixRows {
 // Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero. The rows have L
 // lanes.
 //
-// Weights that have just been computed are best given as a Row: read back from memory, each would
-// wait until all of the row is written.
+// Weights that have just been computed are best passed as a Row: reading them from memory would
+// stall until the whole row is written.
 template <int L, int COUNT>
-LAW Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
+ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
     const double* row = rows.first;
     if constexpr (COUNT <= MORE_LANES) {
         Row<L> sum = Row<L>(row) * weights[0];
@@ -306,7 +306,7 @@ LAW Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
     }
 }
 
-// Two rows that belong together, as values and their rates.
+// Two related rows, e.g. values and their rates.
 template <int L>
 struct RowPair {
     Row<L> first, second;
@@ -314,7 +314,7 @@ struct RowPair {
 
 // The same sums for two rows of weights.
 template <int L, int COUNT>
-LAW RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& weights) {
+ALWAYS_INLINE RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& weights) {
     if constexpr (COUNT <= MORE_LANES) {
         return {sum_rows<L>(rows, weights.first), sum_rows<L>(rows, weights.second)};
     } else {

@@ -60,7 +60,7 @@ void tridiagonalise(double (*a)[BODIES], int n, double* d, double* e) {
     }
 }
 
-// First place from l on where the subdiagonal is nothing beside the diagonal.
+// First place from l on where the subdiagonal is negligible relative to the diagonal.
 int split_at(const double* d, const double* e, int l, int n) {
     int m = l;
     for (; m < n - 1; ++m) {
@@ -70,7 +70,7 @@ int split_at(const double* d, const double* e, int l, int n) {
     return m;
 }
 
-// Without the C library's, whose last digit depends on the processor.
+// Without hypot of the C library, whose last digit depends on the processor.
 double length_of(double a, double b) {
     return std::sqrt(a * a + b * b);
 }

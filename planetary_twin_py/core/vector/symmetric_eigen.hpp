@@ -2,7 +2,7 @@
 
 // Eigenvalues and eigenvectors of small symmetric matrices.
 
-#include "rooms.hpp"
+#include "capacities.hpp"
 
 namespace gearbox {
 

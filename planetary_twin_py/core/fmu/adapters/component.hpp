@@ -17,10 +17,10 @@ enum class Phase { MADE, INITIALIZING, STEPPING, STOPPED, FAILED };
 
 class Component {
 public:
-    using Tell = std::function<void(Status, const char*)>;
+    using Report = std::function<void(Status, const char*)>;
 
-    Component(std::unique_ptr<Instance> instance, Tell tell)
-        : instance_(std::move(instance)), tell_(std::move(tell)) {}
+    Component(std::unique_ptr<Instance> instance, Report report)
+        : instance_(std::move(instance)), report_(std::move(report)) {}
 
     Status get(const std::uint32_t* references, std::size_t count, double* values) {
         if (phase_ == Phase::MADE)
@@ -99,7 +99,7 @@ public:
     }
 
     Status refuse(const std::string& reason) {
-        tell_(ERROR, reason.c_str());
+        report_(ERROR, reason.c_str());
         return ERROR;
     }
 
@@ -110,10 +110,10 @@ private:
     };
 
     std::unique_ptr<Instance> instance_;
-    Tell tell_;
+    Report report_;
     Phase phase_ = Phase::MADE;
 
-    Status answer(const Complaint& complaint) { return complaint.empty() ? OK : refuse(complaint); }
+    Status answer(const ErrorMessage& error) { return error.empty() ? OK : refuse(error); }
 };
 
 }  // namespace fmu

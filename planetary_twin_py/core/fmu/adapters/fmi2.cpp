@@ -77,19 +77,19 @@ EXPORTED int fmi2SetDebugLogging(void*, int, std::size_t, const char* const*) {
 
 EXPORTED void* fmi2Instantiate(const char* name, int type, const char*, const char* resources,
                                const Callbacks* callbacks, int, int) {
-    auto tell = [=, own = std::string(name ? name : "")](Status status, const char* message) {
+    auto report = [=, own = std::string(name ? name : "")](Status status, const char* message) {
         if (callbacks && callbacks->logger)
             callbacks->logger(callbacks->environment, own.c_str(), status, "logStatusError", "%s",
                               message);
     };
-    fmu::Complaint complaint;
+    fmu::ErrorMessage error;
     const std::string folder = resources ? path_of(resources) : "";
-    if (folder.empty()) complaint = "fmuResourceLocation: must be a URI file:///...";
-    if (type != CO_SIMULATION) complaint = "fmuType: must be fmi2CoSimulation";
+    if (folder.empty()) error = "fmuResourceLocation: must be a URI file:///...";
+    if (type != CO_SIMULATION) error = "fmuType: must be fmi2CoSimulation";
     std::unique_ptr<fmu::Instance> instance;
-    if (complaint.empty()) instance = fmu::load(folder, complaint);
-    if (instance) return new Component2{Component(std::move(instance), tell)};
-    tell(fmu::ERROR, complaint.c_str());
+    if (error.empty()) instance = fmu::load(folder, error);
+    if (instance) return new Component2{Component(std::move(instance), report)};
+    report(fmu::ERROR, error.c_str());
     return nullptr;
 }
 

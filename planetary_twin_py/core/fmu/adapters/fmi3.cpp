@@ -34,16 +34,16 @@ EXPORTED int fmi3SetDebugLogging(void*, bool, std::size_t, const char* const*) {
 EXPORTED void* fmi3InstantiateCoSimulation(const char*, const char*, const char* resources, bool,
                                            bool, bool event_mode, bool, const Reference*,
                                            std::size_t, void* environment, Log log, void*) {
-    auto tell = [=](Status status, const char* message) {
+    auto report = [=](Status status, const char* message) {
         if (log) log(environment, status, "logStatusError", message);
     };
-    fmu::Complaint complaint;
-    if (event_mode) complaint = "eventModeUsed: must be false, there is no event mode";
-    if (!resources) complaint = "resourcePath: is missing";
+    fmu::ErrorMessage error;
+    if (event_mode) error = "eventModeUsed: must be false, there is no event mode";
+    if (!resources) error = "resourcePath: is missing";
     std::unique_ptr<fmu::Instance> instance;
-    if (complaint.empty()) instance = fmu::load(resources, complaint);
-    if (instance) return new Component(std::move(instance), tell);
-    tell(fmu::ERROR, complaint.c_str());
+    if (error.empty()) instance = fmu::load(resources, error);
+    if (instance) return new Component(std::move(instance), report);
+    report(fmu::ERROR, error.c_str());
     return nullptr;
 }
 

@@ -27,21 +27,21 @@ const Level* levels() {
 
 }  // namespace
 
-std::unique_ptr<Instance> load(const std::string& resources, Complaint& complaint) {
+std::unique_ptr<Instance> load(const std::string& resources, ErrorMessage& error) {
     for (const Level* level = levels(); level->name; ++level) {
         const std::string path = resources + "/" + level->name + ".so";
         if (!level->runs || access(path.c_str(), R_OK) != 0) continue;
         void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays until the end
         void* make = library ? dlsym(library, "make_instance") : nullptr;
         if (!make) {
-            complaint = dlerror();
+            error = dlerror();
             return nullptr;
         }
         const std::string records = resources + "/scene.bin";
         auto make_instance = reinterpret_cast<MakeInstance>(make);
-        return std::unique_ptr<Instance>(make_instance(records.c_str(), complaint));
+        return std::unique_ptr<Instance>(make_instance(records.c_str(), error));
     }
-    complaint = resources + ": has no library for this processor; export the FMU from a wheel";
+    error = resources + ": has no library for this processor; export the FMU from a wheel";
     return nullptr;
 }
 

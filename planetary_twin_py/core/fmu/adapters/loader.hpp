@@ -11,6 +11,6 @@ namespace fmu {
 
 // Make an instance of the scene in a folder of resources. If it fails, it returns null and sets the
 // message.
-std::unique_ptr<Instance> load(const std::string& resources, Complaint& complaint);
+std::unique_ptr<Instance> load(const std::string& resources, ErrorMessage& error);
 
 }  // namespace fmu

@@ -1,4 +1,4 @@
-"""Reports in /diagnostics whether the results of the twin are as accurate as its tolerance."""
+"""Reports in /diagnostics whether the results of the twin are consistent with its tolerance."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.node import Node
 
-from .audience import PATIENCE
+from .subscription_wait import TIMEOUT
 
 _NOW = Duration()
 _SILENCE = 20.0  # [s] without a status, after which the recorder may have been killed
@@ -22,7 +22,7 @@ class _Polled(CallbackGroup):  # type: ignore[misc]
     """Excludes a subscription from the executor: `Backlog` polls it."""
 
     def can_execute(self, entity: object) -> bool:
-        """Return False: the executor may itself be waiting for a twin that is held."""
+        """Return False: the executor may be waiting for a twin that waits for its recorder."""
         return False
 
 
@@ -117,11 +117,11 @@ class Backlog:
         now = time.monotonic()
         if all(self._arrived(*sent) for sent in self._published().items()):
             self._since, self._given_up = now, False
-        elif not self._given_up and now > self._since + PATIENCE:
+        elif not self._given_up and now > self._since + TIMEOUT:
             self._given_up = True
             self._node.get_logger().warning(
                 f"wait_for = {self._name}: subscribers have not acknowledged messages for "
-                f"{PATIENCE:g} s; the twin continues, and they may lose messages"
+                f"{TIMEOUT:g} s; the twin continues, and they may lose messages"
             )
         return self._given_up or self._since == now
 

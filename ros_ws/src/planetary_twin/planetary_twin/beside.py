@@ -14,9 +14,9 @@ from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import FollowedTrain
 
 PERIOD = 1.0  # [s] smallest time between two changes
-RAMP = 1.0  # [s] duration of a change: 50 periods of the couplings, which a step would excite
-_SMALL = 0.005  # change of torque and speed below which nothing is sent, over those of the scene
-_COOL = 0.5  # [K] change of the oil temperature below which nothing is sent
+RAMP = 1.0  # [s] duration of a change: a step would excite vibration of the couplings
+_SMALL = 0.005  # relative change of torque and speed, to those of the scene, that is sent
+_OIL_STEP = 0.5  # [K] change of the oil temperature that is sent
 _LOG_PERIOD = 10.0  # [s]
 
 
@@ -34,7 +34,7 @@ class TwinBeside:
         self._steps = {
             "input_torque": _SMALL * train.torque,
             "input_speed": _SMALL * train.speed,
-            "oil_temperature": _COOL,
+            "oil_temperature": _OIL_STEP,
         }
         self._sent: dict[str, float] = {}
         self._next = 0.0

@@ -78,7 +78,7 @@ def _arrival(sender: Node, receiver: Node, deadline: float) -> float | None:
 
 
 def _leftovers() -> Finding:
-    """Look for shared memory that killed nodes left: new nodes print errors about it."""
+    """Find shared memory left by killed nodes: new nodes print errors about it."""
     mapped = _mapped()
     left = [
         file

@@ -21,8 +21,8 @@ class Client:
     """
     A node that spins in a separate thread.
 
-    `name` and `namespace` are those of the node. `watch` is called repeatedly while it waits;
-    what it raises ends the wait.
+    `name` and `namespace` are those of the node. `watch` is called repeatedly while the client
+    waits; an exception that it raises ends the wait.
     """
 
     def __init__(

@@ -11,7 +11,7 @@ from .simulation import Simulation
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run both nodes until a signal; the simulation waits until the logger has subscribed."""
+    """Run both nodes until a signal; the simulation waits for the subscriptions of the logger."""
     return run_nodes(
         {"logger": Logger, "simulation": partial(Simulation, {"wait_for": "logger"})}, args
     )

@@ -38,7 +38,7 @@ from .stamps import STEADY, StrictClock
 
 _REPORT_PERIOD = 1.0  # [s]
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_QUEUED = QoSProfile(depth=1000)  # a computer that has been busy says much at once
+_QUEUED = QoSProfile(depth=1000)  # an overloaded computer publishes many messages at once
 _LAST = 10.0  # [s] longest wait until the last messages have arrived
 _KINDS = {
     "estimate": msg.FollowerEstimate,
@@ -170,7 +170,7 @@ class Follower(ManagedNode):
         self.get_logger().error(f"{reason}; following has ended until ~/reset")
 
     def jumped(self, seconds: float) -> None:
-        """Report stamps that have gone back."""
+        """Report stamps that have jumped back."""
         self._jumps += 1
         restarts = self._options.reset_on_time_jump
         what = "restarts" if restarts else "readings are late until stamps are newer than before"

@@ -69,7 +69,10 @@ def declare_options(node: ParameterNode) -> None:
         node, "sensor_timeout", 2.0, (0.1, 3600.0), "silence after which estimates are stale [s]"
     )
     declare_fixed(
-        node, "reset_on_time_jump", False, "restart when stamps jump back, as bags in a loop"
+        node,
+        "reset_on_time_jump",
+        False,
+        "restart when stamps jump back, as those of a bag in a loop",
     )
     declare_fixed(node, "frame_id", "gearbox", "base frame of the gearbox")
     declare_fixed(
@@ -83,11 +86,11 @@ def declare_options(node: ParameterNode) -> None:
     )
     declare_changing(
         node, "friction_limit", 2.0, (1.0, 100.0),
-        "friction level whose interval above it is an error in /diagnostics [-]",
+        "friction level above which /diagnostics reports an error [-]",
     )  # fmt: skip
     declare_changing(
         node, "tooth_limit", 0.05, (0.0, 1.0),
-        "loss of stiffness of a tooth whose interval above it is an error in /diagnostics [-]",
+        "loss of stiffness of a tooth above which /diagnostics reports an error [-]",
     )  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from planetary_twin_py.following.follower import Following
 from planetary_twin_py.recording.ros2.topics import status_name
 
 REPORTS = "inputs", "clock", "estimator", "condition"
-_SPOILT = ("late", "doubled", "outlying", "ahead", "encoder_late", "encoder_lost")
+_UNUSED = ("late", "doubled", "outlying", "ahead", "encoder_late", "encoder_lost")
 
 
 class Limits(NamedTuple):
@@ -39,7 +39,7 @@ class Feed(NamedTuple):
     shared: Sequence[str]
     """Topics of one sensor that have several publishers."""
     acknowledged: Set[tuple[str, float]] = frozenset()
-    """Events that a user knows, by `key_of`."""
+    """Acknowledged events, by `key_of`."""
 
 
 def key_of(event: Event) -> tuple[str, float]:
@@ -83,9 +83,9 @@ def _inputs(state: Following, feed: Feed) -> _Part:
         return DiagnosticStatus.STALE, "no readings yet", values
     if feed.silent > feed.timeout:
         return DiagnosticStatus.STALE, f"no readings for {feed.silent:.1f} s", values
-    spoilt = {name: state.counters[name] for name in _SPOILT if state.counters.get(name)}
-    if spoilt:
-        words = ", ".join(f"{name} {count}" for name, count in spoilt.items())
+    unused = {name: state.counters[name] for name in _UNUSED if state.counters.get(name)}
+    if unused:
+        words = ", ".join(f"{name} {count}" for name, count in unused.items())
         return DiagnosticStatus.OK, f"received; not used: {words}", values
     return DiagnosticStatus.OK, "received", values
 

@@ -41,7 +41,7 @@ class Source(Protocol):
         """Return the messages that have arrived since the last call, in order."""
 
 
-class Audience(Protocol):
+class Listener(Protocol):
     """Receives the results of the follower, called in its thread."""
 
     def started(self) -> None:
@@ -54,7 +54,7 @@ class Audience(Protocol):
         """Report readings that contradict the scene."""
 
     def jumped(self, seconds: float) -> None:
-        """Report stamps that have gone back by so many seconds."""
+        """Report stamps that have jumped back by `seconds`."""
 
     def broke(self, defect: Exception) -> None:
         """Report that following has ended."""
@@ -106,15 +106,15 @@ class Portions:
 
 class LiveFollower:
     """
-    Passes the messages of `source` to a follower and its estimates to `audience`.
+    Passes the messages of `source` to a follower and its estimates to `listener`.
 
     The estimates depend on the messages only: not on when the thread runs, and not on how many
-    messages it processes at once. On a slow computer the same estimates come later. Only silence
-    is measured by the clock.
+    messages it processes at once. On a slow computer the same estimates are published later. Only
+    the time without readings is measured by the clock.
     """
 
-    def __init__(self, options: FollowerOptions, source: Source, audience: Audience) -> None:
-        self._options, self._source, self._audience = options, source, audience
+    def __init__(self, options: FollowerOptions, source: Source, listener: Listener) -> None:
+        self._options, self._source, self._listener = options, source, listener
         self._begin()
         self.behind = 0.0
         """Time that the last messages waited for this thread [s]."""
@@ -172,7 +172,7 @@ class LiveFollower:
         return self._refusal
 
     def _begin(self) -> None:
-        self._audience.started()
+        self._listener.started()
         self._follower = self._options.follower()
         self.latest: Following = self._follower.estimate()
         """The last reported estimate."""
@@ -182,13 +182,13 @@ class LiveFollower:
         self._due = -math.inf  # stamp of the next one to report [s]
         self._jumps = JumpWatch()
         self._refusal = ""
-        self._stale = True  # there is no estimate that could become stale
+        self._stale = True  # there is no estimate yet
 
     def _run(self) -> None:
         try:
             self._follow()
         except Exception as defect:
-            self._audience.broke(defect)
+            self._listener.broke(defect)
 
     def _follow(self) -> None:
         looked = -math.inf
@@ -218,14 +218,16 @@ class LiveFollower:
         for n, one in enumerate(arrived):
             if (back := self._jumps.add(one)) is None:
                 continue
-            self._audience.jumped(back)
+            self._listener.jumped(back)
             if self._options.reset_on_time_jump:
                 self._process(arrived[begin:n])
                 self._begin()
                 begin = n
         self._process(arrived[begin:])
         now = time.monotonic()
-        self._advanced = min(self._advanced + now - started, now)  # computing is no silence
+        self._advanced = min(
+            self._advanced + now - started, now
+        )  # the time for computing does not count as silence
         if not self._stale and now > self._advanced + self._options.sensor_timeout:
             self._stale = True
             self._report(self._follower.estimate(now=math.inf))
@@ -240,12 +242,12 @@ class LiveFollower:
         self._checked(process)
 
     def _checked(self, step: Callable[[], None]) -> None:
-        """Run `step`; readings of another unit, sign or shaft end the following."""
+        """Run `step`; readings with a wrong unit, sign or shaft end the following."""
         try:
             step()
         except InputError as fault:
             self._refusal = str(fault)
-            self._audience.refused(self._refusal)
+            self._listener.refused(self._refusal)
 
     def _report_what_is_new(self) -> None:
         """Report an estimate whenever the stamps have advanced by the publishing period."""
@@ -260,4 +262,4 @@ class LiveFollower:
 
     def _report(self, estimate: Following) -> None:
         self.latest = estimate
-        self._audience.estimated(estimate)
+        self._listener.estimated(estimate)

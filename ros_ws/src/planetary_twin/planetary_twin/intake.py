@@ -35,7 +35,7 @@ class _Polled(CallbackGroup):  # type: ignore[misc]
     """Excludes subscriptions from the executor: `Intake.take` polls them."""
 
     def can_execute(self, entity: object) -> bool:
-        """Return False: an executor would cost more than all that is done with a message."""
+        """Return False: the executor would take longer than the processing of a message."""
         return False
 
 
@@ -50,7 +50,7 @@ class _Inlet:
         self._matched = 0  # publishers whose offers are known
 
     def follow_publishers(self) -> list[tuple[int, Any]]:
-        """Renew the subscription if publishers offer another reliability; returns what waited."""
+        """Renew the subscription if the offered reliability changed; return queued messages."""
         self.publishers = matched = self._node.count_publishers(self.name)
         if matched == self._matched:
             return []
@@ -70,7 +70,7 @@ class _Inlet:
         return waited
 
     def take(self) -> list[tuple[int, Any]]:
-        """Return time of arrival [ns] and contents of the messages that wait."""
+        """Return time of arrival [ns] and contents of the queued messages."""
         return self._taken(self._subscription)
 
     def close(self) -> None:
@@ -146,4 +146,4 @@ class Intake:
 
 
 def _unused(message: object) -> None:
-    """Take the place of a callback, which is never called."""
+    """Do nothing: `create_subscription` requires a callback, which is never called."""

@@ -61,7 +61,7 @@ class LiveTwin:
         self._paused = False
         self._failure = ""  # why the twin is stopped until a restart
         self._halted = True  # as of the last interval
-        # The last entry of the log; the report of real time drops those before it.
+        # The last entry of the log; the real-time report removes earlier entries.
         self._noted = twin.log[-1]._replace(time=twin.time)
         self._due = [self._noted]  # changes that have not been published
         self._at_zero = [self._noted]  # those at time zero, published again with each origin
@@ -140,7 +140,7 @@ class LiveTwin:
             self._commands.refuse("the simulation has stopped")
 
     def _resume(self) -> None:
-        """Let time go on; at time zero, the run has a new origin, which all changes follow."""
+        """Resume time; at time zero, publish a new origin of the run and all changes after it."""
         self._listener.resumed(self._twin)
         if self._twin.time == 0.0:
             self._due = list(self._at_zero)
@@ -156,7 +156,7 @@ class LiveTwin:
         self._due.clear()
 
     def _note(self) -> None:
-        """Note the last change, but one of tolerance or sample rate, which each state has."""
+        """Note the last change, except of tolerance or sample rate, which each state contains."""
         before, self._noted = self._noted, self._twin.log[-1]
         if self._noted is before or self._noted.values == before.values:
             return
@@ -223,7 +223,7 @@ class LiveTwin:
 
     def _change(self, values: Mapping[str, Any]) -> float:
         self._refuse_after_failure()
-        if PORT_FIELDS.keys() & values.keys():  # what changes are the ports without a brake
+        if PORT_FIELDS.keys() & values.keys():  # the ports without the brake change
             self._port_commands.release(self._twin)
             self._note()
         instant = self._twin.set(**values)

@@ -11,7 +11,7 @@ from planetary_twin_py.twin import Change
 
 
 class Listener(Protocol):
-    """Callbacks of a live twin, called in its thread."""
+    """Callbacks of a live twin, called in the thread of the twin."""
 
     def prepare(self, window: Window) -> None:
         """Receive a computed interval before the wall time of its end."""

@@ -115,7 +115,7 @@ class Logger(ManagedNode):
     def _on_failure(self, reason: str) -> None:
         self._stop_ticking()
         self._diagnose(self._report.failure(reason))
-        # A publisher that is destroyed takes along what its subscribers have not received yet.
+        # A destroyed publisher discards messages that its subscribers have not received yet.
         self._diagnostics.wait_for_all_acked(_LAST_REPORT)
         self.fail(reason)
 

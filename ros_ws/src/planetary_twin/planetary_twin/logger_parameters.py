@@ -38,7 +38,12 @@ def declare_options(node: ParameterNode) -> None:
     declare_fixed(node, "directory", "recordings", "folder in which recordings are created")
     declare_fixed(node, "name", "", "folder of the recording; empty: a free name is chosen")
     # rclpy derives the type of a list from its first element.
-    declare_fixed(node, "topics", [""], "topics to record; empty: those of the namespace")
+    declare_fixed(
+        node,
+        "topics",
+        [""],
+        "topics to record; empty: those of the namespace, /diagnostics and /tf",
+    )
     declare_fixed(
         node, "scene", "", "scene to store in the recording, from which viewers draw the gears"
     )
@@ -47,7 +52,7 @@ def declare_options(node: ParameterNode) -> None:
         "flush_period",
         0.5,
         (0.01, 60.0),
-        "time between writes; of the messages received, a kill loses no more [s]",
+        "time between writes to the disk; a killed logger loses at most these messages [s]",
     )
     declare_bounded(
         node,

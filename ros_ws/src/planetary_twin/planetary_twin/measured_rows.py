@@ -1,4 +1,4 @@
-"""Rows of a table that compares the measurements of a gearbox with its simulation."""
+"""Rows of a table that compares measurements of a gearbox with its simulation."""
 
 from __future__ import annotations
 

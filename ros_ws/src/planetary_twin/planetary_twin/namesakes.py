@@ -21,7 +21,7 @@ class Namesakes:
         node = self._node
         own = (node.get_name(), node.get_namespace())
         known = node.get_node_names_and_namespaces().count(own)
-        before, self._count = self._count, max(known - 1, 0)  # its own name may be found late
+        before, self._count = self._count, max(known - 1, 0)  # this node may be discovered late
         if self._count > before:
             node.get_logger().warning(
                 f"another node is named {node.get_fully_qualified_name()}: either may answer a "

@@ -9,7 +9,7 @@ from ament_index_python import get_package_share_directory
 
 _RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 _PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
-_POLICIES = "RMW_FASTRTPS_USE_QOS_FROM_XML"  # "1": those of memory, too, are the profile's
+_POLICIES = "RMW_FASTRTPS_USE_QOS_FROM_XML"  # "1": use the memory policies of the profile
 _MIDDLEWARE = "RMW_IMPLEMENTATION"
 
 
@@ -17,8 +17,8 @@ def stay_on_this_machine() -> None:
     """
     Bind the sockets of this process and its children to the loopback interface.
 
-    If the environment sets a Fast DDS profile or another middleware, only discovery is limited:
-    these bind the sockets.
+    If the environment sets a Fast DDS profile or another middleware, which binds the sockets, only
+    the discovery is limited.
     """
     if _RANGE in os.environ:
         return

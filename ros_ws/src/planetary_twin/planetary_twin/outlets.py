@@ -43,7 +43,7 @@ class Outlet:
         """
         Return whether the next message overwrites no unacknowledged message.
 
-        After 20 s without, messages that were never acknowledged are overwritten. A publisher
+        After 20 s without room, unacknowledged messages are overwritten. A publisher
         without reliable subscribers always has room.
         """
         if self._sent < self._depth:

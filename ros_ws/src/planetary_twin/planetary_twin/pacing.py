@@ -25,7 +25,7 @@ class Pace:
     Absolute deadlines every `period` [s] of wall time, so that errors do not accumulate.
 
     A deadline missed by more than one period is an overrun: the schedule shifts to now, because
-    catching up in a burst would only hide that the machine was too slow. With a period of 0, there
+    a burst of intervals would only hide that the machine was too slow. With a period of 0, there
     are no waits and no overruns. `sleep` waits for a time [s]; it may return early.
     """
 

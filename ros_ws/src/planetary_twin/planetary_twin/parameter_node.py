@@ -18,7 +18,7 @@ from .parameters import brief, check_settable, coerce, fixed_at, is_fixed, is_nu
 
 _OF_ROS = ("use_sim_time", "start_type_description_service")
 _QOS = "qos_overrides."  # of topics; ROS declares them
-_MAX_PARAMETERS = 200  # in a request: more than there are, but little work
+_MAX_PARAMETERS = 200  # in a request: more than the nodes have
 _REQUESTS = QoSProfile(depth=100)
 
 
@@ -63,7 +63,7 @@ class ParameterNode(LifecycleNode):
         return next(service for service in self.services if service.srv_type is kind)
 
     def create_service(self, *given: Any, **options: Any) -> Service:
-        """As rclpy's, with a short queue: a client that floods waits, and fills no memory."""
+        """As rclpy's, with a short queue: a client that sends many requests must wait."""
         return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:

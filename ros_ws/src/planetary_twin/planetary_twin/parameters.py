@@ -31,7 +31,7 @@ _BRIEF.maxstring = _BRIEF.maxother = 60
 
 
 def brief(value: Any) -> str:
-    """Return `value` as text for a refusal: one line of readable length, whatever it is."""
+    """Return any `value` as text for a refusal: one line, shortened if it is long."""
     return _BRIEF.repr(_listed(value))
 
 

@@ -22,10 +22,10 @@ from planetary_twin_py.plant.hidden import Hidden, read_hidden
 from planetary_twin_py.plant.readings import Plant as Played
 from planetary_twin_py.plant.timeline import Measured, timeline
 
-from .audience import Audience
 from .managed import ManagedNode, run_node
 from .parameters import declare_bounded, declare_fixed
 from .plant_player import PlantMessages, PlantPlayer
+from .subscription_wait import SubscriptionWait
 
 _TOPICS = {
     JointState: "measured/joint_states",
@@ -54,7 +54,7 @@ class Plant(ManagedNode):
         declare_fixed(self, "wait_for", [""], "nodes that must subscribe before the run starts")
         self._measured: Iterator[Measured] = iter(())
         self._messages: PlantMessages | None = None
-        self._audiences: list[Audience] = []
+        self._waits: list[SubscriptionWait] = []
         self._player: PlantPlayer | None = None
         self._outlets: dict[type, LifecyclePublisher] = {}
 
@@ -72,7 +72,7 @@ class Plant(ManagedNode):
         }
         joints = given["input_joint"], given["output_joint"]
         self._messages = PlantMessages(joints, sensors, given["frame_id"])
-        self._audiences = [Audience(self, name) for name in given["wait_for"] if name]
+        self._waits = [SubscriptionWait(self, name) for name in given["wait_for"] if name]
         measured = timeline(played)
         self._measured = itertools.chain([next(measured)], measured)  # the first takes seconds
 
@@ -80,8 +80,8 @@ class Plant(ManagedNode):
         """Publish from the beginning, or from the time of the pause."""
         if self._messages is None:
             raise ValueError("the node is not configured")
-        for audience in self._audiences:
-            audience.begin()
+        for wait in self._waits:
+            wait.begin()
         self._player = PlantPlayer(self._measured, self._messages, self)
         self.get_logger().info(f"publishing measurements of {self.get_parameter('scene').value}")
 
@@ -102,7 +102,7 @@ class Plant(ManagedNode):
 
     def ready(self) -> bool:
         """Return whether the nodes in `wait_for` have subscribed."""
-        return all(audience.present() for audience in self._audiences)
+        return all(wait.present() for wait in self._waits)
 
     def now(self) -> int:
         """Return the ROS time [ns]."""

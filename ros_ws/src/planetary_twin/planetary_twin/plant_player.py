@@ -27,7 +27,7 @@ from .messages import set_stamp
 _SIDES = "input", "output"
 
 
-class Stage(Protocol):
+class PlantNode(Protocol):
     """Node that publishes the messages of a plant."""
 
     def ready(self) -> bool:
@@ -112,9 +112,9 @@ class PlantPlayer:
     """Publishes each entry of `measured` at its time in a thread, starting with the first."""
 
     def __init__(
-        self, measured: Iterator[Measured], messages: PlantMessages, stage: Stage
+        self, measured: Iterator[Measured], messages: PlantMessages, node: PlantNode
     ) -> None:
-        self._measured, self._messages, self._stage = measured, messages, stage
+        self._measured, self._messages, self._node = measured, messages, node
         self.played = 0.0
         """Time of the last published measurement [s]."""
         self._stop = threading.Event()
@@ -131,14 +131,14 @@ class PlantPlayer:
         try:
             complete = self._play()
         except Exception as defect:
-            self._stage.ended(defect)
+            self._node.ended(defect)
         else:
             if complete:
-                self._stage.ended(None)
+                self._node.ended(None)
 
     def _play(self) -> bool:
         """Publish all measurements; return False if `stop` is called before the end."""
-        while not self._stage.ready():
+        while not self._node.ready():
             if self._stop.wait(0.05):
                 return False
         begin, origin = math.nan, 0
@@ -146,11 +146,11 @@ class PlantPlayer:
             if math.isnan(begin):
                 begin, origin = (
                     time.monotonic() - one.time,
-                    self._stage.now() - round(one.time * 1e9),
+                    self._node.now() - round(one.time * 1e9),
                 )
             message = self._messages.message(one, origin)
             if self._stop.wait(max(begin + one.time - time.monotonic(), 0.0)):
                 return False
-            self._stage.play(message)
+            self._node.play(message)
             self.played = one.time
         return True

@@ -60,9 +60,9 @@ class Player:
     Plays a part of a recording at absolute deadlines on the steady clock.
 
     If the rate factor is 0, it plays as fast as reliable subscribers acknowledge. A late message
-    is played at once and none is skipped, so a delay is made up. If it is paused at an instant,
-    all messages up to and at that instant have been played. Commands are executed between two
-    messages; their futures return the recorded instant [s].
+    is played at once and none is skipped, so the player catches up after a delay. If it is paused
+    at an instant, all messages up to and at that instant have been played. Commands are executed
+    between two messages; their futures return the recorded instant [s].
 
     `paused` is the state at the start. `listener` receives the messages.
     """

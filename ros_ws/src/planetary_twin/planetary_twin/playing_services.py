@@ -48,8 +48,8 @@ class PlayingServices:
             return self._set(response.stamp, instant)
 
         def step() -> Future[float]:
-            if request.command.name:
-                raise ValueError("command: must be empty: a recording takes no commands")
+            if request.command.name or request.commands:
+                raise ValueError("command, commands: must be empty: a replay accepts no commands")
             return self._control.playing().step(request.duration)
 
         return answer(response, step, describe)

@@ -46,8 +46,7 @@ class RealTimeReport:
 
     `hardware` is the namespace of the twin, `rate_factor` the requested simulated seconds per
     second, `period` [s] the wall time of an interval, `start` the progress at the start. `log` is
-    that of the twin; reported changes are removed from it, because hours of ramps would fill the
-    memory.
+    that of the twin; reported changes are removed from it, because ramps add changes for hours.
     """
 
     def __init__(

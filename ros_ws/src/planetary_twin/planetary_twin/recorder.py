@@ -17,7 +17,7 @@ from planetary_twin_py.recording.ros2.provenance import SOFTWARE_RECORD, host_cl
 from planetary_twin_py.recording.ros2.ring import Ring
 
 from .logger_parameters import LoggerOptions
-from .taps import Taps
+from .recorded_topics import RecordedTopics
 
 _SOFTWARE = (
     "planetary_twin_py",
@@ -57,7 +57,7 @@ class Recorder:
         self._progressed = progressed
         self._scene = _scene_text(options.scene)
         self._sink: BagWriter | Ring | None = None
-        self._taps: Taps | None = None
+        self._topics: RecordedTopics | None = None
         self._start = time.monotonic()
 
     @property
@@ -78,7 +78,7 @@ class Recorder:
     @property
     def matched(self) -> dict[str, TopicAccount]:
         """Message counts of the topics that have, or have had, a publisher."""
-        return self._taps.matched if self._taps else {}
+        return self._topics.matched if self._topics else {}
 
     def begin(self) -> None:
         """Create the recording's file, or the memory for snapshots."""
@@ -101,7 +101,7 @@ class Recorder:
         return file
 
     def split(self) -> str:
-        """Continue in the next file; returns a message with both files."""
+        """Continue in the next file; returns a message that names both files."""
         bag = self._bag_in_progress()
         file = bag.file
         try:
@@ -130,24 +130,24 @@ class Recorder:
 
     def discover(self) -> bool:
         """Subscribe to new topics; returns whether a topic has appeared or disappeared."""
-        if self._taps is None:
+        if self._topics is None:
             return False
         before = list(self.matched)
         try:
-            self._taps.discover()
+            self._topics.discover()
         except OSError as reason:
             self._fail(reason)
         return list(self.matched) != before
 
     def pause(self) -> None:
         """Unsubscribe; the file stays open, and what it contains is readable."""
-        if self._taps is not None:
+        if self._topics is not None:
             try:
-                self._taps.drain()
+                self._topics.drain()
             except OSError as reason:
                 self._fail(reason)
                 return
-            self._taps.close()
+            self._topics.close()
         self.flush()
 
     def flush(self) -> None:
@@ -160,25 +160,25 @@ class Recorder:
 
     def close(self) -> None:
         """Finish the recording, with its message counts; messages in memory are discarded."""
-        sink, taps, self._sink, self._taps = self._sink, self._taps, None, None
-        if taps is None:
+        sink, topics, self._sink, self._topics = self._sink, self._topics, None, None
+        if topics is None:
             return
         if not isinstance(sink, BagWriter):
-            taps.close()
+            topics.close()
             return
         try:
-            taps.drain()
-            taps.close()
+            topics.drain()
+            topics.close()
             sink.close()
         except OSError as reason:
-            taps.close()
+            topics.close()
             sink.abandon()
             raise RecorderError(_failure(sink.file, reason)) from None
-        text = f"{sink.file}: {_summary(taps.accounts)}"
+        text = f"{sink.file}: {_summary(topics.accounts)}"
         # After a signal, the node's logger can no longer publish to /rosout.
         running = self._node.context.ok()
         logger = self._node.get_logger() if running else get_logger("recording")
-        if any(account.missed for account in taps.accounts.values()):
+        if any(account.missed for account in topics.accounts.values()):
             logger.warning(text)
         else:
             logger.info(text)
@@ -187,7 +187,7 @@ class Recorder:
         if self._scene:
             sink.attach("scene.yaml", self._scene, "application/yaml")
         self._sink = sink
-        self._taps = Taps(
+        self._topics = RecordedTopics(
             self._node, self._options.topics, self._own, sink, self._fail, self._progressed
         )
         self._start = time.monotonic()
@@ -230,9 +230,9 @@ class Recorder:
 
     def _give_up(self, reason: OSError) -> str:
         """Abandon a bag that can no longer be written; returns the reason."""
-        sink, taps, self._sink, self._taps = self._sink, self._taps, None, None
-        if taps is not None:
-            taps.close()
+        sink, topics, self._sink, self._topics = self._sink, self._topics, None, None
+        if topics is not None:
+            topics.close()
         if not isinstance(sink, BagWriter):
             return str(reason)
         sink.abandon()

@@ -49,7 +49,10 @@ class Listener(Protocol):
 
 class Replay(ManagedNode):
     """
-    Configure opens the recording, activate plays it, deactivate stops it; the node ends with it.
+    Publishes a recording.
+
+    `configure` opens the recording, `activate` plays it, `deactivate` stops it. The node ends with
+    the recording.
 
     `given` contains start values of parameters. `listener` shows messages and the position, by
     default in the node's log.

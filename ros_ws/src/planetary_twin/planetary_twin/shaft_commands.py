@@ -109,7 +109,7 @@ class ShaftCommands:
             return "ahead of the clock"
         if self._timeout and now - stamp > 1e9 * self._timeout:
             return "late"
-        # A newest stamp that is ahead is of the time before the clock was set back.
+        # A newest stamp ahead of the clock shows that the clock was set back: ignore it.
         if stamp <= self._newest[side] <= now + _AHEAD:
             return "repeated or out of order"
         return ""
@@ -165,7 +165,7 @@ class ShaftCommands:
         self._brake.release(twin)
 
     def _watch(self, ports: Ports) -> None:
-        """Let no command be missing at a machine; a new port is watched from its first one on."""
+        """Ignore machines in the timeout; a new port is monitored from its first command on."""
         for side, port in zip(SIDES, ports, strict=True):
             if port == "machine":
                 self._received.pop(side, None)

@@ -24,7 +24,6 @@ from planetary_twin_py.twin import Change
 
 from . import simulation_services
 from .accuracy_report import AccuracyReport
-from .audience import Audience
 from .backlog import Backlog
 from .dynamics_report import dynamics_status
 from .ledger_report import LedgerReport
@@ -37,17 +36,18 @@ from .shaft_commands import ShaftCommands
 from .simulation_parameters import SimulationParameters
 from .simulation_services import SimulationServices
 from .stamps import STEADY
+from .subscription_wait import SubscriptionWait
 from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
-# Time after which a waiting thread may take the interpreter lock from a busy one. Python's 5 ms
-# are half an interval: clients that send many requests would delay the twin.
+# Time after which a waiting thread may take the interpreter lock from a busy one. Python's default
+# of 5 ms is half an interval: clients that send many requests would delay the twin.
 _SWITCH_INTERVAL = 2e-4  # [s]
 
 
 class Simulation(ManagedNode):
-    """Runs a scene in real time: configure builds it, activate runs it, deactivate pauses it."""
+    """Runs a scene: `configure` builds the model, `activate` runs it, `deactivate` pauses it."""
 
     def __init__(self, given: Mapping[str, Any] | None = None) -> None:
         super().__init__("simulation", given)
@@ -62,7 +62,7 @@ class Simulation(ManagedNode):
         self._accuracy = AccuracyReport(self.get_namespace())
         self._telemetry: Telemetry | None = None
         self._before: Telemetry | None = None  # the closed one of the previous configuration
-        self._audience: Audience | None = None
+        self._wait: SubscriptionWait | None = None
         self._commands: ShaftCommands | None = None
         self._subscription: Subscription | None = None
         self._point = OperatingPointControl(self, self)
@@ -82,7 +82,7 @@ class Simulation(ManagedNode):
         self._subscription = self.create_subscription(
             JointState, "~/command", self._commands.receive, self._commands.qos
         )
-        self._audience = Audience(self, self._given.wait_for)
+        self._wait = SubscriptionWait(self, self._given.wait_for)
         # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * self._given.rate)
         self._backlog = Backlog(self, self._given.wait_for, self._telemetry.streamed, room)
@@ -101,7 +101,7 @@ class Simulation(ManagedNode):
         except RunawayError as reason:
             raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
         given, quality = self._given, self._given.quality(twin)
-        self._audience.begin()
+        self._wait.begin()
         self._live = LiveTwin(
             twin, 1.0 / given.rate, given.rate_factor, quality, self, self._commands
         )
@@ -123,7 +123,7 @@ class Simulation(ManagedNode):
         live, self._live = self._live, None
         if live is not None:
             live.stop()
-        self._twin = self._report = self._audience = None
+        self._twin = self._report = self._wait = None
         if self._subscription is not None:
             self.destroy_subscription(self._subscription)
             self._subscription = None
@@ -152,7 +152,7 @@ class Simulation(ManagedNode):
 
     def ready(self) -> bool:
         """Return whether ROS time is available and the node `wait_for` has subscribed."""
-        return self._telemetry.ready() and self._audience.present()
+        return self._telemetry.ready() and self._wait.present()
 
     def has_room(self) -> bool:
         """Return whether the node that `wait_for` names has kept up with recording."""
@@ -171,7 +171,7 @@ class Simulation(ManagedNode):
     def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
         """Log the setting in force and its reason."""
         now, load = quality.setting, quality.load
-        why = "as set" if math.isnan(load) else f"an interval cost {load:.0%} of its time"
+        why = "as set" if math.isnan(load) else f"computing takes {load:.0%} of the available time"
         text = (
             f"tolerance {now.tolerance:g}, waveform at {now.sample_rate:g} Hz "
             f"from {instant:g} s: {why}"

@@ -14,7 +14,6 @@ from planetary_twin_py.run import check_point
 from planetary_twin_py.scene.live import LIVE, PORT_FIELDS
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
-from .audience import PATIENCE
 from .pacing import check_rate_factor
 from .parameter_node import ParameterNode
 from .parameters import (
@@ -27,6 +26,7 @@ from .parameters import (
     number,
 )
 from .shaft_commands import SILENCE
+from .subscription_wait import TIMEOUT
 
 TOLERANCE = pt.Tunable(
     "tolerance",
@@ -199,7 +199,7 @@ def _declare_settings(node: ParameterNode) -> None:
         "wait_for",
         "",
         f"node that records, such as logger or /rosbag2_recorder: the twin starts when it has "
-        f"subscribed, after {PATIENCE:g} s at most, and waits for it above real time and in steps",
+        f"subscribed, after {TIMEOUT:g} s at most, and waits for it above real time and in steps",
     )
     declare_fixed(node, "clock", False, "publish simulated time on /clock")
     declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "sample rate of mesh_waveform [Hz]")

@@ -87,7 +87,7 @@ class Stamps:
             due = self._interval.last + passed if 0 <= passed < _JUMP else now.ros
         elif not self._source and abs(moved) > _SET:
             self._before = now
-            due = min(due + moved, max(due, now.ros))  # stamps that are ahead stay where they are
+            due = min(due + moved, max(due, now.ros))  # stamps that are ahead are not increased
         self._place(self._interval.end, simulated, due)
 
     def of(self, simulated: float) -> int:

@@ -14,7 +14,7 @@ _PATH = "/proc/self/fd/2"
 @contextlib.contextmanager
 def nonblocking_stderr() -> Iterator[None]:
     """
-    In the block, log lines are lost while the terminal is stopped or a pipe is full.
+    In the block, log lines are discarded while the terminal is stopped or a pipe is full.
 
     ROS logs while it holds Python's global lock, so a blocked write would stop every thread of the
     process. All lines are also published on /rosout. The mode is set on a new file description,

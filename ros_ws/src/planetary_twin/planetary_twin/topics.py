@@ -17,7 +17,7 @@ from .qos import to_words
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 """Name in rmw for the node of an endpoint until discovery finds it, which may never happen."""
 _EVERYWHERE = ("/diagnostics", "/tf")
-_BELOW = ("measured", "follower")  # of the namespace: a measured gearbox, and what is made of it
+_BELOW = ("measured", "follower")  # the namespace: a measured gearbox, and its follower
 _OF_ROS = ("/rosout", "/parameter_events")
 
 

@@ -88,7 +88,7 @@ class _Watch(Client):
             self.node.create_subscription(message_class(kind), name, callback, qos, raw=True)
 
     def complete(self) -> bool:
-        """Return whether the messages that a picture needs have been received."""
+        """Return whether the messages that a viewer needs have been received."""
         return {_number(STATE), _number(ORIGIN)} <= self._received
 
     def take(self) -> list[Any]:

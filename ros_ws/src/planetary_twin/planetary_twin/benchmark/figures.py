@@ -27,8 +27,8 @@ class Slope(NamedTuple):
     """
     Slope of a line through samples, by least squares.
 
-    Its standard error takes into account that a deviation resembles the one before, as memory that
-    grows in steps has it: the number of independent samples is n (1 - r)/(1 + r), with the lag-1
+    Its standard error accounts for the autocorrelation of the deviations, which is high if memory
+    grows in steps: the number of independent samples is n (1 - r)/(1 + r), with the lag-1
     autocorrelation r of the deviations (Santer et al. 2000, J. Geophys. Res. 105, 7337, eq. 6).
     """
 

@@ -19,12 +19,12 @@ from .meter import Meter
 from .process import processor_time, resident_memory
 
 RATES = (100.0, 1000.0)  # [Hz]
-AUDIENCES = (0, 1, 4, 16)
+SUBSCRIBERS = (0, 1, 4, 16)
 SETS = 200  # parameter changes for the latency
-SETTLING = 5.0  # [s] after which a twin has settled its tolerance and runs steadily
+SETTLING = 5.0  # [s] after which the tolerance of a twin is constant and its motion is steady
 _PERIOD = 0.5  # [s] between two samples of the memory
 _VALUES = (1.5, 2.0)  # of the lambda ratio, in turn
-CASES = [("paper", AUTOMATIC, n) for n in AUDIENCES] + [
+CASES = [("paper", AUTOMATIC, n) for n in SUBSCRIBERS] + [
     (scene, tolerance, 1)
     for scene in ("differential", "wind_turbine_stage")
     for tolerance in (AUTOMATIC, 1e-3)
@@ -143,8 +143,8 @@ class Bench:
                 meter.begin()
             if listeners:
                 parameters = {"listeners": listeners}
-                audience = Child("benchmark.audience", self._namespace, parameters)
-                stack.enter_context(audience)
+                subscribers = Child("benchmark.subscribers", self._namespace, parameters)
+                stack.enter_context(subscribers)
             self._run(SETTLING, f"{what}: settles", simulation)
             begin, before = time.monotonic(), processor_time(simulation.pid)
             self._run(self._duration, what, simulation)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
-from planetary_twin import audience
-from planetary_twin.audience import PATIENCE, Audience
+from planetary_twin import subscription_wait
+from planetary_twin.subscription_wait import TIMEOUT, SubscriptionWait
 from planetary_twin.topics import UNKNOWN_NODE
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
@@ -50,7 +50,7 @@ def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer: Peer, star
 def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) -> None:
     simulation = start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=nobody")
     states = peer.listen(GearboxState, STATES)
-    peer.until(lambda: states, PATIENCE + 60.0)
+    peer.until(lambda: states, TIMEOUT + 60.0)
     simulation.terminate()
     _, errors = simulation.communicate(timeout=LONG)
     assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
@@ -86,8 +86,8 @@ def waited(
         get_subscriptions_info_by_topic=subscribers,
         get_logger=lambda: SimpleNamespace(info=print, warning=print),
     )
-    monkeypatch.setattr(audience, "time", SimpleNamespace(monotonic=lambda: clock.now))
-    waiting = Audience(node, name)
+    monkeypatch.setattr(subscription_wait, "time", SimpleNamespace(monotonic=lambda: clock.now))
+    waiting = SubscriptionWait(node, name)
     waiting.begin()
     while not waiting.present():
         clock.now += 0.1
@@ -117,13 +117,13 @@ def test_a_busy_logger_that_subscribes_topic_by_topic_is_waited_for(
 def test_a_subscription_of_another_node_does_not_end_the_wait(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert waited(monkeypatch, "rviz") > PATIENCE
+    assert waited(monkeypatch, "rviz") > TIMEOUT
     assert "has not subscribed" in capsys.readouterr().out
 
 
 def test_a_node_outside_the_namespace_is_named_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rosbag2 runs as /rosbag2_recorder, and `ros2 bag record` sets no namespace."""
     assert waited(monkeypatch, "rosbag2_recorder", "/", "/rosbag2_recorder") < 1.0
-    assert waited(monkeypatch, "logger", "/") > PATIENCE
-    assert waited(monkeypatch, "logger", "/another/twin", f"{TWIN}/logger") > PATIENCE
+    assert waited(monkeypatch, "logger", "/") > TIMEOUT
+    assert waited(monkeypatch, "logger", "/another/twin", f"{TWIN}/logger") > TIMEOUT
     assert waited(monkeypatch, "logger", name=f"{TWIN}/logger") < 1.0

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from planetary_twin.taps import Tap, Taps
+from planetary_twin.recorded_topics import RecordedTopic, RecordedTopics
 
 from planetary_twin_py.recording.ros2.metadata import Topic
 
@@ -72,41 +72,43 @@ def publish(queues: dict[str, Queue]) -> None:
         queues[name].add()
 
 
-def tapped(publishing: int = 0) -> tuple[Taps, Disk, list[OSError]]:
-    """Taps of three topics on which ten intervals wait."""
+def recorded_topics(publishing: int = 0) -> tuple[RecordedTopics, Disk, list[OSError]]:
+    """Three recorded topics, of which ten intervals are queued."""
     queues = {name: Queue() for name in (STATES, COMMANDS, WAVES)}
     disk, failures = Disk(queues, publishing), list[OSError]()
     given: Any = SimpleNamespace(destroy_subscription=lambda subscription: None), (), (), disk
-    taps = Taps(*given, failures.append, lambda: None)
+    topics = RecordedTopics(*given, failures.append, lambda: None)
     for name, queue in queues.items():
         topic = Topic(name, "std_msgs/msg/Empty", "", "", [])
-        tap = taps._taps[name] = Tap(disk, topic, False, (), failures.append, lambda: None)
-        tap.use(queue)  # type: ignore[arg-type]
+        recorded = topics._topics[name] = RecordedTopic(
+            disk, topic, False, (), failures.append, lambda: None
+        )
+        recorded.use(queue)  # type: ignore[arg-type]
     for _ in range(10):
         publish(queues)
-    return taps, disk, failures
+    return topics, disk, failures
 
 
 @pytest.mark.parametrize("publishing", [0, 1, 7, 40])
 def test_no_state_is_written_without_its_commands_although_the_twin_goes_on(
     publishing: int,
 ) -> None:
-    taps, disk, _ = tapped(publishing)
-    taps.drain()
-    taps.close()
+    topics, disk, _ = recorded_topics(publishing)
+    topics.drain()
+    topics.close()
     states, commands = disk.written[STATES], disk.written[COMMANDS]
     assert states == list(range(1, len(states) + 1)) and len(states) >= 10
     assert set(states) <= set(commands)
-    taps.drain()  # of closed taps nothing is taken
+    topics.drain()  # closed topics receive nothing
     assert disk.written[STATES] == states
 
 
 def test_a_full_disk_is_raised_at_the_end_and_reported_before() -> None:
-    taps, disk, failures = tapped()
+    topics, disk, failures = recorded_topics()
     disk.full = True
     with pytest.raises(OSError, match="No space left"):
-        taps.drain()
+        topics.drain()
     assert not failures
     times = dict.fromkeys(("received_timestamp", "source_timestamp"), 1)
-    taps._taps[STATES].receive(b"11", {"publication_sequence_number": 11, **times})
+    topics._topics[STATES].receive(b"11", {"publication_sequence_number": 11, **times})
     assert [failure.errno for failure in failures] == [errno.ENOSPC]

@@ -1,9 +1,9 @@
-// Static equilibrium of a train whose axes move: flanks that only push, bearings, friction.
+// Static equilibrium of a train with moving axes: unilateral flanks, bearings, friction.
 //
 // All forces are those of the dynamic model, on bodies at rest in the frame that turns with the
 // motors. Springs of flanks and bearings are piecewise smooth and their energy is convex, so
-// Newton's method finds the equilibrium (see planar/statics.py); friction follows pass by pass, as
-// it is some hundredths of the forces.
+// Newton's method finds the equilibrium (see planar/statics.py); friction, some per cent of the
+// forces, is updated in an outer iteration.
 
 #include <algorithm>
 #include <cmath>
@@ -28,19 +28,20 @@ namespace gearbox {
 namespace {
 
 constexpr int MOST_PASSES = 100;
-constexpr int BRISK_PASSES = 30;         // then oscillating friction is under-relaxed
-constexpr double PULLED_BACK = 0.5;      // of the force along a step, at which it is shortened
+constexpr int UNRELAXED_PASSES = 30;     // then oscillating friction is under-relaxed
+constexpr double OVERSHOOT = 0.5;        // share of the initial force that shortens a step
 constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
-constexpr double LOOSE = 1e-9;  // of the stiffness of a tooth pair: holds what nothing else does
+constexpr double REGULARISATION =
+    1e-9;  // of the stiffness of a tooth pair: regularises free coordinates
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
-// What flanks and bearings without load resist in a step, of their stiffness: so that no step is
-// much longer than play and clearance, at the price of a few more of them.
+// Share of their stiffness that open flanks and bearings within their clearance have in a step, so
+// that no step is much longer than backlash and clearance, at the cost of a few more steps.
 constexpr double IDLE_MESH = 1e-3, IDLE_BEARING = 1e-2;
 
-using Room = double[BODIES][BODIES];
+using SquareMatrix = double[BODIES][BODIES];
 
-// Let every mesh in contact have the tooth pairs that are at its place in the cycle.
+// Set the tooth pairs of every mesh in contact to those at its place in the cycle.
 void place_pairs(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     State& state = run.state;
@@ -55,11 +56,12 @@ void place_pairs(const Model& model, Equilibrium& run) {
     set_step_constants(model, state, run.step);
 }
 
-// Let the flanks on one side touch, the bodies being where the frame has them.
+// Close the flanks on one side, with all bodies at their positions in the frame.
 void close_side(const Model& model, Equilibrium& run, std::int64_t side) {
     State& state = run.state;
     std::fill(std::begin(state.x), std::end(state.x), 0.0);
-    std::fill(std::begin(run.evaluation.rubbing), std::end(run.evaluation.rubbing), 0.0);
+    std::fill(std::begin(run.evaluation.friction_force), std::end(run.evaluation.friction_force),
+              0.0);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         state.side[i] = only_side(model.train, i) == side ? side : OPEN;
 }
@@ -69,7 +71,7 @@ bool any_touches(const Train& train, const State& state) {
                        [](std::int64_t side) { return side != OPEN; });
 }
 
-// Let those flanks touch that are squeezed where the bodies are; whether any of them changes.
+// Close the flanks that are compressed at the positions of the bodies; whether any contact changes.
 bool touch_flanks(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     State& state = run.state;
@@ -85,55 +87,57 @@ bool touch_flanks(const Model& model, Equilibrium& run) {
     return changes;
 }
 
-// Find friction and drag of the forces in `run.evaluation`; the largest change of it [N].
+// Update friction and drag from the forces in `run.evaluation`; their largest change [N].
 double update_friction(const Model& model, Equilibrium& run, bool midway) {
     const Train& train = model.train;
     Evaluation& evaluation = run.evaluation;
-    std::copy_n(evaluation.rubbing, BODIES, run.before);
+    std::copy_n(evaluation.friction_force, BODIES, run.before);
     std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
-    double push[MESHES];  // negative in the first guess, from which flanks have yet to close
-    std::copy_n(evaluation.now.push, MESHES, push);
-    for (std::int64_t i = 0; i < train.meshes; ++i) evaluation.now.push[i] = std::max(push[i], 0.0);
+    double normal_force[MESHES];  // negative in the initial guess, where flanks may still be open
+    std::copy_n(evaluation.now.normal_force, MESHES, normal_force);
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        evaluation.now.normal_force[i] = std::max(normal_force[i], 0.0);
     apply_friction(model, run.state, run.step, run.state.v, evaluation);
-    std::copy_n(push, MESHES, evaluation.now.push);
+    std::copy_n(normal_force, MESHES, evaluation.now.normal_force);
     double change = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double &now = evaluation.rubbing[j], before = run.before[j];
+        double &now = evaluation.friction_force[j], before = run.before[j];
         change = std::max(change, std::fabs(now - before));
         if (midway) now = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
     }
     return change;
 }
 
-// Forces on all bodies, the motors apart, which stay with their frame.
+// Forces on all bodies but the motors, which are fixed to their frame.
 void find_forces(const Model& model, Equilibrium& run, double* force) {
     const Train& train = model.train;
     const State& state = run.state;
     const Evaluation& evaluation = run.evaluation;
     double ignored[LEDGER] = {};
-    std::copy_n(evaluation.rubbing, BODIES, run.external);
+    std::copy_n(evaluation.friction_force, BODIES, run.external);
     apply_axes(train, state, run.step.rigid, 0.0, state.x, state.v, run.external, ignored);
     balance_torques(model, run);
     std::copy_n(run.external, BODIES, force);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const double push =
-            train.copies[i] * static_cast<double>(state.side[i]) * evaluation.now.push[i];
+        const double normal_force =
+            train.copies[i] * static_cast<double>(state.side[i]) * evaluation.now.normal_force[i];
         for (int j = 0; j < entries_of(train); ++j)
-            force[train.body[i][j]] -= push * train.sign[i][j];
+            force[train.body[i][j]] -= normal_force * train.sign[i][j];
     }
     if (tilts(train)) add_slope_moments(train, evaluation.now, force);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         const std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        const double pull = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] -= pull;
-        force[member] += pull;
+        const double coupling_force =
+            train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] -= coupling_force;
+        force[member] += coupling_force;
     }
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
     force[train.bodies] = 0.0;  // the ground
 }
 
-// Rows of bearing b with its stiffness at x: along the eccentricity, and across it that by which
-// its force turns.
+// Rows of bearing b with its stiffness at x: along the eccentricity, and across it that from the
+// rotation of its force.
 BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     BearingRows rows = rows_of_bearing(train, b);
     const MovingAxes& axes = train.moving;
@@ -142,7 +146,7 @@ BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     r.along -= axes.centre[b][0];
     r.across -= axes.centre[b][1];
     const double size = std::sqrt(r.along * r.along + r.across * r.across);
-    const Pressed at = bearing_law(axes, b, size);
+    const BearingResponse at = bearing_law(axes, b, size);
     BearingRow first = rows.row[0], second = rows.row[1];
     const double cosine = size > 0.0 ? r.along / size : 1.0;
     const double sine = size > 0.0 ? r.across / size : 0.0;
@@ -152,12 +156,12 @@ BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     }
     const double least = IDLE_BEARING * axes.stiffness[b];
     rows.row[0].stiffness = std::max(at.stiffness, least);
-    rows.row[1].stiffness = std::max(size > 0.0 ? at.push / size : 0.0, least);
+    rows.row[1].stiffness = std::max(size > 0.0 ? at.force / size : 0.0, least);
     return rows;
 }
 
-// Stiffness of all springs at x, the motors held.
-void assemble(const Train& train, const Equilibrium& run, Room& stiffness) {
+// Stiffness of all springs at x, with fixed motors.
+void assemble(const Train& train, const Equilibrium& run, SquareMatrix& stiffness) {
     std::memset(stiffness, 0, sizeof stiffness);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = train.copies[i] * run.evaluation.now.stiffness[i];
@@ -173,8 +177,8 @@ void assemble(const Train& train, const Equilibrium& run, Room& stiffness) {
     for (std::int64_t b = 0; b < train.moving.bearings; ++b)
         for (const BearingRow& row : tangent_rows(train, b, run.state.x))
             add_outer(stiffness, row.place, row.factor, row.size, row.stiffness);
-    const double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
-    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
+    const double regularisation = REGULARISATION * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
     for (std::int64_t a = 0; a < train.axes; ++a) {
         const std::int64_t motor = train.coupling[2 * a][0];
         for (int j = 0; j < BODIES; ++j) stiffness[motor][j] = stiffness[j][motor] = 0.0;
@@ -192,7 +196,7 @@ double mean_force(const Train& train, const double (*shown)[MESHES]) {
     return FLANKS * total / copies;
 }
 
-// Largest force that is not balanced, of one of the bodies with the same motion [N].
+// Largest unbalanced force [N], of one of the bodies with the same motion.
 double largest(const Train& train, const double* force) {
     double found = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j)
@@ -200,51 +204,52 @@ double largest(const Train& train, const double* force) {
     return found;
 }
 
-// A step of Newton's method, and how far along it the bodies are.
+// A step of Newton's method, and the position of the bodies along it.
 //
-// Along a line the forces of a convex energy fall. Where they have turned round and pull back by
-// more than a part of what they were, the secant finds where they vanish.
+// Along a line the forces of a convex energy decrease. Where they have reversed and exceed a share
+// of their initial value, the secant finds where they vanish.
 class Line {
 public:
     bool overshoots(const Train& train, const double* force) const {
-        return along(train, force) < -PULLED_BACK * first_;
+        return along(train, force) < -OVERSHOOT * initial_work_;
     }
 
-    // Aim at where the springs of `run` balance the forces.
+    // Step to the position in which the springs of `run` balance the forces.
     void start(const Train& train, const Equilibrium& run, const double* force) {
-        alignas(64) Room stiffness;
+        alignas(64) SquareMatrix stiffness;
         assemble(train, run, stiffness);
         factorise(stiffness, train.bodies);
-        std::copy_n(run.state.x, BODIES, from_);
-        std::copy_n(force, BODIES, way_);
-        solve(stiffness, train.bodies, way_);
-        first_ = along(train, force);
-        part_ = 1.0;
+        std::copy_n(run.state.x, BODIES, start_);
+        std::copy_n(force, BODIES, direction_);
+        solve(stiffness, train.bodies, direction_);
+        initial_work_ = along(train, force);
+        fraction_ = 1.0;
     }
 
     void step(const Train& train, double* x) const {
-        for (std::int64_t j = 0; j < train.bodies; ++j) x[j] = from_[j] + part_ * way_[j];
+        for (std::int64_t j = 0; j < train.bodies; ++j)
+            x[j] = start_[j] + fraction_ * direction_[j];
     }
 
     void step_back(const Train& train, const double* force, double* x) {
-        part_ *= first_ / (first_ - along(train, force));
+        fraction_ *= initial_work_ / (initial_work_ - along(train, force));
         step(train, x);
     }
 
 private:
     double along(const Train& train, const double* force) const {
         double sum = 0.0;
-        for (std::int64_t j = 0; j < train.bodies; ++j) sum += force[j] * way_[j];
+        for (std::int64_t j = 0; j < train.bodies; ++j) sum += force[j] * direction_[j];
         return sum;
     }
 
-    alignas(64) double from_[BODIES];
-    alignas(64) double way_[BODIES];
-    double first_;  // force along the way at its start, times its length [J]
-    double part_;   // of the way
+    alignas(64) double start_[BODIES];
+    alignas(64) double direction_[BODIES];
+    double initial_work_;  // force along the step at its start, times its length [J]
+    double fraction_;      // of the step
 };
 
-// Newton's method from where the bodies are; whether it ends in equilibrium.
+// Newton's method from the positions of the bodies; whether it ends in equilibrium.
 bool converges(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
     const Train& train = model.train;
     State& state = run.state;
@@ -256,12 +261,12 @@ bool converges(const Model& model, double tolerance, Equilibrium& run, double (*
         if (n > 0) place_pairs(model, run);
         observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
         double slack = tolerance * std::max(mean_force(train, shown), LIGHTEST_FORCE);
-        const bool brisk = n < BRISK_PASSES;
-        if (!brisk) slack = std::max(slack, DITHER);
-        const double change = update_friction(model, run, !brisk);
+        const bool unrelaxed = n < UNRELAXED_PASSES;
+        if (!unrelaxed) slack = std::max(slack, NEGLIGIBLE_FORCE);
+        const double change = update_friction(model, run, !unrelaxed);
         find_forces(model, run, force);
-        if (n > 0 && !changes && largest(train, force) <= slack && (brisk || change <= slack)) {
-            if (!brisk) {  // friction as it is, with its losses
+        if (n > 0 && !changes && largest(train, force) <= slack && (unrelaxed || change <= slack)) {
+            if (!unrelaxed) {  // friction without relaxation, with its losses
                 update_friction(model, run, false);
                 find_forces(model, run, force);
             }
@@ -280,10 +285,11 @@ bool converges(const Model& model, double tolerance, Equilibrium& run, double (*
 
 }  // namespace
 
-void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
-    if (!any_touches(model.train, run.state)) close_side(model, run, run.lean[0]);
+void solve_equilibrium(const Model& model, double tolerance, Equilibrium& run,
+                       double (*shown)[MESHES]) {
+    if (!any_touches(model.train, run.state)) close_side(model, run, run.closing_side[0]);
     if (converges(model, tolerance, run, shown)) return;
-    for (std::int64_t side : {run.lean[0], -run.lean[0]}) {
+    for (std::int64_t side : {run.closing_side[0], -run.closing_side[0]}) {
         close_side(model, run, side);
         if (converges(model, tolerance, run, shown)) return;
     }

@@ -31,7 +31,7 @@ def _subscribe(context: rclpy.Context, namespace: str) -> None:
 def main(args: list[str] | None = None) -> int:
     """Subscribe with as many participants as the parameter `listeners` gives, until a signal."""
     rclpy.init(args=args)
-    node = rclpy.create_node("audience")
+    node = rclpy.create_node("subscribers")
     contexts = [rclpy.Context() for _ in range(node.declare_parameter("listeners", 1).value)]
     threads = []
     for context in contexts:

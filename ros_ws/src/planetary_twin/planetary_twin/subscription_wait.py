@@ -1,4 +1,4 @@
-"""Waits until a node has subscribed, so that it receives a twin's first message."""
+"""Waits for the subscriptions of a node, so that it receives the first message of a twin."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from rclpy.publisher import Publisher
 
 from .topics import UNKNOWN_NODE, is_of_twin
 
-PATIENCE = 10.0  # [s]
+TIMEOUT = 10.0  # [s]
 _SETTLED = 3.0  # [s] without a new subscription, after which no more are expected
 _POLL = 0.05  # [s]
 
 
-class Audience:
+class SubscriptionWait:
     """
     Reports whether the node `name` has subscribed to `node`'s topics.
 
@@ -42,7 +42,7 @@ class Audience:
         self._since = time.monotonic()
         if not self._present:
             self._node.get_logger().info(
-                f"wait_for = {self._name}: waits until it has subscribed, {PATIENCE:g} s at most"
+                f"wait_for = {self._name}: waits until it has subscribed, {TIMEOUT:g} s at most"
             )
 
     def present(self) -> bool:
@@ -57,10 +57,10 @@ class Audience:
         named, unnamed = self._subscribed
         settled = now - self._changed > _SETTLED
         self._present = named >= len(self._published()) or (named + unnamed > 0 and settled)
-        if not self._present and now > self._since + PATIENCE:
+        if not self._present and now > self._since + TIMEOUT:
             self._present = True
             self._node.get_logger().warning(
-                f"wait_for = {self._name}: has not subscribed within {PATIENCE:g} s; "
+                f"wait_for = {self._name}: has not subscribed within {TIMEOUT:g} s; "
                 "starts without it"
             )
         return self._present

@@ -1,13 +1,13 @@
 #pragma once
 
-// Room of the arrays in the records, and what their entries are.
+// Capacities of the arrays in the records, and the meaning of their entries.
 
 #include <cstdint>
 
 namespace gearbox {
 
-// The core is compiled twice: for axes that are held, and with MOVING_AXES for axes that move in
-// the plane (see train/moving_axes.hpp). Each has arrays just as long as it needs.
+// The core is compiled twice: for fixed axes, and with MOVING_AXES for moving axes (see
+// train/moving_axes.hpp). The arrays of each are as long as it requires.
 #ifdef MOVING_AXES
 constexpr bool MOVING = true;
 #else
@@ -15,28 +15,27 @@ constexpr bool MOVING = false;
 #endif
 
 constexpr int REGISTER = 4;  // arrays over bodies and meshes come in whole registers
-// 7 planets, sun, ring, carrier, machines and the ground; or displacements and tilts of all axes
-// beside them.
+// 7 planets, sun, ring, carrier, machines and the ground; or these with displacements and tilts of
+// all axes.
 constexpr int BODIES = (MOVING ? 16 : 4) * REGISTER;
 constexpr int MESHES = (MOVING ? 8 : 4) * REGISTER;
 constexpr int MACHINES = 3;  // two motors and a load
 constexpr int AXES = 2;      // rigid motions of the train: one for each motor
 constexpr int KINDS = 2;     // of meshes: sun-planet, planet-ring
 constexpr int GEARS = 3;     // that a mesh joins: first gear, second gear, carrier
-// Coordinates of which a mesh makes its transmission error: turns of these, and where axes move the
+// Coordinates on which the transmission error of a mesh depends: rotations of these; if axes move,
 // displacements of the first and of the second gear in the plane, then axial ones and tilts.
 constexpr int IN_PLANE = GEARS + (MOVING ? 4 : 0);
 constexpr int ENTRIES = IN_PLANE + (MOVING ? 6 : 0);
-constexpr int FLANKS = MOVING ? 2 : 1;  // entries of a mesh: both flanks apart, or one for either
+constexpr int FLANKS = MOVING ? 2 : 1;  // entries of a mesh: one for each flank, or one for both
 constexpr int PAIRS = 8;                // tooth pairs in contact at most; of helical teeth, parts
 constexpr int TOTAL = PAIRS;            // place of the sum over the pairs
 constexpr int SEGMENTS = 32;            // breakpoints: 4 of each pair and those of faults
 constexpr int TERMS = 6;                // coefficients of a polynomial
 constexpr int LINES = 8;  // errors of form: 4 harmonics, runout of 2 gears, pins, axes
 constexpr int FAULTS = 4;
-constexpr int ROOM =
-    (PAIRS + 1) * MESHES;   // all tooth pairs, and what whole registers write beyond
-constexpr int MEMBERS = 3;  // sun, ring, carrier
+constexpr int PAIR_CAPACITY = (PAIRS + 1) * MESHES;  // all tooth pairs, padded to whole registers
+constexpr int MEMBERS = 3;                           // sun, ring, carrier
 constexpr int JOINTS = 16 + MEMBERS;
 constexpr int BEARINGS = MOVING ? 10 : MEMBERS;  // of sun, ring, carrier and 7 planets
 
@@ -46,27 +45,26 @@ constexpr std::int64_t DRIVE_SIDE = 1, OPEN = 0, COAST_SIDE = -1;
 // Places of the machines.
 constexpr int MOTOR = 0, LOAD_MACHINE = 1, SECOND_MOTOR = 2;
 
-// What acts on the shaft of a machine: its own controller, a torque that is given from outside, or
-// a motion that is, to which the shaft answers with a torque.
+// Input of the shaft of a machine: its own controller, a given torque, or a given motion, to which
+// the shaft reacts with a torque.
 constexpr std::int64_t BY_MACHINE = 0, BY_TORQUE = 1, BY_MOTION = 2;
 
-// Entries of `State.energy` and of the powers by which they grow: work [J] and angular impulse
-// [N m s] that each machine has put in, then what tooth friction, damping, bearings and churning
-// have taken, what the meshes have put in by changing their shape, and what weight has by being
-// turned with the frame [J].
+// Entries of `State.energy` and of their powers: work [J] and angular impulse [N m s] of each
+// machine, then losses of tooth friction, damping, bearings and churning, and work of changing mesh
+// stiffness and errors of form, and of weight on displaced bodies as the carrier rotates [J].
 constexpr int WORK = 0, IMPULSE = MACHINES;
 constexpr int FRICTION = 2 * MACHINES, DAMPING = FRICTION + 1, BEARING = FRICTION + 2,
               CHURNING = FRICTION + 3, STIFFNESS_WORK = FRICTION + 4, WEIGHT = FRICTION + 5;
 constexpr int LEDGER = 2 * MACHINES + 6;
 
-// Rows of the answer of `observe`.
+// Rows of the output of `observe`.
 constexpr int DTE = 0, MESH_FORCE = 1, BOUNDARY = 2, VISCOUS = 3, FILM = 4, LAMBDA = 5,
               POWER_LOSS = 6, MESH_POWER = 7;
 constexpr int QUANTITIES = 8;
 
 // Rows of the integrals in MeshSums: those of `observe`, then the square of the transmission error,
-// the time for which a force acts, that for which it acts without viscous friction, and that for
-// which film and lambda ratio are known.
+// the time in contact, the time in contact without viscous friction, and the time in which film and
+// lambda ratio are known.
 constexpr int SQUARE = QUANTITIES, CONTACT = QUANTITIES + 1, CLIPPED = QUANTITIES + 2,
               FILMED = QUANTITIES + 3;
 constexpr int SUMS = QUANTITIES + 4;

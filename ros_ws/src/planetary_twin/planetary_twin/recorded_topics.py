@@ -22,8 +22,8 @@ _STRING = "std_msgs/msg/String"
 _NOTHING: tuple[bytes, ...] = ()
 _REPORTED = 400  # messages between two calls of `progressed`
 _UNMATCHED = 3.0  # [s] after which a subscription without a publisher is created again
-_BATCH = 200  # messages of one topic before other topics have their turn
-_QUEUE = 5000  # messages of one topic that wait at most
+_BATCH = 200  # messages of one topic that are written before those of other topics
+_QUEUE = 5000  # largest number of queued messages of one topic
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
 
@@ -45,7 +45,7 @@ class Sink(Protocol):
 Failed = Callable[[OSError], None]
 
 
-class Tap:
+class RecordedTopic:
     """One recorded topic: its subscription, its channel in `sink` and its message counts."""
 
     def __init__(
@@ -59,7 +59,7 @@ class Tap:
     ) -> None:
         self.account = TopicAccount(latched)
         self.subscription: Subscription | None = None
-        self._matched = 0.0  # [s] when it last had a publisher, or was created
+        self._matched = 0.0  # [s] time at which it last had a publisher, or was created
         self._sink = sink
         self._own = own
         self._failed = failed
@@ -93,7 +93,7 @@ class Tap:
 
         The executor would deliver them one by one, at ten times the cost of writing one.
         """
-        if self.subscription is None:  # a message in transit when the tap was closed
+        if self.subscription is None:  # a message in transit when recording ended
             return
         try:
             self._write(raw, info)
@@ -105,12 +105,12 @@ class Tap:
             self._failed(reason)
 
     def drain(self) -> None:
-        """Write the messages that wait; raises `OSError` if the sink cannot write."""
+        """Write the queued messages; raises `OSError` if the sink cannot write."""
         for waiting in self._waiting(_QUEUE):
             self._write(*waiting)
 
     def _waiting(self, most: int) -> Iterator[tuple[bytes, dict[str, Any]]]:
-        """Take at most `most` messages that wait."""
+        """Take at most `most` queued messages."""
         subscription = self.subscription
         if subscription is None:
             return
@@ -137,9 +137,9 @@ class Tap:
         self.account.reported += event.total_count_change
 
 
-class Taps:
+class RecordedTopics:
     """
-    The taps of one recording into `sink`, on subscriptions of `node`.
+    The topics of one recording into `sink`, on subscriptions of `node`.
 
     `chosen` are the topics to record; empty: those of the namespace. `own` are the newest messages
     of the node itself, which are not recorded, so that a recording of a replay contains the
@@ -163,21 +163,21 @@ class Taps:
         self._failed = failed
         self._progressed = progressed
         self._unreported = 0
-        self._taps: dict[str, Tap] = {}
+        self._topics: dict[str, RecordedTopic] = {}
         self._refused: set[str] = set()
 
     @property
     def accounts(self) -> dict[str, TopicAccount]:
         """Message counts by topic, of all topics found so far."""
-        return {name: tap.account for name, tap in self._taps.items()}
+        return {name: recorded.account for name, recorded in self._topics.items()}
 
     @property
     def matched(self) -> dict[str, TopicAccount]:
         """Message counts of the topics that have, or have had, a publisher."""
         return {
-            name: tap.account
-            for name, tap in self._taps.items()
-            if tap.account.recorded or tap.publishers()
+            name: recorded.account
+            for name, recorded in self._topics.items()
+            if recorded.account.recorded or recorded.publishers()
         }
 
     def discover(self) -> None:
@@ -187,18 +187,18 @@ class Taps:
 
     def drain(self) -> None:
         """
-        Write what waits, at the end of a recording; raises `OSError` if the sink cannot write.
+        Write the queued messages at the end; raises `OSError` if the sink cannot write.
 
         A twin publishes each interval in the order of the topics' names: first its commands, then
         its state. In the reverse order, no state is written without its commands.
         """
-        for name in sorted(self._taps, reverse=True):
-            self._taps[name].drain()
+        for name in sorted(self._topics, reverse=True):
+            self._topics[name].drain()
 
     def close(self) -> None:
         """Destroy the subscriptions; `discover` subscribes again."""
-        for tap in self._taps.values():
-            self._unsubscribe(tap)
+        for recorded in self._topics.values():
+            self._unsubscribe(recorded)
 
     def _count(self) -> None:
         self._unreported += 1
@@ -206,22 +206,22 @@ class Taps:
             self._unreported = 0
             self._progressed()
 
-    def _unsubscribe(self, tap: Tap) -> None:
-        if tap.subscription is not None:
-            self._node.destroy_subscription(tap.subscription)
-            tap.use(None)
+    def _unsubscribe(self, recorded: RecordedTopic) -> None:
+        if recorded.subscription is not None:
+            self._node.destroy_subscription(recorded.subscription)
+            recorded.use(None)
 
     def _subscribe(self, name: str) -> None:
-        tap = self._taps.get(name)
+        recorded = self._topics.get(name)
         all_publishers = self._node.get_publishers_info_by_topic(name)
         here = self._node.get_name(), self._node.get_namespace()
         publishers = [p for p in all_publishers if (p.node_name, p.node_namespace) != here]
         if name in self._refused or not publishers:
             return
-        if tap and tap.subscription:
-            if not tap.unmatched():
+        if recorded and recorded.subscription:
+            if not recorded.unmatched():
                 return
-            self._unsubscribe(tap)
+            self._unsubscribe(recorded)
         try:
             topic = describe(name, publishers)
             kind = message_class(topic.type)
@@ -230,16 +230,18 @@ class Taps:
             self._node.get_logger().warning(f"{name} is not recorded: {missing}")
             return
         qos = matching_qos(publishers)
-        if tap is None:
+        if recorded is None:
             latched = qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
             own = self._own if len(publishers) < len(all_publishers) else _NOTHING
-            tap = self._taps[name] = Tap(
+            recorded = self._topics[name] = RecordedTopic(
                 self._sink, topic, latched, own, self._failed, self._count
             )
-        tap.use(self._subscription(kind, name, tap, qos))
+        recorded.use(self._subscription(kind, name, recorded, qos))
 
-    def _subscription(self, kind: type, name: str, tap: Tap, qos: QoSProfile) -> Subscription:
-        events = SubscriptionEventCallbacks(message_lost=tap.on_message_lost)
+    def _subscription(
+        self, kind: type, name: str, recorded: RecordedTopic, qos: QoSProfile
+    ) -> Subscription:
+        events = SubscriptionEventCallbacks(message_lost=recorded.on_message_lost)
         return self._node.create_subscription(
-            kind, name, tap.receive, qos, raw=True, event_callbacks=events
+            kind, name, recorded.receive, qos, raw=True, event_callbacks=events
         )

@@ -13,11 +13,11 @@
 
 namespace gearbox {
 
-struct alignas(64) March {
+struct alignas(64) Integrator {
     State begin;
     State end;
     StepConstants constants;
-    StepConstants scratch;  // room for where a mesh stands at an event
+    StepConstants scratch;  // work space for the position of a mesh at an event
     Evaluation first;       // forces at `begin`
     Evaluation last;        // forces at `end`, with the contacts of `begin`
     State dense;            // x and v within the step
@@ -25,7 +25,7 @@ struct alignas(64) March {
     Workspace work;
     Propagation run;
     Periodic periodic;
-    StepSums sums;  // of what the meshes show, over the last step and those before
+    StepSums sums;  // of the meshes, over the last step and those before
 };
 
 }  // namespace gearbox
