@@ -45,6 +45,12 @@ class Candidate(NamedTuple):
         """Largest of the errors; infinite if the scene does not run."""
         return max(self.errors.values(), default=float("inf"))
 
+    @property
+    def largest(self) -> str:
+        """The largest error and its quantity, as text; only if the scene runs."""
+        worst = max(self.errors, key=lambda figure: self.errors[figure])
+        return f"{_share(self.error)} ({_plain(worst)})"
+
 
 @dataclass(frozen=True)
 class DynamicsChoice:
@@ -73,18 +79,16 @@ class DynamicsChoice:
             if candidate.refused:
                 parts.append(f"{name} is not possible: {candidate.refused}")
             elif candidate.error > self.allowed:
-                worst = max(candidate.errors, key=lambda figure: candidate.errors[figure])
-                parts.append(f"{name} has an error of {_share(candidate.error)} ({_plain(worst)})")
+                parts.append(f"{name} has an error of {candidate.largest}")
         return "; ".join(parts)
 
     def _kept(self) -> str:
         if self.dynamics == self.reference:
             return f"no simpler dynamics is within {_share(self.allowed)} of {self.reference}"
         (own,) = (each for each in self.candidates if each.dynamics == self.dynamics)
-        worst = max(own.errors, key=lambda figure: own.errors[figure])
         return (
-            f"it is the simplest dynamics within {_share(self.allowed)} of {self.reference} "
-            f"(largest error {_share(own.error)}, {_plain(worst)})"
+            f"it is the simplest dynamics within {_share(self.allowed)} of {self.reference}, with "
+            f"an error of {own.largest}"
         )
 
     @property

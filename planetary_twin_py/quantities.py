@@ -87,13 +87,11 @@ MESH = {
         "DTE, rms of the deviation from the mean", "m",
         "DTE, rms of the deviation from the mean, largest", over_meshes=np.max,
     ),
-    "dte_peak": Quantity("DTE, largest magnitude", "m", over_meshes=np.max),
+    "dte_peak": Quantity("DTE, peak", "m", over_meshes=np.max),
     "mesh_force_mean": Quantity("Mesh force, mean", "N", "mesh force, mean"),
-    "mesh_force_peak": Quantity(
-        "Mesh force, largest magnitude", "N", "mesh force, largest magnitude", over_meshes=np.max
-    ),
+    "mesh_force_peak": Quantity("Mesh force, peak", "N", "mesh force, peak", over_meshes=np.max),
     "contact_fraction": Quantity(
-        "Fraction of time in contact", "", "share of time in contact, smallest", PERCENT, np.min
+        "Fraction of time in contact", "", "fraction of time in contact, smallest", PERCENT, np.min
     ),
     "film_thickness": Quantity("Film thickness", "m", "film thickness in contact, mean"),
     "lambda_ratio": Quantity(
@@ -127,9 +125,9 @@ COMPONENTS = dict.fromkeys(MEMBERS, ("x", "y")) | {"planet": ("radial", "tangent
 
 BEARING = {
     "displacement": Quantity("Displacement of the axis, mean", "m"),
-    "displacement_peak": Quantity("Displacement of the axis, largest magnitude", "m"),
+    "displacement_peak": Quantity("Displacement of the axis, peak", "m"),
     "bearing_force": Quantity("Force on the bearing, mean", "N"),
-    "bearing_force_peak": Quantity("Force on the bearing, largest magnitude", "N"),
+    "bearing_force_peak": Quantity("Force on the bearing, peak", "N"),
 }
 """Statistics of an axis that moves, see `axes_statistics`: fields of AxesState after a prefix of
 `COMPONENTS` and, of a vector, before a component."""

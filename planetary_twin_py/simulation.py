@@ -167,7 +167,9 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
     """
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
-    if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
+    if not duration > 0.0:  # or NaN
+        raise ValueError(f"duration = {duration!r} s: must be above 0 s")
+    if not 1.0 <= duration * sample_rate <= MOST_SAMPLES:
         raise ValueError(
             f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
             f"and {MOST_SAMPLES} samples"

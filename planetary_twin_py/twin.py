@@ -52,7 +52,9 @@ class Twin:
     The equations of motion are those of `simulate`; their sources are in docs/model.md.
 
     Args:
-        scene: the scene; the run starts in a steady state at its operating point.
+        scene: the scene; the run starts at the speeds of its operating point, deflected by its
+            torques. This is a steady state unless a port is given: its torque starts at the value
+            without losses, which a machine at the other port adds, or which slows the train down.
         sample_rate: sample rate of the waveform [Hz].
         tolerance: relative local error tolerance; the default is suitable for real time.
         keep_commands: whether to keep the commands at the ports, see `commands`.

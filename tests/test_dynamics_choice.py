@@ -103,4 +103,7 @@ def test_explain_compares_the_dynamics_of_a_scene():
     costs = [each.cost for each in found.dynamics.candidates]
     assert all(cost > 0.0 for cost in costs)
     printed = CliRunner().invoke(build_app(), ["explain", "floating_sun", "--duration", "0.005"])
-    assert "Within 2 % (dynamics_error): planar" in printed.stdout.replace("\n", " ")
+    verdict = " ".join(printed.stdout.split())
+    assert "Simplest dynamics within 2 % (dynamics_error): planar. Errors of the others:" in verdict
+    simpler = next(each for each in found.dynamics.candidates if each.dynamics == "torsional")
+    assert f"torsional {100.0 * simpler.error:.2g} %" in verdict

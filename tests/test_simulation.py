@@ -114,8 +114,9 @@ def test_standstill_under_torque_creeps_at_most():
 @pytest.mark.parametrize(
     "arguments, named",
     [
-        ({"duration": 0.0}, "duration"),
-        ({"duration": math.nan}, "duration"),
+        ({"duration": -1.0}, r"^duration = -1\.0 s: must be above 0 s$"),
+        ({"duration": 0.0}, "must be above 0 s"),
+        ({"duration": math.nan}, "must be above 0 s"),
         ({"duration": 1e6}, "duration"),
         ({"duration": 0.1, "sample_rate": 1.0}, "sample_rate"),
         ({"duration": 0.1, "method": "euler"}, "method"),

@@ -100,8 +100,9 @@ def test_a_refused_change_names_field_value_and_range_and_changes_nothing(change
 
 
 def test_an_unknown_name_is_refused():
-    with pytest.raises(pt.SceneError, match=r"^lambda: no such field$"):
+    with pytest.raises(pt.SceneError) as refusal:
         pt.Twin(PAPER).set(**{"lambda": 1.0})
+    assert str(refusal.value) == "lambda: no such field; did you mean lambda_ratio?"
 
 
 def test_speed_change_is_followed_at_the_slew_rate_without_drift():

@@ -45,7 +45,7 @@ def fit_manoeuvre(
     from ..terminal.settings import changed_scene
 
     if scene is None:
-        raise ValueError(f"--scene: required for the manoeuvre {file}")
+        raise ValueError(f"--scene: required for a table of readings over time, {file}")
     limits = (
         -math.inf if part.begin is None else part.begin,
         math.inf if part.end is None else part.end,

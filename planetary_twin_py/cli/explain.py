@@ -154,9 +154,9 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
 
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
-        caption=f"Within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}, because "
-        f"{found.reason}.\nRun time is computing time per simulated second. Bearing forces and "
-        "orbits need axes that move: planar, spatial, quasi_static_planar, quasi_static_spatial.",
+        caption=f"{_verdict(found)}\nRun time is computing time per simulated second. Bearing "
+        "forces and orbits need axes that move: planar, spatial, quasi_static_planar, "
+        "quasi_static_spatial.",
     )
     table.add_column("dynamics")
     for name in (*FIGURES, "run time \\[s]"):
@@ -167,6 +167,24 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
         errors = (f"{100.0 * each.errors[name]:.2f}" for name in FIGURES)
         table.add_row(each.dynamics, *errors, f"{each.cost:.2g}")
     return table
+
+
+def _verdict(found: DynamicsChoice) -> str:
+    """The selected dynamics, the errors of the others, and why some are not possible."""
+    lines = [
+        f"Simplest dynamics within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}."
+    ]
+    others = [
+        f"{each.dynamics} {each.largest}"
+        for each in found.candidates
+        if not each.refused and each.dynamics not in (found.dynamics, found.reference)
+    ]
+    if others:
+        lines[0] += f" Errors of the others: {', '.join(others)}."
+    for each in found.candidates:
+        if each.refused:
+            lines.append(f"Not possible: {each.dynamics}, because {each.refused}.")
+    return "\n".join(lines)
 
 
 def _table(scene: Scene, found: Explanation) -> Table:

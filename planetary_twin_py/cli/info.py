@@ -89,6 +89,13 @@ def _print(console: Console, found: Info) -> None:
         table.add_row(*row, style="red" if missing else None)
     console.print(table)
     console.print()
+    if any(topic.lost is None for topic in found.topics.values()):
+        console.print(
+            "lost          unknown: the file has no count of lost messages, which the logger "
+            "writes at its end",
+            highlight=False,
+            soft_wrap=True,
+        )
     for path in found.files:
         size = path.stat().st_size / 1e6
         console.print(f"file          {path}, {size:.1f} MB", highlight=False, soft_wrap=True)

@@ -48,7 +48,7 @@ def resimulate(
     The values of --set stay constant; all other values change as they did in FILE. A command of
     --commands acts from the start of the first interval at or after its time.
 
-    Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 3.0
+    Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 0.5
     """
     need("recording", "mcap", "rosbags")
     from rich.progress import Progress

@@ -199,9 +199,9 @@ def _table(meshes: dict[str, dict[str, float]]) -> Table:
 # Text and SI unit of what a run shows of each axis, by JSON name.
 _AXES = {
     "displacement_mean_m": ("displacement, magnitude of its mean", "m"),
-    "displacement_peak_m": ("displacement, largest magnitude", "m"),
+    "displacement_peak_m": ("displacement, peak", "m"),
     "bearing_force_mean_N": ("force on the bearing, magnitude of its mean", "N"),
-    "bearing_force_peak_N": ("force on the bearing, largest magnitude", "N"),
+    "bearing_force_peak_N": ("force on the bearing, peak", "N"),
 }
 
 
@@ -210,9 +210,9 @@ _TILTING = {
     "axial_displacement_mean_m": ("axial displacement, mean", "m"),
     "tilt_mean_rad": ("tilt, magnitude of its mean", "rad"),
     "thrust_mean_N": ("thrust on the bearing, mean", "N"),
-    "thrust_peak_N": ("thrust on the bearing, largest magnitude", "N"),
+    "thrust_peak_N": ("thrust on the bearing, peak", "N"),
     "tilting_moment_mean_Nm": ("tilting moment on the bearing, magnitude of its mean", "N m"),
-    "tilting_moment_peak_Nm": ("tilting moment on the bearing, largest magnitude", "N m"),
+    "tilting_moment_peak_Nm": ("tilting moment on the bearing, peak", "N m"),
 }
 
 

@@ -62,24 +62,25 @@ def _print(console: Console, result: Comparison) -> None:
         console.print(f"not recorded      {result.not_recorded} states")
     if not result.same_makers:
         console.print("recorded by       another core or another type of machine")
-    first = result.first_difference
-    if first is None:
-        console.print(f"result            {_conclusion(result)}", highlight=False, soft_wrap=True)
-        return
-    console.print(
-        f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
-        f"recorded {first.recorded!r}, simulated {first.simulated!r}",
-        highlight=False,
-    )
-    console.print(
-        f"largest           {result.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
-    )
+    if first := result.first_difference:
+        console.print(
+            f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
+            f"recorded {first.recorded!r}, simulated {first.simulated!r}",
+            highlight=False,
+        )
+        console.print(
+            f"largest           {result.largest:.3g} x tolerance "
+            f"(bound between machines: {BOUND:g})"
+        )
+    console.print(f"result            {_conclusion(result)}", highlight=False, soft_wrap=True)
 
 
 def _conclusion(result: Comparison) -> str:
-    """What was identical; the warnings above state why not everything was compared."""
+    """The verdict; the warnings above state why not everything was compared."""
     if result.identical:
         return "identical bit for bit"
+    if result.first_difference:
+        return _of_differences(result)
     same = sum(result.messages.values())
     if result.left_out:
         return (
@@ -90,6 +91,17 @@ def _conclusion(result: Comparison) -> str:
         f"{same} messages read, all identical bit for bit; "
         "but the recording is incomplete, see the warnings"
     )
+
+
+def _of_differences(result: Comparison) -> str:
+    from ..recording.runs.verify import BOUND
+
+    if result.same_makers:
+        return "differs, although the same core on the same type of machine recorded it"
+    if result.largest > BOUND:
+        return "differs by more than the bound between machines"
+    incomplete = "; but the recording is incomplete, see the warnings" if result.remarks else ""
+    return f"within the bound between machines{incomplete}"
 
 
 def _figures(result: Comparison) -> dict[str, Any]:

@@ -238,8 +238,8 @@ class BalanceFilter:
             The balance. Its noise is independent of that of other bins.
         """
         inertia = float(self.x[J])
-        self.x[T] = read.input_torque - inertia * read.acceleration
-        expected, slope = self._expected(read.speed, read.oil_temperature)
+        torque = read.input_torque - inertia * read.acceleration
+        expected, slope = self._expected(torque, read.speed, read.oil_temperature)
         slope[J] = read.acceleration
         noise = self._noise[1] / read.counts[1] + self._noise[0] / read.counts[0]
         noise = self.excess * noise + (inertia * read.acceleration_noise) ** 2
@@ -263,7 +263,7 @@ class BalanceFilter:
         Returns:
             Loss torque and its standard deviation [N m].
         """
-        expected, slope = self._expected(speed, temperature)
+        expected, slope = self._expected(float(self.x[T]), speed, temperature)
         slope[T] += 1.0
         slope[[B, G]] = 0.0
         value = expected + float(self.x[T] - self.x[B] - self.x[G] * self.x[T])
@@ -294,10 +294,9 @@ class BalanceFilter:
         self.p[: RATE + 1], self.p[:, : RATE + 1] = 0.0, 0.0
         self.p[T, T] = self.p[RATE, RATE] = (FAR * self.train.torque) ** 2
 
-    def _expected(self, speed: float, temperature: float) -> tuple[float, Array]:
-        """Expected i T_l, and its derivatives over the states, (9,)."""
+    def _expected(self, torque: float, speed: float, temperature: float) -> tuple[float, Array]:
+        """Expected i T_l at T = `torque`, and its derivatives over the states, (9,)."""
         train, x = self.train, self.x
-        torque = float(x[T])
         sign = math.copysign(1.0, speed)
         loss = self.losses(torque, speed, temperature)
         over_t = math.log(max(abs(torque) / train.torque, LEAST))
@@ -313,7 +312,7 @@ class BalanceFilter:
         return expected + float(x[B] + x[G] * torque), slope
 
     def _balance(self, read: Measured, step: float) -> Innovation:
-        expected, slope = self._expected(read.speed, read.oil_temperature)
+        expected, slope = self._expected(float(self.x[T]), read.speed, read.oil_temperature)
         noise = self.excess * self._noise[1] / read.counts[1]
         noise += (self.excess - 1.0) * self._noise[0] / read.counts[0]
         innovation = self.train.ratio * read.output_torque - expected

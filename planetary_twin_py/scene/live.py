@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .drive import Ports
+from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint
 from .quantity import SceneError
 
@@ -42,6 +43,6 @@ def split_live(changes: Mapping[str, Any]) -> tuple[dict[str, float], dict[str, 
     """
     for name in changes:
         if name not in LIVE:
-            raise SceneError(f"{name}: no such field")
+            raise SceneError(no_such_field(name, LIVE))
     point = {name: value for name, value in changes.items() if name in TUNABLES}
     return point, {PORT_FIELDS[name]: v for name, v in changes.items() if name in PORT_FIELDS}

@@ -24,14 +24,16 @@ def nearest(name: str, known: Iterable[str]) -> list[str]:
     """The `known` names similar to `name`.
 
     Names are compared without their sections, which all fields of a section share: viscosity is
-    similar to lubrication.viscosity, but mesh.colour is not similar to other fields of mesh.
+    similar to lubrication.viscosity, but mesh.colour is not similar to other fields of mesh. If
+    none is similar, those that begin with the whole name are returned: lambda_ratio for lambda.
     """
     places: dict[str, list[str]] = {}
     for path in known:
         places.setdefault(_own(path), []).append(path)
     for own in get_close_matches(_own(name), places, 1, NEAR):
         return get_close_matches(name, places[own], _MOST, 0.0)
-    return []
+    begun = [path for own in places if own.startswith(f"{_own(name)}_") for path in places[own]]
+    return get_close_matches(name, begun, _MOST, 0.0)
 
 
 def _own(path: str) -> str:

@@ -30,4 +30,5 @@ def test_a_manoeuvre_is_fitted_and_reported(tmp_path, suffix):
 
 def test_a_manoeuvre_without_a_scene_is_refused_in_one_line():
     done = run("fit", RAMP, "--free", DRAG)
-    assert done.returncode != 0 and "--scene: required" in done.stderr
+    assert done.returncode == 2
+    assert "--scene: required for a table of readings over time" in done.stderr

@@ -5,6 +5,7 @@ The first word of an info string is the language, the others say how a block is 
 `not-run=REASON` skips it, for one of `REASONS`.
 """
 
+import re
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,8 +45,29 @@ class Block:
     @property
     def commands(self) -> list[str]:
         """Lines after a prompt with their continuation lines; the others are output."""
-        lines = self.text.replace("\\\n", " ").splitlines()
-        return [line[2:] for line in lines if line.startswith("$ ")]
+        return [command for command, _ in self.session]
+
+    @property
+    def session(self) -> list[tuple[str, str]]:
+        """Each command, and the output that follows it; empty if none is shown."""
+        found: list[tuple[str, str]] = []
+        for line in self.text.replace("\\\n", " ").splitlines():
+            if line.startswith("$ "):
+                found.append((line[2:], ""))
+            elif found:
+                command, output = found[-1]
+                found[-1] = command, f"{output}{line}\n"
+        return found
+
+
+def shows(output: str, printed: str) -> bool:
+    """Whether `output` is an excerpt of what is printed.
+
+    `...` stands for anything, also over several lines. Lines before the first one and after the
+    last one may be left out, and white space is that of any width of the page.
+    """
+    parts = (re.escape(" ".join(part.split())) for part in output.split("..."))
+    return re.search(".*".join(parts), " ".join(printed.split())) is not None
 
 
 def pages() -> list[Path]:

@@ -1,7 +1,8 @@
 """Every block of the documentation works as written.
 
 Each page is executed from top to bottom in a separate folder, with a small recording as
-`recordings/NAME`: Python in one namespace, commands in a shell, files under their names.
+`recordings/NAME`: Python in one namespace, commands in a shell, files under their names. What
+follows a command on the page is an excerpt of what the command prints.
 """
 
 import os
@@ -14,7 +15,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from docs.blocks import LANGUAGES, REASONS, ROOT, Block, blocks, pages
+from docs.blocks import LANGUAGES, REASONS, ROOT, Block, blocks, pages, shows
 from domains import private_domain
 
 import planetary_twin_py as pt
@@ -42,7 +43,7 @@ def environment():
     outside = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
     with private_domain() as number:
-        own = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100", "ROS_DOMAIN_ID": str(number)}
+        own = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "200", "ROS_DOMAIN_ID": str(number)}
         yield outside | own | {"PYTHONUNBUFFERED": "1"}
 
 
@@ -107,7 +108,7 @@ def try_block(block: Block, folder, environment, namespace, behind):
         exec(compile("\n" * block.line + block.text, str(block), "exec"), namespace)
     if block.language == "yaml":
         check_yaml(block)
-    for command in block.commands if block.language == "console" else ():
+    for command, output in block.session if block.language == "console" else ():
         if "background" in block.words:
             behind.append(start(command, folder, environment))
             continue
@@ -116,6 +117,9 @@ def try_block(block: Block, folder, environment, namespace, behind):
             timeout=PATIENCE,
         )  # fmt: skip
         assert done.returncode == 0, f"{block}: {command}\n{done.stdout}{done.stderr}"
+        assert shows(output, done.stdout + done.stderr), (
+            f"{block}: {command}\nshows\n{output}but prints\n{done.stdout}{done.stderr}"
+        )
 
 
 def check_yaml(block):
@@ -145,6 +149,14 @@ def end(process):
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
     return process.wait(ENDS)
+
+
+def test_an_excerpt_has_parts_in_their_order():
+    printed = "one  2.41 s\n│ two   │ three │\nfour five\nsix"
+    assert shows("one ... s\n...\nfour\nfive", printed) and shows("", printed)
+    assert shows("│ two │ three │\nfour five", printed)
+    for wrong in ("one 2.42 s", "four ... one", "two three", "one 2.41 s\nfour"):
+        assert not shows(wrong, printed), wrong
 
 
 @pytest.mark.parametrize("reason", REASONS)

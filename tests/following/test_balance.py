@@ -6,8 +6,16 @@ from following.plants import LAWS, balance_of, friction_level, paper, played
 from tiers import first
 
 from planetary_twin_py.following.balance import BalanceFollower
-from planetary_twin_py.following.balance_filter import CAUSES
+from planetary_twin_py.following.balance_filter import (
+    CAUSES,
+    BalanceFilter,
+    Measured,
+    alarm_memory,
+)
 from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.loss_map import loss_map
+from planetary_twin_py.following.sensors import Sensors
+from planetary_twin_py.following.train import followed_train
 
 DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found
 
@@ -204,3 +212,22 @@ def test_no_false_alarm_in_ten_minutes_of_each_duty():
     for number, kind in enumerate(DELAYS):
         _, follower = balance_of(kind, LAWS["with bearings"], 600.0, 40 + number)
         assert not follower.events
+
+
+def test_the_balance_of_readings_changes_nothing_and_a_reading_without_noise_explains_it():
+    """i T_l = -T + L(T, w): the readings are computed from the loss map, not by the filter."""
+    train, losses = followed_train(paper()), loss_map(paper())
+    oil = paper().operating_point.oil_temperature
+    balances = BalanceFilter(train, losses, Sensors(), alarm_memory(train))
+    for time, torque in enumerate((63.0, 50.0)):
+        loss = losses(torque, train.speed, oil)
+        read = Measured(
+            float(time), torque, (loss.teeth + loss.rest - torque) / train.ratio, (10, 10),
+            train.speed, 0.0, 0.0, oil,
+        )  # fmt: skip
+        before = balances.x.copy(), balances.p.copy()
+        found = balances.balance(read)
+        assert (balances.x == before[0]).all() and (balances.p == before[1]).all()
+        assert found.value == pytest.approx(0.0, abs=1e-6 * torque)
+        assert found.added[0] == pytest.approx(loss.teeth)
+        balances.update(read)

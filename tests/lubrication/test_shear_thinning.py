@@ -78,6 +78,53 @@ def test_two_points_represent_the_pressure_over_the_contact(mesh, rpm, share, sl
     assert found == pytest.approx(expected, rel=0.1, abs=2e-3 * load)
 
 
+def contacts_by_chance(count, oils):
+    """Two points and the integral [N] of cool films, with the load [N] and the slide-to-roll."""
+    random = np.random.default_rng(4)
+    for _ in range(count):
+        mesh, rpm = CASES[random.integers(len(CASES))]
+        load, ratio = 10 ** random.uniform(-5, 1) * LOAD, 10 ** random.uniform(-8, 0.3)
+        viscosity, alpha, eyring, limit = oils(random)
+        oil = oil_of(
+            SCENE.replace(
+                **{
+                    "lubrication.viscosity": viscosity, "lubrication.pressure_viscosity": alpha,
+                    "lubrication.shear_stress": eyring, "lubrication.limiting_stress": limit,
+                    "lubrication.temperature_viscosity": 1e-12,
+                }
+            )
+        )  # fmt: skip
+        speed = ratio * pitch_point(mesh, rpm).speed
+        area, log_film, log_heat = contact(load, mesh, rpm)
+        log_film += 0.67 * math.log(viscosity / VISCOSITY)  # as the film laws grow with it
+
+        def stress(p, e=eyring, a=alpha, s=limit, time=viscosity / eyring, v=speed, h=log_film):
+            return min(e * math.asinh(time * math.exp(min(a * p - h, 200.0)) * v), s * p)
+
+        found = film_shear(oil.shear_thinning, load, area, log_film, log_heat, speed)[0]
+        yield found, over_the_contact(stress, load, area), load, ratio
+
+
+def of_paper(random):
+    return 10 ** random.uniform(math.log10(0.005), math.log10(0.5)), ALPHA, EYRING_STRESS, LIMIT
+
+
+def of_any(random):
+    ranges = ((1e-8, 3e-8), (1e6, 1e7), (0.03, 0.08))
+    return of_paper(random)[0], *(random.uniform(*limits) for limits in ranges)
+
+
+@pytest.mark.parametrize("oils, share, coefficient", [(of_paper, 0.1, 1.1e-3), (of_any, 0.2, 0.01)])
+def test_two_points_are_within_the_stated_error_of_the_integral(oils, share, coefficient):
+    largest = 0.0
+    for found, exact, load, ratio in contacts_by_chance(600, oils):
+        error = abs(found - exact)
+        largest = max(largest, error / exact)
+        assert ratio < 0.01 or error < share * exact
+        assert error < coefficient * load and error < 0.6 * exact
+    assert largest > 2.0 * share  # so the limit of the slide-to-roll ratio is needed
+
+
 @pytest.mark.parametrize("mesh, rpm", CASES)
 def test_under_a_heavy_load_it_is_near_the_plateau_of_evans_and_johnson(mesh, rpm):
     """Their law is a fit of its own to discs; it has no sliding speed in it."""

@@ -312,3 +312,12 @@ def test_only_torques_at_the_ports_change_the_momentum_of_the_train():
     gained = momentum_at(0.02) - momentum_at(0.005)
     assert gained == pytest.approx(impulse, abs=1e-8 * momentum_at(0.02))
     assert abs(impulse) > 1e-3 * momentum_at(0.02)
+
+
+def test_a_given_torque_starts_at_the_value_without_losses_which_a_machine_has_not():
+    lossless = PAPER.operating_point.input_torque / -RATIO
+    for given in (("machine", "torque"), ("torque", "torque"), ("torque", "motion")):
+        assert pt.Twin(driven(*given)).port_states.output_torque == pytest.approx(lossless)
+    steady = pt.Twin(PAPER)
+    efficiency = pt.simulate(PAPER, 0.2).efficiency
+    assert steady.port_states.output_torque == pytest.approx(efficiency * lossless, rel=1e-3)

@@ -10,12 +10,13 @@ import time
 import numpy as np
 import pytest
 from planetary_twin.benchmark.figures import Quantiles, Slope
-from planetary_twin.benchmark.measure import Bench
+from planetary_twin.benchmark.measure import Bench, Cost, Figures, Memory
 from planetary_twin.benchmark.process import (
     processor_time,
     resident_memory,
     waited_for_processor,
 )
+from planetary_twin.benchmark.report import CORES, RESIDENT, SLOPE, as_markdown
 
 
 def test_quantiles_are_those_of_the_sample() -> None:
@@ -97,3 +98,12 @@ def test_a_short_measurement_gives_plausible_figures(
     assert cost.tolerance == 1e-3 and cost.listeners == 2
     assert 0.01 < cost.cores < 2.0
     assert said
+
+
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_a_figure_that_misses_its_target_says_so(factor: float) -> None:
+    cost = Cost("paper", 1e-3, "repeated", 1, factor * CORES, 1.0, "full")
+    memory = Memory(90.0, 100.0, factor * RESIDENT, Slope(factor * SLOPE, 0.1))
+    page = as_markdown(Figures("a machine", 8.0, [], [cost], memory), "a command")
+    for figure in (f"{factor * CORES:.1%}", f"{factor * RESIDENT:.1f} MB", f"{factor:.2f} MB/h"):
+        assert f"| {figure}{', missed' if factor > 1.0 else ''} |" in page

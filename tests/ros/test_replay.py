@@ -129,7 +129,8 @@ def _resume(peer: Peer) -> None:
 
 def _refused(process: Program, *reasons: str) -> None:
     _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
+    assert process.returncode == 2
+    assert errors.startswith("planetary-twin: ")
     assert len(errors.strip().splitlines()) == 1
     assert all(reason in errors for reason in reasons), errors
 

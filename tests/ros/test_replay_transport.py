@@ -271,12 +271,13 @@ def test_invalid_names_of_topics_end_in_one_line(play: Play, split: Path) -> Non
     _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
     _refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
     _refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
-    _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW", code=2)
+    _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW")
 
 
-def _refused(process: Program, *reasons: str, code: int = 1) -> None:
+def _refused(process: Program, *reasons: str) -> None:
     _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == code
+    assert process.returncode == 2
+    assert errors.startswith("planetary-twin: "), errors
     assert len(errors.strip().splitlines()) == 1, errors
     assert all(reason in errors for reason in reasons), errors
 

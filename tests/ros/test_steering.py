@@ -122,12 +122,15 @@ def test_the_monitor_shows_every_figure(command: Command, points: list[Operating
     for figure in FIGURES:
         assert figure.title in answer.stdout
     assert answer.stdout.count("Speed of the motor") >= 2
-    assert "1000 " in answer.stdout and "mesh cycles" in answer.stdout
+    assert "1000 " in answer.stdout and "Mesh cycles" in answer.stdout
 
 
 def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan() -> None:
     assert sparkline([0.0, 7.0, math.nan, 3.5]) == "▁█ ▅"
     assert sparkline([2.0, 2.0]) == "▁▁"
+    assert sparkline([0.0, 0.0]) == "▁▁"
+    assert sparkline([1000.0, 1000.0 + 1e-9, 1000.0]) == "▁▁▁"  # rounding is not a swing
+    assert sparkline([-1000.0, -995.0, -990.0]) == "▁▅█"  # 1 % of the largest magnitude is one
     assert sparkline([math.nan]) == ""
 
 

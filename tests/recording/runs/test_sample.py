@@ -37,6 +37,13 @@ def test_it_is_small_and_holds_every_message_that_was_published():
         "input_speed",
         "input_torque",
     }
+    assert len({change.time for change in info.changes[1:]}) == 3
+
+
+def test_its_description_has_its_length_and_its_sample_rate():
+    info, text = read_info(SAMPLE), (SAMPLE.parent / "README.md").read_text()
+    assert f"{info.simulated:.1f} s of the paper's gearbox in real time" in text
+    assert "three\ninstants" in text and "12.5 kHz" in text
 
 
 def test_two_readers_find_the_same_messages_in_it():

@@ -188,14 +188,18 @@ def invoke(*arguments):
 
 def test_other_machines_may_differ_within_the_bound(tmp_path):
     foreign = replace(makers_here(), machine="another")
-    for share, code in ((0.1, 0), (10.0, 1)):
+    within = "within the bound between machines"
+    beyond = "differs by more than the bound between machines"
+    for share, code, result in ((0.1, 0, within), (10.0, 1, beyond)):
         shift = share * BOUND * 1e-3  # times the tolerance
         alter = altering("gearbox_state", 5, "power_loss", lambda loss, by=shift: loss * (1 + by))
         file = record(tmp_path / str(code), alter, foreign)
         verdict = verify(file, NAMESPACE)
         assert not verdict.same_makers and not verdict.identical
         assert verdict.largest == pytest.approx(share * BOUND, rel=0.2)
-        assert invoke(file)[0] == code
+        found, output = invoke(file)
+        assert found == code
+        assert output.splitlines()[-1] == f"result            {result}"
 
 
 def test_stored_power_differs_in_relation_to_the_power_it_is_a_difference_of(tmp_path, sound):
@@ -219,6 +223,7 @@ def test_the_command_prints_its_findings(sound, tmp_path):
     code, output = invoke(file, "--json", tmp_path / "figures.json")
     assert code == 1
     assert "gearbox_state.power_loss[0] at 0.25 s" in output
+    assert "result            differs, although the same core" in output
     assert json.loads((tmp_path / "figures.json").read_text())["first_difference"]["time"] == 0.25
 
 

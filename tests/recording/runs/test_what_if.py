@@ -128,6 +128,7 @@ def test_messages_lost_in_recording_are_computed_again(sound, tmp_path):
     [
         (("--set", "lambda_ratio=11"), ["lambda_ratio = 11.0:", "within 0 and 10"]),
         (("--set", "lambda_ratoi=1"), ["lambda_ratoi: no such field", "lambda_ratio"]),
+        (("--set", "lambda=1"), ["lambda: no such field; did you mean", "lambda_ratio"]),
         (("--set", "lambda_ratio"), ["NAME=VALUE"]),
         (("--set", "backlash=3 K"), ["backlash", "'3 K'"]),
         (("--set", "mesh.ramp=0", "--from", "0.05"), ["mesh.ramp", "requires from = 0"]),

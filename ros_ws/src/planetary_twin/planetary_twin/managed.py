@@ -176,41 +176,49 @@ class ManagedNode(ParameterNode):
 
 
 def run_node(
-    make: Callable[[], ManagedNode], args: list[str] | None = None, title: str | None = None
+    make: Callable[[], ManagedNode],
+    args: list[str] | None = None,
+    title: str | None = None,
+    refusal: int = 1,
 ) -> int:
     """
     Run the node that `make` creates until SIGINT, SIGTERM or its own end.
 
     `args` are command-line arguments, by default those of the process. The reason of a failure is
-    printed in one line after `title`, by default the name of the class. Returns the exit code.
+    printed in one line after `title`, by default the name of the class. Returns the exit code,
+    which is `refusal` if the node does not start.
     """
-    return run_nodes({title or make.__name__.lower(): make}, args)
+    return run_nodes({title or make.__name__.lower(): make}, args, refusal)
 
 
 def run_nodes(
-    makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None = None
+    makes: Mapping[str, Callable[[], ManagedNode]],
+    args: list[str] | None = None,
+    refusal: int = 1,
 ) -> int:
     """
     Start the nodes that `makes` create, in order, and run them until a signal or one of them ends.
 
     Each node has its own executor and thread, so that none waits for another's callbacks; the last
     node runs in this thread. `args` are command-line arguments, by default those of the process.
-    The reason of a failure is printed in one line after the node's key. Returns the exit code.
+    The reason of a failure is printed in one line after the node's key. Returns the exit code,
+    which is `refusal` if a node does not start.
     """
     with nonblocking_stderr():
-        failures = _run_to_end(makes, args)
-    for name, failure in failures.items():
+        refusals, failures = _run_to_end(makes, args)
+    for name, failure in (refusals | failures).items():
         print(f"{name}: {failure}", file=sys.stderr)
-    return 1 if failures else 0
+    return refusal if refusals else 1 if failures else 0
 
 
 def _run_to_end(
     makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None
-) -> dict[str, str]:
-    """Return the reasons of failures by the keys of the nodes."""
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return why nodes did not start, and why they failed later, by their keys."""
     nodes: dict[str, ManagedNode] = {}
     executors: list[SingleThreadedExecutor] = []  # kept: a signal may still wake one of them
     beside: list[threading.Thread] = []
+    refusals: dict[str, str] = {}
     failures: dict[str, str] = {}
     name, *_ = makes
     SIGNALS.install()
@@ -234,7 +242,7 @@ def _run_to_end(
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     except (NodeError, ParameterException, ValueError, OSError) as reason:
-        failures[name] = str(reason)
+        refusals[name] = str(reason)
     except RuntimeError:  # from rcl
         # rcl refuses to publish while a signal shuts down ROS: a normal end.
         if rclpy.ok():
@@ -250,7 +258,7 @@ def _run_to_end(
                 failures[name] = failure
         rclpy.try_shutdown()
         SIGNALS.ignore()
-    return failures
+    return refusals, failures
 
 
 def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:

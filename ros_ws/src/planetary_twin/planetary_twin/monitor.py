@@ -25,6 +25,7 @@ from .reports import real_time_figures
 
 _BARS = "▁▂▃▄▅▆▇█"
 _HISTORY = 40  # values that a sparkline shows
+_LEAST_SWING = 0.01  # of the largest value: a smaller swing does not fill the height of the bars
 _LIVE_PERIOD = 0.25  # [s] between two values in a terminal
 _PLAIN_PERIOD = 1.0  # [s] between two tables in a file or a pipe
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -68,8 +69,8 @@ OF_AXES = (
     *(
         Figure(f"{body}_{name}", f"{title}, {body}", BEARING[name]._replace(over_meshes=np.max))
         for name, title in (
-            ("displacement_peak", "Displacement, largest"),
-            ("bearing_force_peak", "Bearing force, largest"),
+            ("displacement_peak", "Displacement, peak"),
+            ("bearing_force_peak", "Bearing force, peak"),
         )
         for body in ("sun", "planet")
     ),
@@ -81,11 +82,17 @@ _BESIDE_HISTORY = max(len(figure.title) for figure in (*FIGURES, *OF_AXES)) + 18
 
 
 def sparkline(values: list[float]) -> str:
-    """Return a bar for each of `values`, scaled to their range; a blank for NaN."""
+    """
+    Return a bar for each of `values`; a blank for NaN.
+
+    The bars are scaled to the range of the values, but at least to `_LEAST_SWING` of the largest
+    magnitude, so that rounding of a constant is not drawn as a swing.
+    """
     finite = [value for value in values if math.isfinite(value)]
     if not finite:
         return ""
-    low, span = min(finite), max(finite) - min(finite)
+    low = min(finite)
+    span = max(max(finite) - low, _LEAST_SWING * max(map(abs, finite)))
     steps = [
         round((len(_BARS) - 1) * (v - low) / span) if span > 0.0 else 0
         for v in values
@@ -150,15 +157,15 @@ class Monitor(Remote):
             for row in beside_rows(self.estimate, state, self.events.values()):
                 table.add_row(*row)
         table.add_section()
-        for name, key in (
-            ("real time x", "real_time_factor"),
-            ("overruns", "overruns"),
-            ("tolerance", "tolerance"),
-            ("waveform, Hz", "sample_rate"),
-            ("mesh cycles", "mesh_cycles"),
-            ("state", "state"),
+        for name, key, unit in (
+            ("Real-time factor", "real_time_factor", ""),
+            ("Overruns", "overruns", ""),
+            ("Tolerance", "tolerance", ""),
+            ("Sample rate of the waveform", "sample_rate", "Hz"),
+            ("Mesh cycles, computed or repeated", "mesh_cycles", ""),
+            ("State of the node", "state", ""),
         ):
-            table.add_row(name, report.get(key, "-"), "", "")
+            table.add_row(name, report.get(key, "-"), unit, "")
         return table
 
     def _on_state(self, message: GearboxState) -> None:

@@ -55,4 +55,4 @@ def replay_shown(parameters: Mapping[str, Any], remappings: Sequence[str]) -> in
     rules = [word for rule in remappings for word in ("-r", rule)]
     args = ["--ros-args", *rules] if rules else []
     with bar.progress:
-        return run_node(lambda: Replay(parameters, bar), args, title="planetary-twin replay")
+        return run_node(lambda: Replay(parameters, bar), args, "planetary-twin", refusal=2)
