@@ -32,8 +32,8 @@ def nearest(name: str, known: Iterable[str]) -> list[str]:
         places.setdefault(_own(path), []).append(path)
     for own in get_close_matches(_own(name), places, 1, NEAR):
         return get_close_matches(name, places[own], _MOST, 0.0)
-    begun = [path for own in places if own.startswith(f"{_own(name)}_") for path in places[own]]
-    return get_close_matches(name, begun, _MOST, 0.0)
+    longer = [path for own in places if own.startswith(f"{_own(name)}_") for path in places[own]]
+    return get_close_matches(name, longer, _MOST, 0.0)
 
 
 def _own(path: str) -> str:
