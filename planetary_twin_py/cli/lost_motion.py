@@ -70,6 +70,11 @@ def lost_motion(
             "warning: the twist had not come to rest at some torques: the loop is wider than that "
             "of a slower test"
         )
+    if not found.hysteresis_resolved:
+        remark(
+            f"warning: the hysteresis is not resolved: twists are read to "
+            f"{math.degrees(found.resolution):.2g} deg; measure it at a larger --share"
+        )
     if picture is not None:
         from ..plots.lost_motion import lost_motion_diagram
         from ..plots.style import save
@@ -95,6 +100,7 @@ def _figures(found: LostMotion) -> dict[str, object]:
     return {
         "lost_motion": found.lost_motion,
         "hysteresis": found.hysteresis,
+        "hysteresis_resolved": found.hysteresis_resolved,
         "stiffness": found.stiffness,
         "stiffness_with_couplings": found.stiffness_with_couplings,
         "settled": found.settled,

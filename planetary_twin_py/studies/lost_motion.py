@@ -49,6 +49,8 @@ class LostMotion:
     """Part of the largest torque at which lost motion is measured."""
     couplings: float
     """Compliance of the couplings of the scene, at the output with the motor held [rad/(N m)]."""
+    resolution: float
+    """Change between two readings that is taken for rest: smaller twists are not resolved [rad]."""
 
     def _branches(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Torque and twist of the falling branch, reversed, and of the rising one."""
@@ -74,6 +76,11 @@ class LostMotion:
         It is due to friction alone; at zero torque it would include the backlash.
         """
         return float(np.abs(np.diff(self._at_small_torque(), axis=1)).mean())
+
+    @property
+    def hysteresis_resolved(self) -> bool:
+        """Whether the hysteresis, a difference of two twists, is larger than their errors."""
+        return self.hysteresis > 2.0 * self.resolution
 
     @property
     def stiffness(self) -> float:
@@ -170,7 +177,7 @@ def lost_motion(
         report(1)
     closed = np.array(loop[len(up) - 1 :])
     couplings = _compliance_of_couplings(scene)
-    return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share, couplings)
+    return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share, couplings, rest)
 
 
 def _motion(readings: list[tuple[float, float]]) -> float:

@@ -41,6 +41,7 @@ def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
     assert found.lost_motion == pytest.approx(FREE_PLAY + elastic, rel=1e-3)
     assert np.ptp(found.twist) == pytest.approx(FREE_PLAY + 2.0 * TORQUE / STIFFNESS, rel=1e-3)
     assert found.hysteresis < 1e-3 * FREE_PLAY
+    assert not found.hysteresis_resolved
     motor, load = SMOOTH.drive.input, SMOOTH.drive.output
     ratio = 1.0 + SMOOTH.gearset.teeth.ring / SMOOTH.gearset.teeth.sun
     series = 1.0 / found.stiffness + 1.0 / load.coupling_stiffness
@@ -95,7 +96,9 @@ def test_with_friction_too_lost_motion_is_backlash_and_elastic_twist(share):
 @pytest.mark.exhaustive
 def test_hysteresis_is_due_to_friction_and_does_not_contain_the_backlash():
     smooth = lost_motion(SMOOTH, TORQUE, 0.1, levels=10).hysteresis
-    tight, loose = (with_oil_and(play, 0.1).hysteresis for play in (0.0, PLAY))
+    runs = [with_oil_and(play, 0.1) for play in (0.0, PLAY)]
+    assert all(run.hysteresis_resolved for run in runs)
+    tight, loose = (run.hysteresis for run in runs)
     assert tight > 10.0 * smooth
     assert loose == pytest.approx(tight, rel=0.2) and loose < 1e-3 * FREE_PLAY
 
