@@ -25,7 +25,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from planetary_twin_py.recording.container.records import files_of, records_of
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.layout import Layouts
-from planetary_twin_py.recording.ros2.tape import Tape
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.topics import JOINTS, POINT, STATE, WAVEFORM
 
 REPEATED = (STATE, WAVEFORM, JOINTS, POINT, "/tf", "/diagnostics")
@@ -47,13 +47,13 @@ class Cost(NamedTuple):
 
 def lengthen(path: Path, folder: Path, seconds: float) -> Path:
     """Repeat the recording at `path` until it has lasted for `seconds`; returns the new file."""
-    tape, bag = Tape(path), BagWriter(folder)
-    channels = {name: bag.add_topic(topic) for name, topic in tape.topics.items()}
-    layouts = _layouts(tape)
+    playback, bag = Playback(path), BagWriter(folder)
+    channels = {name: bag.add_topic(topic) for name, topic in playback.topics.items()}
+    layouts = _layouts(playback)
     messages = _messages(path, bag)
     counts = Counter(topic for topic, _ in messages)
     first = messages[0][1].log_time
-    turn_length = round(tape.length, -7)  # [ns] to whole intervals
+    turn_length = round(playback.length, -7)  # [ns] to whole intervals
     for turn in range(int(np.ceil(seconds * 1e9 / turn_length))):
         for topic, message in messages:
             at = message.log_time + turn * turn_length
@@ -82,12 +82,12 @@ def cost(*command: str) -> Cost:
     return Cost(time.perf_counter() - begin, processor, usage.ru_maxrss / 1024)
 
 
-def _layouts(tape: Tape) -> dict[str, Layouts]:
+def _layouts(playback: Playback) -> dict[str, Layouts]:
     types = get_typestore(Stores.EMPTY)
-    for topic in tape.topics.values():
+    for topic in playback.topics.values():
         found = get_types_from_msg(topic.definition, topic.type)
         types.register({k: v for k, v in found.items() if k not in types.types})
-    return {name: Layouts(types.fielddefs, topic.type) for name, topic in tape.topics.items()}
+    return {name: Layouts(types.fielddefs, topic.type) for name, topic in playback.topics.items()}
 
 
 def _messages(path: Path, bag: BagWriter) -> list[tuple[str, Message]]:

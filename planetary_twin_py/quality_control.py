@@ -15,8 +15,8 @@ HALVINGS = 3  # of the sample rate, at most
 LOWEST_SAMPLE_RATE = 1e3  # [Hz] after halving
 AVERAGING = 0.5  # [s] over which the cost is averaged
 FEWEST = 4  # windows in an average
-PATIENCE = 1.0  # [s] for which the load must be low before a better setting is tried
-LONGEST_PATIENCE = 64.0  # [s]
+CALM = 1.0  # [s] for which the load must be low before a better setting is tried
+LONGEST_CALM = 64.0  # [s]
 COMFORTABLE = 0.8  # load at which a higher sample rate is tried, whose cost is not known
 
 
@@ -101,7 +101,7 @@ class QualityControl:
 
     def relearn(self) -> None:
         """Reset what was learned about costs, after a change of the operating point."""
-        self._patience = PATIENCE
+        self._calm_needed = CALM
         self._calm = 0.0
         self._dearer = [1.0] * len(self._ladder)  # cost ratio to the next worse setting
 
@@ -138,7 +138,7 @@ class QualityControl:
         goal = self._goal(mean)
         self._calm = self._calm + len(self._loads) * self._period if goal > self._rung else 0.0
         self._loads.clear()
-        if self._calm >= self._patience:
+        if self._calm >= self._calm_needed:
             self._move(goal)
             self._climbed_at = mean
 
@@ -159,7 +159,7 @@ class QualityControl:
 
     def _descend(self, load: float) -> None:
         if self._climbed_at < load:
-            self._patience = min(2.0 * self._patience, LONGEST_PATIENCE)
+            self._calm_needed = min(2.0 * self._calm_needed, LONGEST_CALM)
             self._dearer[self._rung] = min(load / self._climbed_at, self._steepest(self._rung))
         rung = self._rung
         while rung and load > self._grant(rung):

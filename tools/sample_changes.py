@@ -17,7 +17,7 @@ CHANGES = {  # [s] simulated: what holds from the first interval after it, in SI
     0.9: {"input_speed": rpm(1500.0), "input_torque": 40.0},
 }
 END = 1.15  # [s] by then the motor has got there
-PATIENCE = 60.0  # [s]
+TIMEOUT = 60.0  # [s]
 TOPIC = "gearbox_state"
 
 
@@ -49,7 +49,7 @@ def reached(newest: list[float], instant: float) -> bool:
 
 def wait(client: Client, ready: Callable[[], bool]) -> None:
     """Wait until `ready`, and give up where that does not come."""
-    if not client.wait(ready, PATIENCE):
+    if not client.wait(ready, TIMEOUT):
         raise SystemExit("the twin did not get there")
 
 

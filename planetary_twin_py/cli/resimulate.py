@@ -54,7 +54,7 @@ def resimulate(
     from rich.progress import Progress
 
     from ..recording.ros2.namespaces import choose_namespace
-    from ..recording.ros2.tape import Tape
+    from ..recording.ros2.playback import Playback
     from ..recording.runs.branch import Branch
     from ..recording.runs.what_if import resimulate as simulate_again
     from ..recording.tables.command_table import read_commands
@@ -66,7 +66,7 @@ def resimulate(
         changes = settings(set_ or [])
         course = None if commands is None else read_commands(commands)
         branch = Branch(changes, from_, duration, run, course)
-        chosen = choose_namespace(Tape(file).counts, namespace, file)
+        chosen = choose_namespace(Playback(file).counts, namespace, file)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
             task = progress.add_task("simulating", total=None)
             made = simulate_again(

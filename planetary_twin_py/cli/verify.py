@@ -32,13 +32,13 @@ def verify(
     need("recording", "mcap", "rosbags")
     from ..recording.container.records import RecordingError
     from ..recording.ros2.namespaces import choose_namespace
-    from ..recording.ros2.tape import Tape
+    from ..recording.ros2.playback import Playback
     from ..recording.runs.verify import verify as compare
 
     console = console_beside(json_)
     try:
-        tape = Tape(file)
-        chosen = choose_namespace(tape.counts, namespace, file)
+        playback = Playback(file)
+        chosen = choose_namespace(playback.counts, namespace, file)
         with console.status("simulating again") as status:
             result = compare(
                 file, chosen, lambda time: status.update(f"simulating again: {time:.1f} s")

@@ -194,7 +194,9 @@ class QuasiStaticEngine:
 
     def _standing(self, time: float | Fraction) -> State:
         state = self._origin.copy()
-        self._core.turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
+        self._core.advance_shafts(
+            self.model, self._origin, delay(self._origin, instant(time)), state
+        )
         return state
 
     def books(self, time: float | Fraction) -> EnergyBooks:

@@ -54,7 +54,7 @@ class Ledger:
     ) -> None:
         self._core = core
         self._model, self._tolerance, self._closing_side = model, tolerance, closing_side
-        self._mark = origin.copy()
+        self._reached = origin.copy()
         self._popped = Instant(origin.seconds, origin.time)
         self._totals, self._peak = (
             np.zeros(self._core.TOTALS),
@@ -92,14 +92,14 @@ class Ledger:
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Totals (TOTALS,) and peaks (PEAKS, MESHES) from the previous call to `time`."""
-        self._core.follow(
-            self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
-            self._totals, self._peak,
+        self._core.integrate_panels(
+            self._model, self._tolerance, self._reached, self._run, self._edges, time,
+            self._repeats, self._totals, self._peak,
         )  # fmt: skip
-        left = delay(self._mark, time)
+        left = delay(self._reached, time)
         if not self._repeats or not self._is_steady():
             return self._with(*self._integral(0.0, left))
-        rate = abs(self._core.frame_cycle_rate(self._model.train, self._mark))
+        rate = abs(self._core.frame_cycle_rate(self._model.train, self._reached))
         if rate == 0.0:
             rates, peak = self._rates(time)
             self._move(rates * left, peak, left)
@@ -111,15 +111,15 @@ class Ledger:
         return self._totals + gain, np.maximum(self._peak, peak)
 
     def _cycles(self, time: Instant, period: float) -> tuple[np.ndarray, np.ndarray]:
-        """Totals and peaks, after moving the mark by whole mesh cycles and adding the remainder."""
+        """Totals and peaks, after moving by whole mesh cycles and adding the remainder."""
         if self._cycle is None:
-            self._cycle, self._cycle_both_flanks = self._divide(self._model, self._mark)
+            self._cycle, self._cycle_both_flanks = self._divide(self._model, self._reached)
         phase, totals, _ = self._cycle
-        whole = math.floor(delay(self._mark, time) / period + ON_EDGE)
+        whole = math.floor(delay(self._reached, time) / period + ON_EDGE)
         if whole > 0:
             self._repeated_both_flanks += whole * self._cycle_both_flanks
             self._move(whole * totals[-1], self._seen(1.0, period), whole * period)
-        left = max(delay(self._mark, time), 0.0)
+        left = max(delay(self._reached, time), 0.0)
         last = int(np.searchsorted(phase, left / period + ON_EDGE, "right")) - 1
         last = min(last, len(phase) - 2)
         rest, peak = self._integral(period * phase[last], left)
@@ -130,14 +130,14 @@ class Ledger:
         """Peaks of the panels from the last reset to the fraction `until` of the mesh cycle."""
         assert self._cycle is not None
         phase, _, peaks = self._cycle
-        since = max(delay(self._mark, self._popped), 0.0) / period
+        since = max(delay(self._reached, self._popped), 0.0) / period
         within = (phase > since) & (phase <= until)
         return peaks[within].max(axis=0, initial=0.0)
 
     def _move(self, gain: np.ndarray, peak: np.ndarray, time: float) -> None:
-        """Move the mark by `time` [s] and add `gain` and `peak` to the totals."""
+        """Move the end of the integrals by `time` [s] and add `gain` and `peak` to the totals."""
         self._totals, self._peak = self._with(gain, peak)
-        self._core.turn_to(self._model, self._mark, time, self._mark)
+        self._core.advance_shafts(self._model, self._reached, time, self._reached)
 
     def _panels(self, origin: State) -> np.ndarray:
         """Edges of panels [mesh cycles of the frame], fine enough for the target speed."""
@@ -176,7 +176,7 @@ class Ledger:
             self._model.load,
             self._core.first_guess(self._closing_side),
         )
-        self._core.turn_to(self._model, origin, 0.0, run.state)
+        self._core.advance_shafts(self._model, origin, 0.0, run.state)
         self._core.solve_equilibrium(self._model, self._tolerance, run)
         shift = self._core.cycle_shift(train, run.state.x)
         reverses = load.ripple >= abs(load.torque[MOTOR])
@@ -200,18 +200,18 @@ class Ledger:
         return (DRIVE_SIDE,) if mesh < train.meshes // 2 else (COAST_SIDE,)
 
     def _is_steady(self) -> bool:
-        return bool(np.all(self._mark.set_speed == self._model.load.target_speed))
+        return bool(np.all(self._reached.set_speed == self._model.load.target_speed))
 
     def _integral(self, begin: float, end: float) -> tuple[np.ndarray, np.ndarray]:
-        """Totals and peaks between two times after the mark [s] in one panel.
+        """Totals and peaks between two times after the end of the integrals [s] in one panel.
 
         It starts from a new guess and changes no state.
         """
         run = self._core.first_guess(self._closing_side)
-        return self._core.integrate(self._model, self._tolerance, self._mark, run, (begin, end))
+        return self._core.integrate(self._model, self._tolerance, self._reached, run, (begin, end))
 
     def power(self, time: Instant) -> np.ndarray:
-        """Time derivative of the ledger [W] at `time`, which is not before the mark."""
+        """Time derivative of the ledger [W] at `time`, not before the end of the integrals."""
         return self._rates(time)[0][ENERGY]
 
     def _rates(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
@@ -221,7 +221,7 @@ class Ledger:
             np.zeros(self._core.TOTALS),
             np.zeros((self._core.PEAKS, self._core.MESHES)),
         )
-        self._core.turn_to(self._model, self._mark, delay(self._mark, time), run.state)
+        self._core.advance_shafts(self._model, self._reached, delay(self._reached, time), run.state)
         shown = self._core.solve_equilibrium(self._model, self._tolerance, run)
         train = self._model.train
         self._core.add_rates(train, run.evaluation.power, shown, 1.0, rates)

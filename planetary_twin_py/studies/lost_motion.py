@@ -26,7 +26,7 @@ UPPER = 0.5  # of the torque, from which the stiffness is measured
 LEVELS = 25  # torques from 0 to the largest
 DWELL = 0.01  # [s] from one reading of the twist to the next
 READINGS = 4  # the last ones must agree; two may agree by chance in a vibration
-PATIENCE = 100  # further readings at each torque, at most
+FURTHER_READINGS = 100  # at each torque, at most
 FREQUENCY = 200.0  # [Hz] of a machine of the bench on the gear set
 GEARS = 1000.0  # [Hz] of a gear of the bench on its meshes
 CARRIED = 0.1  # mass of the planets on the carrier, over J/r^2 of the carrier
@@ -168,7 +168,7 @@ def lost_motion(
     for step in steps:
         twin.set(input_torque=float(step / per_input))
         readings = [_twist(twin, still, dwell) for _ in range(READINGS)]
-        for _ in range(PATIENCE):
+        for _ in range(FURTHER_READINGS):
             if _motion(readings) <= rest:
                 break
             readings = [*readings[1:], _twist(twin, still, dwell)]

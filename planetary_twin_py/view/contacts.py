@@ -44,7 +44,7 @@ class Contacts:
 
     ends: Array
     """Both ends of the line of contact [m], that with the lower z first, (n, p, 2, 3)."""
-    push: Array
+    direction: Array
     """Unit vector of the force on the second gear, (n, p, 2)."""
     load: Array
     """[N], 0 without contact, (n, p)."""
@@ -119,7 +119,7 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
     radius, pitch = working.pitch_radii[ring], working.base_pitch
     pairs = pair_loads(scene, mesh, angle, force)
     half = 0.5 * pairs.face[..., None] * gearset.face_width * np.array([-1.0, 1.0])
-    ends, push = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
+    ends, direction = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
     for flank in (DRIVE, COAST):
         rows = np.sign(force) == flank
         line = line_of_action(
@@ -130,8 +130,8 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
         place = pitch * pairs.position[rows, :, None] + lead * half[rows]
         ends[rows, ..., :2] = line.at(place)
         ends[rows, ..., 2] = middle + half[rows]
-        push[rows] = line.direction
-    return Contacts(ends, push, pairs.load)
+        direction[rows] = line.direction
+    return Contacts(ends, direction, pairs.load)
 
 
 def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumnList:
@@ -139,7 +139,7 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
     carries = mesh.load > 0.0
     level = np.minimum(mesh.load[carries] / full, 1.0)
     front = (0.5 + _OVERHANG) * gearset.face_width
-    bend = mesh.load[carries, None] / full * _LONGEST * gearset.module * mesh.push[carries]
+    bend = mesh.load[carries, None] / full * _LONGEST * gearset.module * mesh.direction[carries]
     strips = np.empty((len(level), 4, 3), dtype=np.float32)
     strips[:, :2] = mesh.ends[carries]
     strips[:, 2:, :2] = mesh.ends[carries][:, 1:, :2]

@@ -22,7 +22,7 @@ import planetary_twin_py as pt
 
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
-PATIENCE = 1200.0  # [s] longest time of a command; most take a few seconds
+TIMEOUT = 1200.0  # [s] longest time of a command; most take a few seconds
 STARTS = 600.0  # [s] for the first output of a background command
 ENDS = 120.0  # [s] for its end
 
@@ -51,7 +51,7 @@ def environment():
 def recording(tmp_path_factory, environment):
     folder = tmp_path_factory.mktemp("recorded")
     command = f"planetary-twin simulate paper --duration {RECORDED} --out NAME"
-    subprocess.run(command, shell=True, cwd=folder, env=environment, check=True, timeout=PATIENCE)
+    subprocess.run(command, shell=True, cwd=folder, env=environment, check=True, timeout=TIMEOUT)
     return folder / "NAME"
 
 
@@ -114,7 +114,7 @@ def try_block(block: Block, folder, environment, namespace, behind):
             continue
         done = subprocess.run(
             command, shell=True, cwd=folder, env=environment, capture_output=True, text=True,
-            timeout=PATIENCE,
+            timeout=TIMEOUT,
         )  # fmt: skip
         assert done.returncode == 0, f"{block}: {command}\n{done.stdout}{done.stderr}"
         assert shows(output, done.stdout + done.stderr), (

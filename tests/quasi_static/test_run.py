@@ -112,7 +112,7 @@ def aged(scene):
     """A twin whose clock and whole turns are those of HOURS."""
     twin = pt.Twin(scene)
     engine = twin._engine
-    for state in (engine._origin, engine._ledger._mark):
+    for state in (engine._origin, engine._ledger._reached):
         state.seconds += 3600 * HOURS
         state.turns[:1] += turns_after(scene, HOURS)
     twin._ticks += 3600 * HOURS * TICKS

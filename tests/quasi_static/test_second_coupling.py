@@ -9,10 +9,10 @@ from power_flows import DIFFERENTIALS, flow_name, scene_of
 import planetary_twin_py as pt
 from planetary_twin_py._core import (
     NEGLIGIBLE_FORCE,
+    advance_shafts,
     first_guess,
     frame_cycle_rate,
     solve_equilibrium,
-    turn_to,
 )
 from planetary_twin_py.dynamics.bodies import SECOND_MOTOR, base_radii
 from planetary_twin_py.quasi_static.engine import QuasiStaticEngine
@@ -58,7 +58,7 @@ def torques(flow, stiffness, backwards):
     times = np.linspace(0.0, period, 401)
     found = []
     for time in times[::-1] if backwards else times:
-        turn_to(model, engine._origin, time, run.state)
+        advance_shafts(model, engine._origin, time, run.state)
         solve_equilibrium(model, 1e-6, run)
         found.append(float(run.torque[SECOND_MOTOR]))
     return np.array(found[::-1] if backwards else found)

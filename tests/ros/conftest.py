@@ -19,7 +19,7 @@ import planetary_twin_py as pt
 from .peer import LATCHED, TWIN, Peer
 from .programs import Executed, Forked, Program
 
-_PATIENCE = 5.0  # [s] for a node to end after a signal
+_TIMEOUT = 5.0  # [s] for a node to end after a signal
 
 
 Start = Callable[..., Program]
@@ -56,7 +56,7 @@ def _end(processes: list[Program]) -> None:
             process.terminate()
     for process in processes:
         try:
-            process.wait(_PATIENCE)
+            process.wait(_TIMEOUT)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()

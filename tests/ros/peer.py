@@ -27,7 +27,7 @@ _GOALS = {
     "cleanup": "unconfigured",
 }
 LONG = 120.0  # [s] for a message or an answer on a busy machine
-PATIENCE = 10.0  # [s] for an answer
+TIMEOUT = 10.0  # [s] for an answer
 ATTEMPTS = 6
 TRANSITION = 30.0  # [s] for configuring a node on a busy machine
 
@@ -62,12 +62,12 @@ class Peer:
         self.node.create_subscription(kind, topic, received.append, qos)
         return received
 
-    def call(self, kind: type, service: str, request: Any, patience: float = PATIENCE) -> Any:
+    def call(self, kind: type, service: str, request: Any, timeout: float = TIMEOUT) -> Any:
         """
         The response of a service.
 
         A response is lost if the server has not discovered a new client yet. The call is then
-        repeated after `patience` [s], which must be longer than the response takes if a repeated
+        repeated after `timeout` [s], which must be longer than the response takes if a repeated
         request matters.
         """
         if service not in self._clients:
@@ -76,7 +76,7 @@ class Peer:
         self.until(client.service_is_ready)
         for _ in range(ATTEMPTS):
             future = client.call_async(request)
-            deadline = time.monotonic() + patience
+            deadline = time.monotonic() + timeout
             while not future.done() and time.monotonic() < deadline:
                 self._executor.spin_once(timeout_sec=0.02)
             if future.done():

@@ -10,7 +10,7 @@ import sys
 import rclpy
 from rcl_interfaces.srv import GetParameters
 
-PATIENCE = 60.0  # [s] for an answer on a busy machine
+TIMEOUT = 60.0  # [s] for an answer on a busy machine
 
 
 def main(node: str, parameter: str, count: int) -> None:
@@ -18,14 +18,14 @@ def main(node: str, parameter: str, count: int) -> None:
     rclpy.init()
     requester = rclpy.create_node("requester")
     client = requester.create_client(GetParameters, f"{node}/get_parameters")
-    if not client.wait_for_service(PATIENCE):
+    if not client.wait_for_service(TIMEOUT):
         sys.exit("no service")
     request = GetParameters.Request(names=[parameter])
     # The first response may be lost: the server may not have discovered this client yet.
     rclpy.spin_until_future_complete(requester, client.call_async(request), timeout_sec=5.0)
     for _ in range(count):
         future = client.call_async(request)
-        rclpy.spin_until_future_complete(requester, future, timeout_sec=PATIENCE)
+        rclpy.spin_until_future_complete(requester, future, timeout_sec=TIMEOUT)
         if not future.done():
             sys.exit("no answer")
         print(future.result().values[0].type, flush=True)

@@ -42,8 +42,8 @@ def scheduler(tmp_path):
     log.close()
 
 
-def until(found, patience=60.0):
-    deadline = time.monotonic() + patience
+def until(found, timeout=60.0):
+    deadline = time.monotonic() + timeout
     while not (result := found()):
         assert time.monotonic() < deadline
         time.sleep(0.05)

@@ -109,15 +109,15 @@ def test_contacts_are_on_the_line_of_action_within_the_path_of_contact(flank):
         found = contacts(PAPER, mesh, turned(PAPER), np.full(len(SUN_ANGLE), flank))
         there = found.load > 0.0
         for gear, _, centre in gears_of_mesh(PAPER, mesh):
-            arm, push = (found.point - centre)[there], found.push[there]
+            arm, push = (found.point - centre)[there], found.direction[there]
             lever = arm[:, 0] * push[:, 1] - arm[:, 1] * push[:, 0]
             assert np.allclose(np.abs(lever), gear.base_radius, atol=1e-12)
-        assert np.allclose(np.hypot(*found.push[there].T), 1.0)
+        assert np.allclose(np.hypot(*found.direction[there].T), 1.0)
         centre = gears_of_mesh(PAPER, mesh)[0][2]
         psi = gearset.planet_angles[1]
         teeth = gearset.teeth.ring if mesh == 4 else gearset.teeth.sun
         pitch_point = pitch_radius(teeth, gearset.module) * np.array([np.cos(psi), np.sin(psi)])
-        past = np.einsum("ij,ij->i", found.point[there] - pitch_point, found.push[there])
+        past = np.einsum("ij,ij->i", found.point[there] - pitch_point, found.direction[there])
         pitch = np.pi * gearset.module * np.cos(gearset.pressure_angle)
         assert past.min() == pytest.approx(-reach.approach * pitch, abs=0.02 * pitch)
         assert past.max() == pytest.approx(reach.recess * pitch, abs=0.02 * pitch)
@@ -155,7 +155,10 @@ def test_load_torque_follows_from_the_contact_forces_on_the_sun():
     moment = 0.0
     for mesh in range(3):
         found = contacts(PAPER, mesh, turned(PAPER), force)
-        lever = found.point[..., 0] * found.push[..., 1] - found.point[..., 1] * found.push[..., 0]
+        lever = (
+            found.point[..., 0] * found.direction[..., 1]
+            - found.point[..., 1] * found.direction[..., 0]
+        )
         moment += (found.load * lever).sum(axis=1)
     base = gear_of(PAPER.gearset, 30).base_radius
     assert np.allclose(moment, 3 * 1000.0 * base)

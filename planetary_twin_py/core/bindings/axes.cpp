@@ -4,12 +4,11 @@
 // CMakeLists.txt: classes and functions have the same names as for fixed axes.
 
 #include "bindings/parts.hpp"
-#include "bindings/records.hpp"
 
 namespace gearbox {
 
-void bind_axes(nb::module_& core) {
-    nb::module_ m = core.def_submodule("axes", "The core for moving axes.");
+void bind_axes(nanobind::module_& core) {
+    nanobind::module_ m = core.def_submodule("axes", "The core for moving axes.");
     bind_records(m);
     bind_train(m);
     bind_initial_state(m);

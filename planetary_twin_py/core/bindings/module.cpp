@@ -1,5 +1,4 @@
 #include "bindings/parts.hpp"
-#include "bindings/records.hpp"
 #include "vector/lanes.hpp"
 
 namespace gearbox_axes {

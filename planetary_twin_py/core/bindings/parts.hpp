@@ -1,10 +1,27 @@
 #pragma once
 
-// The parts of the module, each bound in a file of its own.
+// The parts of the module, each bound in a file of its own: the classes of the records by room,
+// then functions.
 
 #include <nanobind/nanobind.h>
 
 namespace gearbox {
+
+void bind_mesh_records(nanobind::module_& m);
+void bind_tribology_records(nanobind::module_& m);
+void bind_train_records(nanobind::module_& m);
+void bind_integrators_records(nanobind::module_& m);
+void bind_quasi_static_records(nanobind::module_& m);
+void bind_run_records(nanobind::module_& m);
+
+inline void bind_records(nanobind::module_& m) {
+    bind_mesh_records(m);
+    bind_tribology_records(m);
+    bind_train_records(m);
+    bind_integrators_records(m);
+    bind_quasi_static_records(m);
+    bind_run_records(m);
+}
 
 void bind_train(nanobind::module_& m);
 void bind_tribology(nanobind::module_& m);

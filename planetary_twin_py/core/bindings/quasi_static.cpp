@@ -68,15 +68,16 @@ auto py_divide_cycle(const Model& model, double tolerance, const State& origin, 
                            new_array(panels.peaks.data()->data(), {m, PEAKS, MESHES}));
 }
 
-void py_follow(const Model& model, double tolerance, State& mark, Equilibrium& run,
-               const ConstArray& edges, const InstantTuple& until, bool stop, const Array& totals,
-               const Array& peak) {
+void py_integrate_panels(const Model& model, double tolerance, State& state, Equilibrium& run,
+                         const ConstArray& edges, const InstantTuple& until, bool stop,
+                         const Array& totals, const Array& peak) {
     check_size("totals", totals.size(), TOTALS);
     check_size("peak", peak.size(), PEAKS * MESHES);
     Unlocked release;
     Shown shown;
-    follow({model, tolerance, run, shown}, mark, {edges.data(), edges.size()}, instant_of(until),
-           stop, totals.data(), reinterpret_cast<double (*)[MESHES]>(peak.data()));
+    integrate_panels({model, tolerance, run, shown}, state, {edges.data(), edges.size()},
+                     instant_of(until), stop, totals.data(),
+                     reinterpret_cast<double (*)[MESHES]>(peak.data()));
 }
 
 void py_sample(const Model& model, double tolerance, const State& origin, Equilibrium& run,
@@ -158,9 +159,9 @@ void bind_quasi_static(nb::module_& m) {
           nb::arg("run"),
           "Solve for the equilibrium of `run`; quantities of the meshes (QUANTITIES, meshes).");
     m.def(
-        "turn_to",
+        "advance_shafts",
         [](const Model& model, const State& origin, double after, State& state) {
-            turn_to(model, origin, after, state);
+            advance_shafts(model, origin, after, state);
         },
         nb::arg("model"), nb::arg("origin"), nb::arg("after"), nb::arg("state"),
         "Set `state` to the position of the motors `after` seconds after `origin`.");
@@ -182,9 +183,10 @@ void bind_quasi_static(nb::module_& m) {
           nb::arg("origin"), nb::arg("run"), nb::arg("edges"), nb::arg("period"),
           "Panels of one mesh cycle: edges (m,), totals up to them (m, TOTALS), and the peaks of\n"
           "the panel before each (m, PEAKS, MESHES).");
-    m.def("follow", &py_follow, nb::arg("model"), nb::arg("tolerance"), nb::arg("mark"),
-          nb::arg("run"), nb::arg("edges"), nb::arg("until"), nb::arg("stop"), nb::arg("totals"),
-          nb::arg("peak"), "Integrate from `mark`, which moves, panel by panel, up to `until`.");
+    m.def("integrate_panels", &py_integrate_panels, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("state"), nb::arg("run"), nb::arg("edges"), nb::arg("until"), nb::arg("stop"),
+          nb::arg("totals"), nb::arg("peak"),
+          "Integrate from `state`, which moves, panel by panel, up to `until`.");
     m.def("sample_equilibrium", &py_sample, nb::arg("model"), nb::arg("tolerance"),
           nb::arg("origin"), nb::arg("run"), nb::arg("at"), nb::arg("out"), nb::arg("row"),
           "Write the sample at an instant into a row of `out`.");

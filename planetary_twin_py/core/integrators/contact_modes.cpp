@@ -192,11 +192,11 @@ std::int64_t find_modes(const Model& model, const State& state, ContactModes& kn
     ContactKey key = contact_key(model, state);
     if (known.count() > 0) {
         if (known.states[known.last].key == key) return known.last;
-        std::int64_t likely = known.states[known.last].follower;
+        std::int64_t likely = known.states[known.last].successor;
         if (likely < known.count() && known.states[likely].key == key) return known.last = likely;
     }
     std::int64_t n = search(model, state, known, key);
-    known.states[known.last].follower = n;
+    known.states[known.last].successor = n;
     return known.last = n;
 }
 

@@ -121,7 +121,7 @@ private:
 // Modes of one contact state, of unit modal mass.
 struct alignas(64) ContactState {
     ContactKey key;
-    std::int64_t follower;  // the state that followed the last time
+    std::int64_t successor;  // the state that came next the last time
     double step;            // accepted step when this state started the last time, 0: none yet [s]
     double contraction[2];  // contraction factor of a sweep per step length, without and with
                             // friction [1/s]

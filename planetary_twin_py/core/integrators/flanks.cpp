@@ -52,7 +52,7 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
     const Train& train = model.train;
     const Propagation& run = integrator.run;
     const std::int64_t side = integrator.begin.side[i];
-    LengthAndReach own{run.node[n].d[i], tau * run.node[n].rate[i]}, wider{0.0, 0.0};
+    LengthAndDamping own{run.node[n].d[i], tau * run.node[n].rate[i]}, wider{0.0, 0.0};
     if (train.lines[train.kind[i]] > 0) {
         const MeshesNow& now = run.node[n].meshes;
         LengthAndRate error =
@@ -101,10 +101,10 @@ bool loaded_throughout(const Model& model, const Integrator& integrator, const R
     if (train.lines[0] + train.lines[1] > 0) return false;
     for (std::int64_t i = 0; i < train.meshes; ++i)
         if (integrator.begin.side[i] == OPEN) return false;
-    V side(integrator.constants.side), reach = model.load.release * V(integrator.constants.damping),
+    V side(integrator.constants.side), tau = model.load.release * V(integrator.constants.damping),
                                        least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n)
-        least = smaller(least, side * (V(run.node[n].d) + reach * V(run.node[n].rate)));
+        least = smaller(least, side * (V(run.node[n].d) + tau * V(run.node[n].rate)));
     V left = least - model.load.half_backlash - 2.0 * bound - integrator.control.tolerance_x;
     return none(first_of_row<L>(train.meshes) & !(left > 0.0));
 }
@@ -118,11 +118,11 @@ bool contacts_stay(const Model& model, const Integrator& integrator, const Row<L
     const Propagation& run = integrator.run;
     if (train.lines[0] + train.lines[1] > 0) return false;
     V own = select(first_of_row<L>(train.meshes / FLANKS), V(1.0), -1.0);
-    V reach = model.load.release * V(integrator.constants.damping);
+    V tau = model.load.release * V(integrator.constants.damping);
     const Mask<L> open = V(integrator.constants.side) == 0.0;
     V least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n) {
-        V d = own * V(run.node[n].d), normal_force = d + reach * own * V(run.node[n].rate);
+        V d = own * V(run.node[n].d), normal_force = d + tau * own * V(run.node[n].rate);
         V half(model.load.half_backlash);
         least = smaller(least, select(open, half - d, normal_force - half));
     }
@@ -159,8 +159,8 @@ bool flanks_may_change(const Model& model, Integrator& integrator) {
     bool found = false;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         const double sure = least[i] - bound[static_cast<int>(i)] - integrator.control.tolerance_x;
-        run.suspect[i] = !(sure >= 0.0);
-        found |= run.suspect[i] != 0;
+        run.may_change[i] = !(sure >= 0.0);
+        found |= run.may_change[i] != 0;
     }
     return found;
 }
@@ -216,7 +216,7 @@ FlankEvent first_of_collocation(const Model& model, Integrator& integrator) {
     if (!flanks_may_change<L>(model, integrator)) return first;
     scan<L>(integrator, end);
     for (std::int64_t i = 0; i < model.train.meshes; ++i) {
-        if (!integrator.run.suspect[i]) continue;
+        if (!integrator.run.may_change[i]) continue;
         int place = first_scanned(model, integrator, i, end);
         double low = place * end / SCANNED,
                high = std::min((place + 1) * end / SCANNED, first.when);

@@ -222,7 +222,7 @@ void sum_step(const Model& model, Integrator& integrator) {
 std::int64_t even_intervals(const Integrator& integrator, const Train& train, double h) {
     const Propagation& run = integrator.run;
     const ModalMotion& motion = run.motion;
-    const MatrixRows reach = run.known.states[motion.modes].matrices.motion_magnitude();
+    const MatrixRows magnitude = run.known.states[motion.modes].matrices.motion_magnitude();
     const double by_nodes = static_cast<double>(run.nodes.count);
     double fastest = 0.0;
     for (std::int64_t m = 0; m < train.lanes; ++m) {
@@ -230,7 +230,7 @@ std::int64_t even_intervals(const Integrator& integrator, const Train& train, do
         if (!(phase > std::max(fastest, by_nodes)) || motion.slow[m] != motion.fast[m]) continue;
         double amplitude =
             std::fabs(motion.free[0][m]) + std::fabs(motion.free[1][m]) / motion.rate[m];
-        double largest = *std::max_element(reach[m], reach[m] + train.meshes);
+        double largest = *std::max_element(magnitude[m], magnitude[m] + train.meshes);
         if (amplitude * largest > integrator.control.tolerance_x) fastest = phase;
     }
     // Larger phases, and NaN, count as the largest number of intervals.

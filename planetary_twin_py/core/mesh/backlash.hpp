@@ -19,8 +19,8 @@ struct MeshPosition {
     double advance, cycle_rate, slack;  // mesh cycles since the start of the step, [1/s], [m]
 };
 
-struct LengthAndReach {
-    double length, reach;  // a length and tau times its rate [m]
+struct LengthAndDamping {
+    double length, damping;  // a length and tau times its rate [m]
 };
 
 // Increase of the backlash of an open mesh by errors of form, on each side. `deflection` contains
@@ -34,11 +34,11 @@ inline LengthAndRate widening(const Train& train, const StepConstants& step, std
 // Gap [m] left to mesh i on `side`, from its deflection and the increase of its backlash; see
 // `contact_event`.
 inline double remaining_gap(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
-                            LengthAndReach motion, LengthAndReach wider, double slack) {
+                            LengthAndDamping motion, LengthAndDamping wider, double slack) {
     double d = motion.length, half = load.half_backlash;
-    double normal_force = d + load.release * motion.reach;
+    double normal_force = d + load.release * motion.damping;
     if (side != OPEN) return static_cast<double>(side) * normal_force - half + slack;
-    double gap = wider.length, slower = wider.length + load.release * wider.reach;
+    double gap = wider.length, slower = wider.length + load.release * wider.damping;
     double drive = at_most(d - gap, normal_force - slower),
            coast = at_most(-d - gap, -normal_force - slower);
     if constexpr (MOVING) return slack - (only_side(train, i) == DRIVE_SIDE ? drive : coast) + half;

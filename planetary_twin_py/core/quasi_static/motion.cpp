@@ -6,7 +6,7 @@
 
 namespace gearbox {
 
-void turn_to(const Model& model, const State& origin, double after, State& state) {
+void advance_shafts(const Model& model, const State& origin, double after, State& state) {
     const Load& load = model.load;
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
         double begin = origin.set_speed[a], target = load.target_speed[a];
@@ -26,7 +26,7 @@ void turn_to(const Model& model, const State& origin, double after, State& state
 void advance_origin(const Model& model, State& origin, const Instant& until) {
     while (origin.seconds < until.seconds) {
         std::int64_t following = origin.seconds + 1;
-        turn_to(model, origin, 1.0 - origin.time, origin);
+        advance_shafts(model, origin, 1.0 - origin.time, origin);
         origin.seconds = following;
         origin.time = 0.0;
     }

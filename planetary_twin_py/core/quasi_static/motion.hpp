@@ -10,7 +10,7 @@ namespace gearbox {
 
 // Set frame, speeds and clock of `state` to those `after` seconds after `origin`, which may be
 // `state` itself. Set-points approach their targets at the slew rate.
-void turn_to(const Model& model, const State& origin, double after, State& state);
+void advance_shafts(const Model& model, const State& origin, double after, State& state);
 
 // Move `origin` to the last whole second before `until`, second by second. Turns are counted there,
 // so that angles stay exact and do not depend on the times of the calls.

@@ -32,14 +32,14 @@ double lost(const Totals& energy) {
 }
 
 // Approximate loss of one cycle [J], the scale of the allowed error.
-double cycle_loss(const Follower& follower, const State& origin, std::span<const double> edges,
-                  double period) {
+double cycle_loss(const EquilibriumSolver& solver, const State& origin,
+                  std::span<const double> edges, double period) {
     Totals whole;
     Peaks ignored{};
     double loss = 0.0, given = 0.0;
     for (std::size_t n = 0; n + 1 < edges.size(); ++n) {
         Span span{edges[n] * period, edges[n + 1] * period};
-        integrate(follower, origin, span, whole.data(), rows(ignored));
+        integrate(solver, origin, span, whole.data(), rows(ignored));
         loss += std::abs(lost(whole));
         given += std::abs(whole[WORK]);
     }
@@ -104,26 +104,25 @@ bool is_steady(const Model& model, const State& state) {
 
 }  // namespace
 
-void integrate(const Follower& follower, const State& origin, Span span, double* out,
+void integrate(const EquilibriumSolver& solver, const State& origin, Span span, double* out,
                double (*peak)[MESHES]) {
-    const Train& train = follower.model.train;
+    const Train& train = solver.model.train;
     double half = 0.5 * (span.end - span.begin);
     std::fill(out, out + TOTALS, 0.0);
     for (int n = 0; n < PANEL_NODES; ++n) {
-        turn_to(follower.model, origin, span.begin + half * (1.0 + GAUSS_NODES[n]),
-                follower.run.state);
-        solve_equilibrium(follower.model, follower.tolerance, follower.run, follower.shown);
-        add_rates(train, follower.run.evaluation.power, follower.shown, half * GAUSS_WEIGHTS[n],
-                  out);
-        raise_peaks_at_node(train, follower.shown, n, peak);
+        advance_shafts(solver.model, origin, span.begin + half * (1.0 + GAUSS_NODES[n]),
+                       solver.run.state);
+        solve_equilibrium(solver.model, solver.tolerance, solver.run, solver.shown);
+        add_rates(train, solver.run.evaluation.power, solver.shown, half * GAUSS_WEIGHTS[n], out);
+        raise_peaks_at_node(train, solver.shown, n, peak);
     }
     raise_peaks_at_ends(train, peak);
 }
 
-Panels divide_cycle(const Follower& follower, const State& origin, std::span<const double> edges,
-                    double period) {
+Panels divide_cycle(const EquilibriumSolver& solver, const State& origin,
+                    std::span<const double> edges, double period) {
     Panels panels{{0.0}, {Totals{}}, {Peaks{}}};
-    double allowed = follower.tolerance * cycle_loss(follower, origin, edges, period);
+    double allowed = solver.tolerance * cycle_loss(solver, origin, edges, period);
     Totals whole, left, right;
     Peaks coarse{}, peaks{};
     std::vector<double> waiting;
@@ -133,9 +132,9 @@ Panels divide_cycle(const Follower& follower, const State& origin, std::span<con
             double low = panels.phase.back(), high = waiting.back(), middle = 0.5 * (low + high);
             double begin = low * period, centre = middle * period, end = high * period;
             peaks.fill(0.0);
-            integrate(follower, origin, {begin, end}, whole.data(), rows(coarse));
-            integrate(follower, origin, {begin, centre}, left.data(), rows(peaks));
-            integrate(follower, origin, {centre, end}, right.data(), rows(peaks));
+            integrate(solver, origin, {begin, end}, whole.data(), rows(coarse));
+            integrate(solver, origin, {begin, centre}, left.data(), rows(peaks));
+            integrate(solver, origin, {centre, end}, right.data(), rows(peaks));
             double error = std::abs(lost(left) + lost(right) - lost(whole));
             if (error <= allowed * std::max(high - low, SHARE) || high - low < NARROWEST) {
                 append(panels, high, left, right, peaks);
@@ -148,15 +147,15 @@ Panels divide_cycle(const Follower& follower, const State& origin, std::span<con
     return panels;
 }
 
-void follow(const Follower& follower, State& mark, std::span<const double> edges,
-            const Instant& until, bool stop, double* integral, double (*peak)[MESHES]) {
+void integrate_panels(const EquilibriumSolver& solver, State& state, std::span<const double> edges,
+                      const Instant& until, bool stop, double* integral, double (*peak)[MESHES]) {
     Totals gain;
     while (true) {
-        double length = std::max(panel_length(follower.model, mark, edges), SHORTEST_PANEL);
-        if (length > delay(mark, until) || (stop && is_steady(follower.model, mark))) return;
-        integrate(follower, mark, {0.0, length}, gain.data(), peak);
+        double length = std::max(panel_length(solver.model, state, edges), SHORTEST_PANEL);
+        if (length > delay(state, until) || (stop && is_steady(solver.model, state))) return;
+        integrate(solver, state, {0.0, length}, gain.data(), peak);
         for (int n = 0; n < TOTALS; ++n) integral[n] += gain[n];
-        turn_to(follower.model, mark, length, mark);
+        advance_shafts(solver.model, state, length, state);
     }
 }
 

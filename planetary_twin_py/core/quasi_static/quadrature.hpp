@@ -18,7 +18,7 @@
 namespace gearbox {
 
 // The train, its allowed error, and work space.
-struct Follower {
+struct EquilibriumSolver {
     const Model& model;
     double tolerance;  // see `solve_equilibrium`
     Equilibrium& run;
@@ -32,7 +32,7 @@ struct Span {
 };
 
 // Write the totals (TOTALS,) of a smooth span of time since `origin` to `out`; update `peak`.
-void integrate(const Follower& follower, const State& origin, Span span, double* out,
+void integrate(const EquilibriumSolver& solver, const State& origin, Span span, double* out,
                double (*peak)[MESHES]);
 
 // Panels of one mesh cycle.
@@ -48,14 +48,14 @@ struct Panels {
 // cycle [s].
 //
 // Throws std::invalid_argument if the tolerance requires too many panels.
-Panels divide_cycle(const Follower& follower, const State& origin, std::span<const double> edges,
-                    double period);
+Panels divide_cycle(const EquilibriumSolver& solver, const State& origin,
+                    std::span<const double> edges, double period);
 
-// Advance `mark` panel by panel, as long as they end by `until`.
+// Advance `state` panel by panel, as long as they end by `until`.
 //
 // edges: in mesh cycles of the frame, within [0, 1). stop: whether to end where all speeds have
 // reached their targets. integral, peak: updated.
-void follow(const Follower& follower, State& mark, std::span<const double> edges,
-            const Instant& until, bool stop, double* integral, double (*peak)[MESHES]);
+void integrate_panels(const EquilibriumSolver& solver, State& state, std::span<const double> edges,
+                      const Instant& until, bool stop, double* integral, double (*peak)[MESHES]);
 
 }  // namespace gearbox

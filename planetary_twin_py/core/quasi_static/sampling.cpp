@@ -13,7 +13,7 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
             const Instant& at, const Samples& out, std::int64_t row) {
     const Train& train = model.train;
     State& state = run.state;
-    turn_to(model, origin, delay(origin, at), state);
+    advance_shafts(model, origin, delay(origin, at), state);
     double shown[QUANTITIES][MESHES];
     solve_equilibrium(model, tolerance, run, shown);
     for (int q = 0; q < QUANTITIES; ++q)

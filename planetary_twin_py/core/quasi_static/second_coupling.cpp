@@ -30,7 +30,7 @@ double steepest_torque(const Model& model, double tolerance, std::int64_t closin
     auto run = std::make_unique<Equilibrium>(first_guess(closing_side));
     double shown[QUANTITIES][MESHES], before = 0.0, steepest = 0.0;
     for (int n = 0; n <= PLACES; ++n) {
-        turn_to(*rigid, begin, n / (PLACES * rate), run->state);
+        advance_shafts(*rigid, begin, n / (PLACES * rate), run->state);
         solve_equilibrium(*rigid, tolerance, *run, shown);
         double torque = run->torque[SECOND_MOTOR];
         if (n > 0) steepest = std::max(steepest, std::abs(torque - before));

@@ -78,7 +78,7 @@ inline void keep_given(const Load& before, Load& load) {
         }
         load.speed[m] = before.speed[m];
         load.acceleration[m] = before.acceleration[m];
-        load.arrives[m] = before.arrives[m];
+        load.reaches_position[m] = before.reaches_position[m];
         load.speed_after[m] = before.speed_after[m];
     }
     load.since_seconds = before.since_seconds;

@@ -22,7 +22,7 @@ constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 struct Action {
     double value;
     double rate;
-    bool arrives = false;
+    bool reaches_position = false;
     double speed_after = 0.0;
 
     bool operator==(const Action&) const = default;
@@ -32,7 +32,7 @@ struct Action {
 Action acting(const Load& load, int port, double passed) {
     if (load.port[port] == BY_MOTION)
         return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port],
-                load.arrives[port] != 0, load.speed_after[port]};
+                load.reaches_position[port] != 0, load.speed_after[port]};
     return {load.torque[port] + load.torque_rate[port] * passed, load.torque_rate[port]};
 }
 
@@ -43,7 +43,7 @@ Action commanded(const Load& load, int port, const Action& before, const Command
     const double value = moved ? command.speed[port] : command.torque[port];
     const double approach = moved ? command.approach[port] : NOT_A_NUMBER;
     if (!std::isnan(approach)) return {approach, 0.0, true, std::isnan(value) ? 0.0 : value};
-    const double now = before.arrives ? before.speed_after : before.value;
+    const double now = before.reaches_position ? before.speed_after : before.value;
     if (std::isnan(value)) return {now, 0.0};
     if (reaching == 0.0) return {value, 0.0};
     return {now, (value - now) / reaching};
@@ -83,7 +83,7 @@ void act_at(Model& model, State& state, int port, const Action& action) {
     }
     load.speed[port] = action.value;
     load.acceleration[port] = action.rate;
-    load.arrives[port] = action.arrives;
+    load.reaches_position[port] = action.reaches_position;
     load.speed_after[port] = action.speed_after;
     set_speed(model.train, state, port, action.value);
 }

@@ -27,8 +27,8 @@ struct alignas(64) Load {
     double torque_rate[MACHINES];      // rate of change of a given torque [N m/s]
     double speed[MACHINES];            // of a shaft with given motion [rad/s]
     double acceleration[MACHINES];     // rate of change of this speed [rad/s^2]
-    std::int64_t arrives[MACHINES];    // 1: the shaft reaches a given position at this speed
-    double speed_after[MACHINES];      // its speed after that, until a command [rad/s]
+    std::int64_t reaches_position[MACHINES];  // 1: the shaft reaches a given position at this speed
+    double speed_after[MACHINES];             // its speed after that, until a command [rad/s]
 };
 
 }  // namespace gearbox

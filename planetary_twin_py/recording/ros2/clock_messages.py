@@ -6,7 +6,7 @@ import struct
 from collections.abc import Iterator
 
 from .metadata import Topic
-from .tape import Cue, Tape
+from .playback import Playback, TimedMessage
 
 CLOCK = Topic(name="/clock", type="rosgraph_msgs/msg/Clock", type_hash="", definition="")
 
@@ -16,7 +16,9 @@ _LITTLE = b"\0\1\0\0"
 _CLOCK = struct.Struct("<4siI")
 
 
-def with_clock(tape: Tape, begin: int, end: int, frequency: float) -> Iterator[Cue]:
+def with_clock(
+    playback: Playback, begin: int, end: int, frequency: float
+) -> Iterator[TimedMessage]:
     """Messages of a recording, with /clock messages between them.
 
     The clock is the newest stamp of the previous headers plus the recorded time since, and never
@@ -24,49 +26,51 @@ def with_clock(tape: Tape, begin: int, end: int, frequency: float) -> Iterator[C
     Without stamps it is the recorder's clock.
 
     Args:
-        tape: the recording.
+        playback: the recording.
         begin: start [ns after the first message].
         end: end [ns after the first message].
         frequency: of /clock per recorded second [Hz].
     """
-    ticks = _Ticks(tape, begin, frequency)
-    for cue in tape.cues(begin, end):
-        yield from ticks.until(cue.time)
-        ticks.update(cue)
-        yield cue
+    ticks = _Ticks(playback, begin, frequency)
+    for message in playback.messages(begin, end):
+        yield from ticks.until(message.time)
+        ticks.update(message)
+        yield message
     yield from ticks.until(end + 1)
 
 
 class _Ticks:
-    def __init__(self, tape: Tape, begin: int, frequency: float) -> None:
-        self._stamped = _stamped(tape)
-        self._anchor = None if self._stamped else (tape.start, 0)
+    def __init__(self, playback: Playback, begin: int, frequency: float) -> None:
+        self._stamped = _stamped(playback)
+        self._anchor = None if self._stamped else (playback.start, 0)
         self._begin = begin
         self._period = 1e9 / frequency
         self._count = 0
         self._newest = 0
 
-    def until(self, instant: int) -> Iterator[Cue]:
+    def until(self, instant: int) -> Iterator[TimedMessage]:
         """Clock messages before `instant` [ns]."""
         while (time := self._begin + round(self._count * self._period)) < instant:
             self._count += 1
             if self._anchor is not None:
                 stamp, since = self._anchor
                 self._newest = max(self._newest, stamp + time - since)
-                yield Cue(time, CLOCK.name, _serialized(self._newest))
+                yield TimedMessage(time, CLOCK.name, _serialized(self._newest))
 
-    def update(self, cue: Cue) -> None:
-        """Use the stamp of `cue` if it is the newest."""
-        if cue.topic in self._stamped:
-            seconds, nanoseconds = _STAMP[cue.data[1] & 1].unpack_from(cue.data)
+    def update(self, message: TimedMessage) -> None:
+        """Use the stamp of `message` if it is the newest."""
+        if message.topic in self._stamped:
+            seconds, nanoseconds = _STAMP[message.data[1] & 1].unpack_from(message.data)
             stamp = seconds * 1_000_000_000 + nanoseconds
             if self._anchor is None or stamp >= self._anchor[0]:
-                self._anchor = stamp, cue.time
+                self._anchor = stamp, message.time
 
 
-def _stamped(tape: Tape) -> set[str]:
+def _stamped(playback: Playback) -> set[str]:
     """Topics with a header, of at least half the highest rate; rare ones have other clocks."""
-    counts = {name: tape.counts[name] for name, topic in tape.topics.items() if _has_header(topic)}
+    counts = {
+        name: playback.counts[name] for name, topic in playback.topics.items() if _has_header(topic)
+    }
     return {name for name, count in counts.items() if 2 * count > max(counts.values())}
 
 

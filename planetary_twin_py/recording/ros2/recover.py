@@ -10,8 +10,8 @@ from mcap.records import Attachment, Channel, Message, Metadata
 from ..container.records import files_of
 from .bag import BagWriter
 from .no_run import no_run_yet
+from .playback import Playback
 from .repeats import Repeats, unrepeated
-from .tape import Tape
 
 _OF_THE_FILE = "rosbag2"  # metadata that is generated for the new file
 
@@ -39,11 +39,11 @@ def recover(path: Path, folder: Path) -> Recovered:
         FileExistsError: `folder` exists.
         OSError: `folder` cannot be written.
     """
-    tape = Tape(path)
+    playback = Playback(path)
     bag = BagWriter(folder)
-    channels = {name: bag.add_topic(topic) for name, topic in tape.topics.items()}
+    channels = {name: bag.add_topic(topic) for name, topic in playback.topics.items()}
     messages = dict.fromkeys(channels, 0)
-    no_run = no_run_yet(path, tape.counts)
+    no_run = no_run_yet(path, playback.counts)
     remarks = [no_run] if no_run else []
     repeats = Repeats()
     for file in files_of(path):

@@ -10,7 +10,7 @@ from ...dynamics.speed_loop import bandwidth
 from ...integrators.clock import TICKS
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
-from ..ros2.tape import Tape
+from ..ros2.playback import Playback
 from .schedule import Interval, RecordedRun, read_runs
 
 SETTLING = 4.0  # periods of the speed loop after a change, in addition to the speed ramp
@@ -24,7 +24,7 @@ def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float]
         namespace: of the gearbox; None if there is only one.
     """
     try:
-        runs = read_runs(path, choose_namespace(Tape(path).counts, namespace, path), [])
+        runs = read_runs(path, choose_namespace(Playback(path).counts, namespace, path), [])
     except RecordingError:  # the times of its operating points are unknown
         return None
     _, part = longest_steady_part(runs)

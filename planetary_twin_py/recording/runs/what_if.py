@@ -13,7 +13,7 @@ from ...scene import Scene
 from ..ros2.bag import BagWriter
 from ..ros2.definitions import OF_AXES, OF_PORTS, topics_of
 from ..ros2.metadata import Topic
-from ..ros2.tape import Tape
+from ..ros2.playback import Playback
 from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
 from .compose import Composer
@@ -92,7 +92,7 @@ def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:
 
     The operating point is written as this version does: earlier ones did not record ports.
     """
-    recorded = Tape(path).topics
+    recorded = Playback(path).topics
     moving, driven = run.origin.scene.moving_axes, bool(run.given)
     own = {topic.name: topic for topic in topics_of(namespace, moving, driven)}
     kinds = (OF_AXES if moving else {}) | (OF_PORTS if driven else {})

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
-from ..ros2.tape import Tape
+from ..ros2.playback import Playback
 from ..runs.schedule import messages_of, stamp_of
 from .message_tables import TABLES, Batch, Table
 from .table_files import FORMATS, TableFile
@@ -55,9 +55,9 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
         OSError: a file cannot be written.
     """
     kind, single = _format(chosen)
-    tape = Tape(path)
-    namespace = choose_namespace(tape.counts, chosen.namespace, path)
-    names = _topics(tape, namespace, chosen.topics)
+    playback = Playback(path)
+    namespace = choose_namespace(playback.counts, chosen.namespace, path)
+    names = _topics(playback, namespace, chosen.topics)
     if single and len(names) > 1:
         raise ValueError(
             f"out = {chosen.out}: a file takes one topic, not {','.join(names)}; use --topics, or "
@@ -69,7 +69,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
             raise FileExistsError(f"{file}: already exists; choose another name")
         file.parent.mkdir(parents=True, exist_ok=True)
     writers = {
-        name: _Writer(Table(name, tape.topics[f"{namespace}/{name}"].definition), file, kind)
+        name: _Writer(Table(name, playback.topics[f"{namespace}/{name}"].definition), file, kind)
         for name, file in files.items()
     }
     remarks: list[str] = []
@@ -78,7 +78,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
         for name, message in messages_of(path, namespace, tuple(names), remarks):
             writers[name].add(message)
             first = first or stamp_of(message)
-            progress(stamp_of(message) - first, tape.length)
+            progress(stamp_of(message) - first, playback.length)
     finally:  # incomplete tables are valid, too
         for writer in writers.values():
             writer.close()
@@ -127,9 +127,9 @@ def _format(chosen: Export) -> tuple[str, bool]:
     return kind, ending == kind
 
 
-def _topics(tape: Tape, namespace: str, wanted: Sequence[str]) -> list[str]:
+def _topics(playback: Playback, namespace: str, wanted: Sequence[str]) -> list[str]:
     """Topics to write: those `wanted`, or all."""
-    there = [name for name in TABLES if f"{namespace}/{name}" in tape.topics]
+    there = [name for name in TABLES if f"{namespace}/{name}" in playback.topics]
     for name in wanted:
         if name not in there:
             raise RecordingError(f"topics = {name}: must be one of {', '.join(there)}")

@@ -14,7 +14,7 @@ import numpy as np
 from ...integrators.clock import TICKS
 from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
-from ...recording.ros2.tape import Tape
+from ...recording.ros2.playback import Playback
 from ...recording.ros2.topics import STATE, WAVEFORM
 from ...recording.runs.origin import Measured
 from ...recording.runs.schedule import (
@@ -108,7 +108,7 @@ def read_excerpt(
         RecordingError: no run has a scene, or there are too few intervals.
     """
     remarks: list[str] = []
-    chosen = choose_namespace(Tape(path).counts, namespace, path)
+    chosen = choose_namespace(Playback(path).counts, namespace, path)
     runs = read_runs(path, chosen, remarks)
     if begin is None and end is None:
         run, intervals = longest_steady_part(runs)

@@ -18,8 +18,8 @@ from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.container.walk import Lost
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.definitions import topics_of
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover
-from planetary_twin_py.recording.ros2.tape import Tape
 from planetary_twin_py.recording.ros2.topics import ORIGIN, POINT, STATE
 from planetary_twin_py.recording.runs.compose import Composer
 from planetary_twin_py.recording.runs.info import read_info
@@ -119,9 +119,9 @@ def recovered(file):
 
 
 def played(file):
-    tape = Tape(file)
-    cues = [(cue.topic, cue.data) for cue in tape.cues()]
-    return [tape.topics, cues], tape.remarks
+    playback = Playback(file)
+    messages = [(message.topic, message.data) for message in playback.messages()]
+    return [playback.topics, messages], playback.remarks
 
 
 @pytest.mark.slow

@@ -18,8 +18,8 @@ from twin_recording import NAMESPACE, record
 
 from planetary_twin_py.recording.container.foreign import how_stored
 from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover
-from planetary_twin_py.recording.ros2.tape import Tape
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
@@ -84,7 +84,7 @@ def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tm
     with sound.open("rb") as stream:
         published = [m.data for m in StreamReader(stream).records if isinstance(m, Message)]
     for path in (folder, alone):
-        assert [cue.data for cue in Tape(path).cues()] == published
+        assert [message.data for message in Playback(path).messages()] == published
         assert len(read_recording(path).state) == len(read_recording(sound).state)
         assert verify(path, NAMESPACE).identical
     recovered = recover(alone, tmp_path / "recovered")

@@ -15,7 +15,7 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.no_run import no_run_yet
-from planetary_twin_py.recording.ros2.tape import Tape
+from planetary_twin_py.recording.ros2.playback import Playback
 
 SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
 CHUNK = 6  # opcode
@@ -94,7 +94,7 @@ def test_every_command_says_that_there_is_no_run_and_what_to_do(
         code, lines, output = says("info", file)
         assert code == 0 and len(lines) == 1, (place, output)
         try:
-            remarks = Tape(file).remarks  # of which replay prints every line
+            remarks = Playback(file).remarks  # of which replay prints every line
         except RecordingError as reason:
             remarks = [str(reason)]
         assert len([line for line in remarks if NO_RUN in line and line.endswith(ADVICE)]) == 1
@@ -126,7 +126,7 @@ def test_a_recording_of_something_else_is_not_blamed(tmp_path):
     channel = bag.add_topic(NUMBERS)
     bag.write(channel, payload(1), 1, 1, 1)
     bag.flush()
-    assert not any(NO_RUN in line for line in Tape(bag.file).remarks)
+    assert not any(NO_RUN in line for line in Playback(bag.file).remarks)
     code, lines, output = says("view", bag.file, "--save", str(tmp_path / "view.rrd"))
     assert code == 2 and not lines and "has no gearbox_state messages" in output
 

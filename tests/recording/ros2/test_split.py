@@ -26,9 +26,9 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.account import TopicAccount
 from planetary_twin_py.recording.ros2.bag import ACCOUNT_RECORD, CLOCKS_RECORD, BagWriter
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.ros2.ring import Ring
-from planetary_twin_py.recording.ros2.tape import Tape
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
@@ -105,9 +105,9 @@ def test_reading_the_whole_bag_gives_each_message_once(tmp_path):
         "/numbers": 160,
         "/settings": 2,
     }
-    cues = [(cue.topic, number_of(cue.data)) for cue in Tape(folder).cues()]
-    assert [value for topic, value in cues if topic == "/settings"] == [1, 2]
-    assert [value for topic, value in cues if topic == "/numbers"] == list(range(1, 161))
+    messages = [(message.topic, number_of(message.data)) for message in Playback(folder).messages()]
+    assert [value for topic, value in messages if topic == "/settings"] == [1, 2]
+    assert [value for topic, value in messages if topic == "/numbers"] == list(range(1, 161))
     saved = recover(folder, tmp_path / "saved")
     assert saved.messages == {"/numbers": 160, "/settings": 2}
     assert saved.remarks == []
@@ -133,7 +133,7 @@ def test_a_file_that_was_just_started_when_its_logger_was_killed_does_no_harm(tm
     assert read_numbers(saved.file) == list(range(1, 151))
     assert saved.remarks == [f"{last.name}: ends after {written} bytes, before any message"]
     assert read_info(folder).topics["/numbers"].recorded == 150
-    assert sum(cue.topic == "/numbers" for cue in Tape(folder).cues()) == 150
+    assert sum(message.topic == "/numbers" for message in Playback(folder).messages()) == 150
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The position of a tape follows its rate; only a seek makes it jump."""
+"""The position of a playback follows its rate; only a seek makes it jump."""
 
 import math
 

@@ -17,8 +17,8 @@ import planetary_twin_py as pt
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.definitions import topics_of
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover
-from planetary_twin_py.recording.ros2.tape import Tape
 from planetary_twin_py.recording.runs.compose import Composer
 from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.info import read_info
@@ -66,7 +66,7 @@ def read_all(file):
         "recording": lambda: used(read_recording(file)),
         "runs": lambda: read_runs(file, NAMESPACE, []),
         "events": lambda: list(read_events(file, NAMESPACE, [])),
-        "tape": lambda: list(Tape(file).cues()),
+        "playback": lambda: list(Playback(file).messages()),
         "recover": lambda: recover(file, out),
         "export": lambda: export(file, Export(out)),
     }

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.recording.ros2.tape import Tape
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
@@ -79,7 +79,7 @@ def test_the_branch_is_a_recording_like_any_other(sound, branched):
     verdict = verify(branched.file.parent, NAMESPACE)
     assert verdict.identical and verdict.same_makers
     assert verdict.messages == {"gearbox_state": 31, "joint_states": 31, "mesh_waveform": 30}
-    assert Tape(branched.file).topics == Tape(sound).topics
+    assert Playback(branched.file).topics == Playback(sound).topics
     with AnyReader([branched.file.parent]) as bag:
         states = [c for c in bag.connections if c.topic == f"{NAMESPACE}/gearbox_state"]
         decoded = [bag.deserialize(raw, c.msgtype) for c, _, raw in bag.messages(states)]

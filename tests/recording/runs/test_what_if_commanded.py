@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.recording.ros2.tape import Tape
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -52,7 +52,7 @@ def commands_of(folder):
 def test_commands_are_recorded_and_verified(machine, driven):
     given = commands_of(driven)
     assert [each["output_torque"] for each in given] == [recorded_load(n) for n in range(COUNT)]
-    assert f"{NAMESPACE}/applied_commands" not in Tape(machine).topics
+    assert f"{NAMESPACE}/applied_commands" not in Playback(machine).topics
     assert verify(driven, NAMESPACE).identical
 
 

@@ -18,7 +18,7 @@ from planetary_twin_py.doctor.finding import Finding
 
 from .network import stay_on_this_machine
 
-_PATIENCE = 5.0  # [s] for two participants to discover each other
+_TIMEOUT = 5.0  # [s] for two participants to discover each other
 _SHARED_MEMORY = Path("/dev/shm")
 _SWEEP = "rm /dev/shm/*fastrtps_*"
 
@@ -45,7 +45,7 @@ def _conversation() -> Finding:
             Node(f"planetary_twin_doctor_{role}", context=context, enable_rosout=False)
             for role, context in zip(("sender", "receiver"), contexts, strict=True)
         )
-        arrival = _arrival(sender, receiver, start + _PATIENCE)
+        arrival = _arrival(sender, receiver, start + _TIMEOUT)
     finally:
         for context in contexts:
             rclpy.try_shutdown(context=context)
@@ -57,7 +57,7 @@ def _conversation() -> Finding:
         "check ROS_DOMAIN_ID, the firewall of the loopback interface, and RMW_IMPLEMENTATION; "
         f"with no node running: {_SWEEP}"
     )
-    return Finding("middleware", "broken", f"no message arrived within {_PATIENCE:g} s", remedy)
+    return Finding("middleware", "broken", f"no message arrived within {_TIMEOUT:g} s", remedy)
 
 
 def _arrival(sender: Node, receiver: Node, deadline: float) -> float | None:

@@ -13,7 +13,7 @@ from rclpy.client import Client as Service
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
-PATIENCE = 2.0  # [s] then call again: the first response after discovery may be lost
+TIMEOUT = 2.0  # [s] then call again: the first response after discovery may be lost
 _POLL = 0.02  # [s]
 
 
@@ -62,12 +62,12 @@ class Client:
             time.sleep(_POLL)
         return True
 
-    def call(self, service: Service, request: Any, patience: float = PATIENCE) -> Any:
-        """Return the response of `service`, or None if there is none within `patience` [s]."""
-        if not self.wait(service.service_is_ready, patience):
+    def call(self, service: Service, request: Any, timeout: float = TIMEOUT) -> Any:
+        """Return the response of `service`, or None if there is none within `timeout` [s]."""
+        if not self.wait(service.service_is_ready, timeout):
             return None
         future = service.call_async(request)
-        if self.wait(future.done, patience):
+        if self.wait(future.done, timeout):
             return future.result()
         service.remove_pending_request(future)
         return None

@@ -10,7 +10,7 @@ from functools import partial
 from typing import Any
 
 Command = Callable[[], float]
-_PATIENCE = 60.0  # [s] longest wait for the execution of a command
+_TIMEOUT = 60.0  # [s] longest wait for the execution of a command
 
 
 class CommandQueue:
@@ -43,17 +43,17 @@ class CommandQueue:
             self._gathering[0].update(values)
             return self._gathering[1]
 
-    def execute(self, patience: float) -> list[Callable[[], None]]:
+    def execute(self, timeout: float) -> list[Callable[[], None]]:
         """
         Execute the queued commands, and return the functions that set their futures.
 
-        If the queue is empty, wait up to `patience` [s] for a command. An exception of a command
+        If the queue is empty, wait up to `timeout` [s] for a command. An exception of a command
         is set on its future. All exceptions but `ValueError`, a refusal, are also raised.
         """
         answers: list[Callable[[], None]] = []
         for _ in range(max(self._queue.qsize(), 1)):
             try:
-                command, future = self._queue.get(timeout=patience)
+                command, future = self._queue.get(timeout=timeout)
             except queue.Empty:
                 break
             try:
@@ -96,7 +96,7 @@ def answer(
     `describe` returns the message for the instant [s] of execution.
     """
     try:
-        response.message = describe(command().result(timeout=_PATIENCE))
+        response.message = describe(command().result(timeout=_TIMEOUT))
         response.success = True
     except (ValueError, TimeoutError) as refusal:
         response.success, response.message = False, str(refusal)

@@ -10,14 +10,14 @@ from rclpy.exceptions import NameValidationException
 from rclpy.lifecycle import LifecycleNode, LifecyclePublisher
 
 from planetary_twin_py.recording.ros2.metadata import Topic
-from planetary_twin_py.recording.ros2.tape import Cue
+from planetary_twin_py.recording.ros2.playback import TimedMessage
 
 from .managed import NodeError
 from .qos import publisher_qos
 from .topics import UNKNOWN_NODE, message_class
 
 _POLL = 2e-3  # [s]
-_PATIENCE = 20.0  # [s] for a subscriber that acknowledges nothing; it may have been killed
+_TIMEOUT = 20.0  # [s] for a subscriber that acknowledges nothing; it may have been killed
 _NOW = Duration()
 
 
@@ -51,7 +51,7 @@ class Outlet:
         now = time.monotonic()
         self._full = self._full or now
         if not self.acknowledged():
-            return now > self._full + _PATIENCE
+            return now > self._full + _TIMEOUT
         self._sent = 0
         self._full = 0.0
         return True
@@ -86,13 +86,13 @@ class Outlets:
     def __len__(self) -> int:
         return len(self._outlets)
 
-    def publish(self, cue: Cue) -> None:
+    def publish(self, message: TimedMessage) -> None:
         """Publish a message as it was recorded."""
-        self._outlets[cue.topic].publish(cue.data)
+        self._outlets[message.topic].publish(message.data)
 
-    def has_room(self, cue: Cue) -> bool:
-        """Return whether `cue` overwrites no unacknowledged message."""
-        return self._outlets[cue.topic].has_room()
+    def has_room(self, message: TimedMessage) -> bool:
+        """Return whether `message` overwrites no unacknowledged message."""
+        return self._outlets[message.topic].has_room()
 
     def shared(self) -> list[str]:
         """Return the names of the topics that have other publishers, too."""

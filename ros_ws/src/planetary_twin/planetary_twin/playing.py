@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from typing import NamedTuple, Protocol
 
-from planetary_twin_py.recording.ros2.tape import Cue
+from planetary_twin_py.recording.ros2.playback import TimedMessage
 from planetary_twin_py.recording.ros2.transport import Transport
 
 from .command_queue import CommandQueue
@@ -28,11 +28,11 @@ class Listener(Protocol):
     def begin(self) -> None:
         """Prepare for the first message, which is played next."""
 
-    def has_room(self, cue: Cue) -> bool:
-        """Return whether `cue` can be played without loss to a slow subscriber."""
+    def has_room(self, message: TimedMessage) -> bool:
+        """Return whether `message` can be played without loss to a slow subscriber."""
 
-    def play(self, cue: Cue) -> None:
-        """Publish `cue`, whose instant is now."""
+    def play(self, message: TimedMessage) -> None:
+        """Publish `message`, whose instant is now."""
 
     def ended(self) -> None:
         """Finish: the last message has been played."""
@@ -45,14 +45,13 @@ class Excerpt(NamedTuple):
     """
     The part of a recording that is played, from `begin` to `end` [ns], repeatedly if `loop`.
 
-    `cues` yields the messages from an instant [ns] to `end`. A seek may go to any instant up to
-    `end`.
+    `messages` yields those from an instant [ns] to `end`. A seek may go to any instant before it.
     """
 
     begin: int
     end: int
     loop: bool
-    cues: Callable[[int], Iterator[Cue]]
+    messages: Callable[[int], Iterator[TimedMessage]]
 
 
 class Player:
@@ -73,8 +72,8 @@ class Player:
         self._paused = paused
         self._transport = Transport(excerpt.begin)
         self._commands = CommandQueue(self._set)
-        self._cues: Iterator[Cue] | None = None
-        self._next: Cue | None = None
+        self._messages: Iterator[TimedMessage] | None = None
+        self._next: TimedMessage | None = None
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self.lateness = 0.0
@@ -84,7 +83,7 @@ class Player:
         """Start as soon as the listener is ready, or continue after `stop`."""
         self._stop.clear()
         self._transport.set_rate(rate_factor, time.monotonic(), self._upcoming)
-        self._thread = threading.Thread(target=self._run, name="tape", daemon=True)
+        self._thread = threading.Thread(target=self._run, name="playback", daemon=True)
         self._thread.start()
 
     def stop(self) -> None:
@@ -115,7 +114,7 @@ class Player:
             while not self._listener.ready():
                 if self._stop.wait(_POLL):
                     return
-            if self._cues is None:
+            if self._messages is None:
                 self._listener.begin()
                 self._go_to(self._excerpt.begin)
             if not self._paused:
@@ -156,15 +155,15 @@ class Player:
         return self._next.time if self._next is not None else self._excerpt.end
 
     def _load(self, instant: int) -> None:
-        self._cues = self._excerpt.cues(instant)
-        self._next = next(self._cues, None)
+        self._messages = self._excerpt.messages(instant)
+        self._next = next(self._messages, None)
 
     def _has_room(self) -> bool:
         return self._next is None or self._listener.has_room(self._next)
 
     def _play_next(self) -> None:
         self._listener.play(self._next)
-        self._next = next(self._cues, None)
+        self._next = next(self._messages, None)
 
     def _play_through(self, instant: int) -> None:
         """Play all messages up to and at `instant`, unless stopped, and set the position to it."""

@@ -93,8 +93,8 @@ class RealTimeReport:
             recent = 0.0
         details = {
             THINNED: f"{self._log[-1].sample_rate:g} of {quality.full_sample_rate:g} Hz",
-            FALLS_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
-            FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
+            FALLS_BEHIND: f"real-time factor {recent:.3f}, {overruns} overruns",
+            FALLS_FAR_BEHIND: f"real-time factor {recent:.3f}, {overruns} overruns",
             WAITS_LONG: "for the first message on /clock, or for the node that wait_for names",
             FAILED: f"{now.failure}; ~/reset starts a new run with the parameters",
             STALLED: f"the interval in progress has not ended for {silence:.1f} s",

@@ -22,7 +22,7 @@ from planetary_twin_py import TUNABLES
 from planetary_twin_py.scene.names import did_you_mean
 from planetary_twin_py.units import to_si
 
-from .client import PATIENCE, Client
+from .client import TIMEOUT, Client
 from .network import stay_on_this_machine
 
 NODE = "simulation"
@@ -138,7 +138,7 @@ class Remote(Client):
                     f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: {self._remedy()}"
                 )
             for _ in range(_TRIALS):
-                answer = self.call(client, request, PATIENCE)
+                answer = self.call(client, request, TIMEOUT)
                 if answer is not None:
                     return answer
         finally:

@@ -14,8 +14,8 @@ from rclpy.logging import get_logger
 from rclpy.parameter import Parameter
 
 from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
+from planetary_twin_py.recording.ros2.playback import Playback, TimedMessage
 from planetary_twin_py.recording.ros2.renaming import moved
-from planetary_twin_py.recording.ros2.tape import Cue, Tape
 
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets
@@ -64,7 +64,7 @@ class Replay(ManagedNode):
         super().__init__("replay", given)
         self._listener = listener or _Log()
         self._declare()
-        self._tape: Tape | None = None
+        self._playback: Playback | None = None
         self._outlets: Outlets | None = None
         self._player: Player | None = None
         self._active = False
@@ -80,12 +80,12 @@ class Replay(ManagedNode):
         self._read()
         if not self._path:
             raise NodeError("file is not given: -p file:=RECORDING")
-        tape = self._tape = Tape(Path(self._path).expanduser(), self._chosen)
+        playback = self._playback = Playback(Path(self._path).expanduser(), self._chosen)
         self._warned = self._played = 0
         self._warn_of_damage()
-        self._begin, self._end = self._excerpt(tape)
+        self._begin, self._end = self._excerpt(playback)
         # A bag may contain topics without messages, whose types may not be installed here.
-        topics = {name: topic for name, topic in tape.topics.items() if tape.counts[name]}
+        topics = {name: topic for name, topic in playback.topics.items() if playback.counts[name]}
         ticking = self._clock_rate > 0.0 and CLOCK.name not in topics
         if ticking:
             topics[CLOCK.name] = CLOCK
@@ -99,7 +99,10 @@ class Replay(ManagedNode):
         self._outlets = Outlets(self, topics.values(), names)
         self._opened = time.monotonic()
         excerpt = Excerpt(
-            self._begin, self._end, self._loop, lambda begin: self._cues(tape, begin, ticking)
+            self._begin,
+            self._end,
+            self._loop,
+            lambda begin: self._messages(playback, begin, ticking),
         )
         self._player = Player(excerpt, self._start_paused, self)
 
@@ -144,18 +147,18 @@ class Replay(ManagedNode):
                 f"other publishers exist, subscribers receive both: {', '.join(shared)}"
             )
 
-    def has_room(self, cue: Cue) -> bool:
-        """Return whether `cue` overwrites no unacknowledged message."""
-        return self._outlets.has_room(cue)
+    def has_room(self, message: TimedMessage) -> bool:
+        """Return whether `message` overwrites no unacknowledged message."""
+        return self._outlets.has_room(message)
 
-    def play(self, cue: Cue) -> None:
+    def play(self, message: TimedMessage) -> None:
         """Publish a message as it was recorded."""
-        self._outlets.publish(cue)
+        self._outlets.publish(message)
         self._played += 1
         now = time.monotonic()
         if now - self._shown > _SHOW_PERIOD:
             self._shown = now
-            self._listener.move(cue.time * 1e-9, self._end * 1e-9)
+            self._listener.move(message.time * 1e-9, self._end * 1e-9)
 
     def ended(self) -> None:
         """End the process once subscribers have acknowledged the last messages."""
@@ -177,7 +180,7 @@ class Replay(ManagedNode):
 
     def stamp(self, instant: float) -> int:
         """Return the recorder's time [ns] of a recorded instant [s]."""
-        return self._tape.start + round(instant * 1e9)
+        return self._playback.start + round(instant * 1e9)
 
     def _declare(self) -> None:
         declare_fixed(self, "file", "", "recording: an .mcap file or its folder")
@@ -230,28 +233,28 @@ class Replay(ManagedNode):
             if self._active:
                 self._player.set_rate(value)
 
-    def _excerpt(self, tape: Tape) -> tuple[int, int]:
+    def _excerpt(self, playback: Playback) -> tuple[int, int]:
         """Return start and end [ns] of the part to play, after the first message."""
         begin = round(self._start * 1e9)
-        if begin > tape.length:
+        if begin > playback.length:
             raise NodeError(
-                f"start = {self._start:g}: {self._path} is {tape.length * 1e-9:.3f} s long"
+                f"start = {self._start:g}: {self._path} is {playback.length * 1e-9:.3f} s long"
             )
-        end = begin + round(self._duration * 1e9) if self._duration else tape.length
-        end = min(end, tape.length)
+        end = begin + round(self._duration * 1e9) if self._duration else playback.length
+        end = min(end, playback.length)
         if self._loop and begin == end:
             raise NodeError(f"loop: the part of {self._path} to play has no length")
         return begin, end
 
-    def _cues(self, tape: Tape, begin: int, ticking: bool) -> Iterator[Cue]:
+    def _messages(self, playback: Playback, begin: int, ticking: bool) -> Iterator[TimedMessage]:
         if ticking:
-            yield from with_clock(tape, begin, self._end, self._clock_rate)
+            yield from with_clock(playback, begin, self._end, self._clock_rate)
         else:
-            yield from tape.cues(begin, self._end)
+            yield from playback.messages(begin, self._end)
         self._warn_of_damage()
 
     def _warn_of_damage(self) -> None:
-        remarks, warned = self._tape.remarks, self._warned
+        remarks, warned = self._playback.remarks, self._warned
         for remark in remarks[warned:]:
             self._listener.warn(remark)
         self._warned = len(remarks)

@@ -29,7 +29,7 @@ except ModuleNotFoundError:
 else:
     AVAILABLE = True
 
-_PATIENCE = 60.0  # [s] longest wait for the execution of a command
+_TIMEOUT = 60.0  # [s] longest wait for the execution of a command
 
 
 class TimeControl(Protocol):
@@ -136,7 +136,7 @@ class SimulationServices:
 
 
 def _wait(command: Future[float]) -> None:
-    command.result(timeout=_PATIENCE)
+    command.result(timeout=_TIMEOUT)
 
 
 def _refused(response: Any, code: int, reason: str) -> Any:

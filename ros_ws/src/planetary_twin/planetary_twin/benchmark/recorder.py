@@ -30,7 +30,7 @@ _BISECTIONS = 3  # of the interval that contains the highest rate
 _START = 60.0  # [s]
 _FLUSH_PERIOD = 0.5  # [s]
 _DRAIN = 0.3  # [s] beyond the flush period; a logger that needs longer has not kept up
-_PATIENCE = 30.0  # [s]
+_TIMEOUT = 30.0  # [s]
 _DEPTH = 1000
 _BARE_MEGABYTES = 100.0
 _HEADER = 8  # bytes of encapsulation and length
@@ -122,8 +122,8 @@ def run_trial(size: int, rate: float, duration: float, directory: Path) -> Trial
             before, begin = processor_time(logger.pid), time.monotonic()
             count = sender.send(Payload(size), rate, duration)
             ended = time.monotonic()
-            sender.wait(lambda: sender.accounted() >= count, _PATIENCE)
-            sender.wait(lambda: tail.messages >= sender.recorded(), _PATIENCE)
+            sender.wait(lambda: sender.accounted() >= count, _TIMEOUT)
+            sender.wait(lambda: tail.messages >= sender.recorded(), _TIMEOUT)
             cores = (processor_time(logger.pid) - before) / (time.monotonic() - begin)
         return Trial(
             count / (ended - begin),

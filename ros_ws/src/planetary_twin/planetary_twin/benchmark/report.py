@@ -35,7 +35,8 @@ def _plain(value: Any) -> Any:
 Row = tuple[str, ...]
 _TIMES: Row = ("publish rate", "what", "p50", "p99", "max")
 _COSTS: Row = (
-    "scene", "tolerance", "mesh cycles", "subscribers", "of a core", "real time x", "waveform",
+    "scene", "tolerance", "mesh cycles", "subscribers", "of a core", "real-time factor",
+    "waveform",
 )  # fmt: skip
 _MEMORY: Row = ("seconds", "start", "end", "slope", "standard error")
 

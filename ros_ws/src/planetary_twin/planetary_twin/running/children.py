@@ -16,7 +16,7 @@ from typing import Self
 from ..blas import use_one_thread
 
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
-_PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [s]
+_TIMEOUT = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [s]
 
 
 def _end_with_parent() -> None:
@@ -87,12 +87,12 @@ class Child:
 
     def stop(self) -> int:
         """End the process with SIGINT, then SIGTERM, then SIGKILL; returns its exit code."""
-        for number, patience in _PATIENCE.items():
+        for number, timeout in _TIMEOUT.items():
             if self._process.poll() is None:
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(self._process.pid, number)
                 with contextlib.suppress(subprocess.TimeoutExpired):
-                    self._process.wait(patience)
+                    self._process.wait(timeout)
         return self._process.returncode
 
     def output(self) -> str:

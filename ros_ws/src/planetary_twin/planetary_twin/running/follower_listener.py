@@ -15,7 +15,7 @@ from .children import RunError
 
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SETTLED = 0.5  # [s] without a new estimate after which no further one is expected
-_PATIENCE = 10.0  # [s] until the logger has counted the last estimate
+_TIMEOUT = 10.0  # [s] until the logger has counted the last estimate
 
 
 class FollowerListener(Client):
@@ -54,14 +54,14 @@ class FollowerListener(Client):
         request.transition.label = "deactivate"
         while True:
             self.watch()
-            answer = self.call(self._change, request, _PATIENCE)
+            answer = self.call(self._change, request, _TIMEOUT)
             state = self.call(self._get, GetState.Request())
             if state is not None and state.current_state.label == "inactive":
                 break
             if answer is not None and not answer.success:
                 raise RunError("follower: refuses to deactivate")
-        self.wait(lambda: time.monotonic() > self._arrived + _SETTLED, _PATIENCE)
-        self.wait(self._recorded, _PATIENCE)
+        self.wait(lambda: time.monotonic() > self._arrived + _SETTLED, _TIMEOUT)
+        self.wait(self._recorded, _TIMEOUT)
 
     def _recorded(self) -> bool:
         """Return whether the logger has counted the last estimate."""

@@ -75,5 +75,5 @@ def _line(state: GearboxState, real_time_factor: str) -> str:
     rpm = state.sun_speed * 30.0 / math.pi
     return (
         f"{rpm:6.0f} rpm  DTE {state.sun_planet_dte_mean[0] * 1e6:6.3f} um  "
-        f"loss {state.power_loss:6.2f} W  real time x {real_time_factor}"
+        f"loss {state.power_loss:6.2f} W  real-time factor {real_time_factor}"
     )

@@ -18,15 +18,15 @@ from .no_run import no_run_yet
 from .repeats import Repeats
 
 
-class Cue(NamedTuple):
-    """A serialised message; `time` [ns] is its log time after the tape's first message."""
+class TimedMessage(NamedTuple):
+    """A serialised message; `time` [ns] is its log time after the recording's first message."""
 
     time: int
     topic: str
     data: bytes
 
 
-class Tape:
+class Playback:
     """The messages of a recording, which may be truncated or damaged.
 
     Attributes:
@@ -72,7 +72,7 @@ class Tape:
         self.start = extent.start
         self.length = extent.end - extent.start
 
-    def cues(self, begin: int = 0, end: int | None = None) -> Iterator[Cue]:
+    def messages(self, begin: int = 0, end: int | None = None) -> Iterator[TimedMessage]:
         """Messages from `begin` to `end` [ns after the first message] in order of log time.
 
         The newest messages of latched topics before `begin`, which a late subscriber receives, are
@@ -81,13 +81,13 @@ class Tape:
         repeats = Repeats()
         for topic, message in self._latched(self.start + begin):
             if not repeats.known(topic, message):
-                yield Cue(begin, topic, message.data)
-        for cue in _in_order(self._read(begin, repeats)):
-            if end is not None and cue.time > end:
+                yield TimedMessage(begin, topic, message.data)
+        for timed in _in_order(self._read(begin, repeats)):
+            if end is not None and timed.time > end:
                 return
-            yield cue
+            yield timed
 
-    def _read(self, begin: int, repeats: Repeats) -> Iterator[Cue]:
+    def _read(self, begin: int, repeats: Repeats) -> Iterator[TimedMessage]:
         """Messages from `begin`, in file order, without those that `repeats` knows."""
         for segment in self._segments:
             if segment.contents.extent.end >= self.start + begin:
@@ -96,7 +96,7 @@ class Tape:
                         continue
                     if self.topics[topic].kept and repeats.known(topic, message):
                         continue
-                    yield Cue(message.log_time - self.start, topic, message.data)
+                    yield TimedMessage(message.log_time - self.start, topic, message.data)
 
     def _latched(self, before: int) -> list[tuple[str, Message]]:
         """Latched messages that are valid at a log time [ns], oldest first."""
@@ -149,13 +149,13 @@ class Tape:
             self.remarks.append(remark)
 
 
-def _in_order(cues: Iterable[Cue]) -> Iterator[Cue]:
+def _in_order(messages: Iterable[TimedMessage]) -> Iterator[TimedMessage]:
     """Sort messages by time, stably, with a buffer of one second."""
-    waiting: list[tuple[int, int, Cue]] = []
+    waiting: list[tuple[int, int, TimedMessage]] = []
     newest = 0
-    for number, cue in enumerate(cues):
-        heapq.heappush(waiting, (cue.time, number, cue))
-        newest = max(newest, cue.time)
+    for number, message in enumerate(messages):
+        heapq.heappush(waiting, (message.time, number, message))
+        newest = max(newest, message.time)
         while waiting[0][0] < newest - DISORDER:
             yield heapq.heappop(waiting)[2]
     while waiting:

@@ -1,4 +1,4 @@
-"""A tape gives the same messages from any instant, for every layout of its files."""
+"""A playback gives the same messages from any instant, for every layout of its files."""
 
 import struct
 
@@ -8,8 +8,8 @@ from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
 from planetary_twin_py.recording.ros2.metadata import Topic
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.renaming import moved
-from planetary_twin_py.recording.ros2.tape import Tape
 
 START = 1_790_000_000_000_000_000
 STEP = 10_000_000  # [ns] between two messages of a topic
@@ -47,18 +47,18 @@ def write(folder, steps, pace=1.0):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    return write(tmp_path_factory.mktemp("tape") / "bag", range(301))
+    return write(tmp_path_factory.mktemp("playback") / "bag", range(301))
 
 
 @pytest.fixture(params=["indexed", "truncated", "split", "split and truncated"])
-def tape(request, whole, tmp_path):
+def playback(request, whole, tmp_path):
     """The same messages in several layouts; a truncated one lacks those of the last chunk."""
     if request.param == "indexed":
-        return Tape(whole)
+        return Playback(whole)
     if request.param == "truncated":
         file = tmp_path / "truncated.mcap"
         file.write_bytes(whole.read_bytes()[:-2000])
-        return Tape(file)
+        return Playback(file)
     folder = tmp_path / "split"
     folder.mkdir()
     for n, steps in enumerate([range(100), range(100, 200), range(200, 301)]):
@@ -66,22 +66,26 @@ def tape(request, whole, tmp_path):
         data = file.read_bytes()
         truncated = n == 2 and "truncated" in request.param
         (folder / f"split_{9 + n}.mcap").write_bytes(data[:-2000] if truncated else data)
-    return Tape(folder)
+    return Playback(folder)
 
 
 @pytest.mark.parametrize("begin", [0, 1, 25, 26, 100, 251, 270])
-def test_it_starts_at_any_instant_with_the_messages_latched_there(tape, begin):
-    cues = list(tape.cues(begin * STEP, 275 * STEP))
-    latched = [cue for cue in cues if cue.time == begin * STEP and cue.data[:1] in b"mp"]
+def test_it_starts_at_any_instant_with_the_messages_latched_there(playback, begin):
+    messages = list(playback.messages(begin * STEP, 275 * STEP))
+    latched = [
+        message
+        for message in messages
+        if message.time == begin * STEP and message.data[:1] in b"mp"
+    ]
     newest = 25 * ((begin - 1) // 25)
     expected = [b"point %d" % newest] * (begin > 0) + [b"model"] * (begin > 0)
     if begin % 25 == 0:
         expected.append(b"point %d" % begin)
-    assert sorted(cue.data for cue in latched) == sorted(expected)
-    states = [cue for cue in cues if cue.topic == "/twin/state"]
-    assert [int(cue.data[12:]) for cue in states] == list(range(begin, 276))
-    assert [cue.time for cue in states] == [k * STEP for k in range(begin, 276)]
-    assert [cue.time for cue in cues] == sorted(cue.time for cue in cues)
+    assert sorted(message.data for message in latched) == sorted(expected)
+    states = [message for message in messages if message.topic == "/twin/state"]
+    assert [int(message.data[12:]) for message in states] == list(range(begin, 276))
+    assert [message.time for message in states] == [k * STEP for k in range(begin, 276)]
+    assert [message.time for message in messages] == sorted(message.time for message in messages)
 
 
 def test_only_the_damaged_chunk_is_missing(whole, tmp_path):
@@ -89,12 +93,14 @@ def test_only_the_damaged_chunk_is_missing(whole, tmp_path):
     data[len(data) // 3] ^= 1
     file = tmp_path / "damaged.mcap"
     file.write_bytes(data)
-    tape = Tape(file)
-    received = {int(cue.data[12:]) for cue in tape.cues() if cue.topic == "/twin/state"}
+    playback = Playback(file)
+    received = {
+        int(message.data[12:]) for message in playback.messages() if message.topic == "/twin/state"
+    }
     missing = sorted(set(range(301)) - received)
     assert missing == list(range(missing[0], missing[0] + 10))
     remark = f"damaged from {missing[0] * 0.01:.3f} to {missing[-1] * 0.01:.3f} s"
-    assert len(tape.remarks) == 1 and remark in tape.remarks[0]
+    assert len(playback.remarks) == 1 and remark in playback.remarks[0]
 
 
 def test_a_damaged_index_is_ignored(whole, tmp_path):
@@ -102,30 +108,36 @@ def test_a_damaged_index_is_ignored(whole, tmp_path):
     data[-700] ^= 1
     file = tmp_path / "damaged.mcap"
     file.write_bytes(data)
-    tape = Tape(file)
-    assert [cue.data for cue in tape.cues(STEP)] == [cue.data for cue in Tape(whole).cues(STEP)]
-    assert "its summary is damaged" in tape.remarks[0]
+    playback = Playback(file)
+    assert [message.data for message in playback.messages(STEP)] == [
+        message.data for message in Playback(whole).messages(STEP)
+    ]
+    assert "its summary is damaged" in playback.remarks[0]
 
 
 def test_topics_can_be_selected(whole):
-    tape = Tape(whole, ["/twin/point"])
-    assert {cue.topic for cue in tape.cues()} == set(tape.topics) == {"/twin/point"}
-    assert tape.length == 300 * STEP
+    playback = Playback(whole, ["/twin/point"])
+    assert (
+        {message.topic for message in playback.messages()}
+        == set(playback.topics)
+        == {"/twin/point"}
+    )
+    assert playback.length == 300 * STEP
     with pytest.raises(RecordingError, match=r"topics: /odd: .* has /diagnostics, /twin/model"):
-        Tape(whole, ["/odd"])
+        Playback(whole, ["/odd"])
 
 
 @pytest.mark.parametrize("pace", [0.5, 1.0, 3.0])
 def test_the_clock_has_the_stamps_of_the_messages(tmp_path, pace):
-    tape = Tape(write(tmp_path / "bag", range(301), pace))
+    playback = Playback(write(tmp_path / "bag", range(301), pace))
     times, newest, off = [], 0, []
-    for cue in with_clock(tape, 0, tape.length, 200.0):
-        if cue.topic == CLOCK.name:
-            seconds, nanoseconds = struct.unpack("<4xiI", cue.data)
+    for message in with_clock(playback, 0, playback.length, 200.0):
+        if message.topic == CLOCK.name:
+            seconds, nanoseconds = struct.unpack("<4xiI", message.data)
             times.append(seconds * 10**9 + nanoseconds)
             off.append(times[-1] - newest)
-        elif cue.topic == "/twin/state":
-            seconds, nanoseconds = struct.unpack_from("<4xiI", cue.data)
+        elif message.topic == "/twin/state":
+            seconds, nanoseconds = struct.unpack_from("<4xiI", message.data)
             newest = seconds * 10**9 + nanoseconds
     assert times == sorted(times)
     assert len(times) == 601
@@ -133,10 +145,10 @@ def test_the_clock_has_the_stamps_of_the_messages(tmp_path, pace):
 
 
 def test_without_stamps_the_clock_has_the_time_of_the_recorder(whole):
-    cues = list(with_clock(Tape(whole, ["/twin/point"]), STEP, 2 * STEP, 1000.0))
-    ticks = [cue for cue in cues if cue.topic == CLOCK.name]
-    assert [cue.time for cue in ticks] == [STEP + k * 1_000_000 for k in range(11)]
-    assert all(cue.data == stamped(START + cue.time) for cue in ticks)
+    messages = list(with_clock(Playback(whole, ["/twin/point"]), STEP, 2 * STEP, 1000.0))
+    ticks = [message for message in messages if message.topic == CLOCK.name]
+    assert [message.time for message in ticks] == [STEP + k * 1_000_000 for k in range(11)]
+    assert all(message.data == stamped(START + message.time) for message in ticks)
 
 
 def test_topics_move_below_another_namespace():
