@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ._core import AXES, REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
+import numpy as np
+
+from ._core import REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
 from .commands import NOTHING, Command, port_ranges
 from .dynamics.speed_loop import SpeedLoopCheck
 from .dynamics.start import LoadBuilder, begin_given
@@ -13,6 +15,22 @@ from .engine import Engine
 from .integrators.clock import NEVER, TICKS, instant, instant_of_ticks, sampling
 from .integrators.interpolant import new_samples
 from .scene import OperatingPoint, Scene
+
+
+def kept_trim(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Factors of the trims of the speed loops after a change of ports.
+
+    Args:
+        before: torque of each machine per trim before the change [N m/rad], (MACHINES, AXES).
+        after: the same after it.
+
+    Returns:
+        For each speed that the same machine controls before and after the change, the factor by
+        which its torque does not jump; 0 for others, (AXES,).
+    """
+    same = ((before != 0.0) == (after != 0.0)).all(axis=0)
+    old, new = before.sum(axis=0), after.sum(axis=0)  # at most one machine controls each speed
+    return np.asarray(np.divide(old, new, out=np.zeros_like(old), where=same & (new != 0.0)))
 
 
 class DrivenEngine(Engine):
@@ -37,7 +55,8 @@ class DrivenEngine(Engine):
         """Continue with the ports of `scene` from `time` [s], the end of the last window.
 
         Newly given torques and motions start at their present values. A machine that starts to
-        control the speed begins with the present speed as set-point.
+        control the speed begins with the present speed as set-point; one that goes on controlling a
+        speed keeps its set-point and its trim.
 
         Args:
             scene: scene of the run, with other ports.
@@ -61,11 +80,14 @@ class DrivenEngine(Engine):
         self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
         self._given = False
         self._cycles.clear()
+        gain = self.model.load.trim_gain.copy()
         self._load(point)
         if scene.drive.ports.given:
             begin_given(self.model.load, instant(time), shown)
-        self._end.trim = [0.0] * AXES
-        self._end.set_speed[0] = shown.input_speed
+        share = kept_trim(gain, self.model.load.trim_gain)
+        self._end.trim = share * self._end.trim
+        if share[0] == 0.0:
+            self._end.set_speed[0] = shown.input_speed
 
     def port_states(self, ticks: int) -> PortStates:
         """State of the ports at the end of the last window.
