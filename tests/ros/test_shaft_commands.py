@@ -179,7 +179,7 @@ def received(
         command_silence=silence,
         continuous_joints=continuous,
     )
-    commands = ShaftCommands(given, now)
+    commands = ShaftCommands(given, now, take=lambda: ())
     for message in messages:
         commands.receive(message)
     return commands
@@ -226,6 +226,14 @@ def test_late_commands_have_no_effect() -> None:
     )
     assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
     assert commands.ignored == {"late": 1}
+
+
+def test_a_command_that_waited_to_be_taken_is_not_late() -> None:
+    """A paused twin takes commands a few times a second only."""
+    now = 10**18
+    commands = received(timeout=1.0, now=lambda: now)
+    commands.receive(command((1.0, 2.0), now - 3_000_000_000), waited=2_500_000_000)
+    assert torques(commands) == {"input_torque": 1.0, "output_torque": 2.0}
 
 
 def test_a_command_far_ahead_of_the_clock_does_not_lock_out_later_ones() -> None:

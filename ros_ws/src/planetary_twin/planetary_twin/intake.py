@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import time
 from typing import Any
 
-from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.subscription import Subscription
 
 from planetary_twin_py.following.measured_messages import (
     ENCODERS,
@@ -18,6 +15,7 @@ from planetary_twin_py.following.measured_messages import (
     Arrived,
 )
 
+from .polling import PolledSubscription
 from .topics import matching_qos, message_class
 
 MEASURED = {
@@ -31,20 +29,12 @@ MEASURED = {
 _ANY = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
-class _Polled(CallbackGroup):  # type: ignore[misc]
-    """Excludes subscriptions from the executor: `Intake.take` polls them."""
-
-    def can_execute(self, entity: object) -> bool:
-        """Return False: the executor would take longer than the processing of a message."""
-        return False
-
-
 class _Inlet:
     """One topic: its subscription, whose reliability is that of all of its publishers."""
 
-    def __init__(self, node: Node, topic: str, kind: str, group: CallbackGroup) -> None:
+    def __init__(self, node: Node, topic: str, kind: str) -> None:
         self.name, self.kind = node.resolve_topic_name(topic), kind
-        self._node, self._class, self._group = node, message_class(kind), group
+        self._node, self._class = node, message_class(kind)
         self._subscription = self._subscribed(_ANY)
         self.publishers = 0
         self._matched = 0  # publishers whose offers are known
@@ -59,36 +49,26 @@ class _Inlet:
         if not publishers:
             return []
         offered = matching_qos(publishers).reliability
-        if offered == self._subscription.qos_profile.reliability:
+        if offered == self._subscription.reliability:
             return []
         before = self._subscription
         self._subscription = self._subscribed(
             QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=offered)
         )
-        waited = self._taken(before)
-        self._node.destroy_subscription(before)
+        waited = before.take()
+        before.close()
         return waited
 
     def take(self) -> list[tuple[int, Any]]:
         """Return time of arrival [ns] and contents of the queued messages."""
-        return self._taken(self._subscription)
+        return self._subscription.take()
 
     def close(self) -> None:
         """Destroy the subscription."""
-        self._node.destroy_subscription(self._subscription)
+        self._subscription.close()
 
-    def _subscribed(self, qos: QoSProfile) -> Subscription:
-        return self._node.create_subscription(
-            self._class, self.name, _unused, qos, callback_group=self._group
-        )
-
-    def _taken(self, subscription: Subscription) -> list[tuple[int, Any]]:
-        found = []
-        with subscription.handle:
-            while taken := subscription.handle.take_message(self._class, False):
-                message, info = taken
-                found.append((info["received_timestamp"] or time.time_ns(), message))
-        return found
+    def _subscribed(self, qos: QoSProfile) -> PolledSubscription:
+        return PolledSubscription(self._node, self._class, self.name, qos)
 
 
 class Intake:
@@ -100,13 +80,12 @@ class Intake:
     """
 
     def __init__(self, node: Node) -> None:
-        group = _Polled()
         self._inlets = []
         self.missing: list[str] = []
         """Types that are not installed."""
         for topic, kind in MEASURED.items():
             try:
-                self._inlets.append(_Inlet(node, topic, kind, group))
+                self._inlets.append(_Inlet(node, topic, kind))
             except ImportError:
                 self.missing.append(kind)
         self._waited: list[tuple[int, _Inlet, Any]] = []
@@ -143,7 +122,3 @@ class Intake:
         """Destroy the subscriptions."""
         for inlet in self._inlets:
             inlet.close()
-
-
-def _unused(message: object) -> None:
-    """Do nothing: `create_subscription` requires a callback, which is never called."""

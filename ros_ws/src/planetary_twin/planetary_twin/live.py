@@ -117,6 +117,8 @@ class LiveTwin:
             while not self._stop.is_set():
                 answers = self._commands.execute(self._patience())
                 was_halted, self._halted = self._halted, self._must_halt()
+                if self._halted:
+                    self._port_commands.collect()
                 if was_halted and not self._halted:
                     self._resume()
                     self._pace.start()

@@ -68,6 +68,9 @@ class Progress(NamedTuple):
 class PortCommands(Protocol):
     """Commands at the ports of a twin, called in its thread."""
 
+    def collect(self) -> None:
+        """Take the commands that have arrived, also while the twin halts."""
+
     def given(self, twin: Twin, interval: float) -> dict[str, float]:
         """
         Return the commands for the next `interval` [s], as arguments of `Twin.advance`.

@@ -6,7 +6,7 @@ import math
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Protocol
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -24,8 +24,9 @@ SILENCE = ("hold", "zero", "brake")
 _QUANTITIES = {"machine": (), "torque": ("torque",), "motion": ("speed", "position")}  # by port
 _TURN = 2.0 * math.pi
 _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
-# Subscribers of this reliability match publishers of both.
-_QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
+"""QoS of ~/command: it matches reliable and best-effort publishers, and holds what several fast
+clients send within an interval."""
 
 
 class Given(Protocol):
@@ -57,36 +58,46 @@ def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
 
 class ShaftCommands:
     """
-    Receives commands and passes the newest one of each joint to the thread of the twin.
+    Takes commands in the thread of the twin and passes on the newest one of each joint.
 
     Joints are independent of one another, so each can have its own client. A stamped command has
     no effect if it is not newer than the last one of its joint, older than the timeout, or more
     than a second ahead. A command without a stamp acts in the order of arrival. `now` returns the
-    ROS time of the stamps [ns].
+    ROS time of the stamps [ns]. `take` returns the messages that have arrived since its last call,
+    with their times of arrival by the system clock [ns].
     """
 
-    def __init__(self, given: Given, now: Callable[[], int]) -> None:
+    def __init__(
+        self,
+        given: Given,
+        now: Callable[[], int],
+        take: Callable[[], Iterable[tuple[int, JointState]]],
+    ) -> None:
         self.joints = joint_names(given.scene)
         self.ignored = Counter[str]()
         """Messages without effect, by reason."""
         self._timeout, self._silence = given.command_timeout, given.command_silence
         self._continuous = given.continuous_joints
-        self._now = now
+        self._now, self._take = now, take
         self._lock = threading.Lock()
         self._values: dict[str, dict[str, float]] = {}  # by side
         self._newest = dict.fromkeys(SIDES, 0)  # [ns] stamps of the last commands
         self._received: dict[str, float] = {}  # [s] steady clock, of the last commands
         self._brake = _Brake()
 
-    @property
-    def qos(self) -> QoSProfile:
-        """Return the quality of service of the subscription."""
-        return _QOS
+    def collect(self) -> None:
+        """Take the commands that have arrived."""
+        for arrival, message in self._take():
+            self.receive(message, time.time_ns() - arrival)
 
-    def receive(self, message: JointState) -> None:
-        """Take a command, unless it is late, ahead, repeated or out of order."""
+    def receive(self, message: JointState, waited: int = 0) -> None:
+        """
+        Take a command, unless it is late, ahead, repeated or out of order.
+
+        `waited` is the time since its arrival [ns].
+        """
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
-        values, now = values_of(message, self.joints), self._now() if stamp else 0
+        values, now = values_of(message, self.joints), self._now() - waited if stamp else 0
         reasons = set[str]()
         if not values:
             reasons.add(f"no effort, velocity or position of {' or '.join(self.joints)}")
@@ -145,6 +156,7 @@ class ShaftCommands:
         `interval` [s] is that of a running twin. It is 0 for a step of a paused twin, in which
         commands cannot be missing.
         """
+        self.collect()
         with self._lock:
             received, self._values = self._values, {}
             self._watch(self._brake.ports(twin))

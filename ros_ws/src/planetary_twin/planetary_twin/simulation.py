@@ -12,7 +12,6 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes
-from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
@@ -31,8 +30,9 @@ from .live import LiveTwin
 from .live_interface import Progress
 from .managed import ManagedNode, NodeError, run_node
 from .operating_point_control import OperatingPointControl
+from .polling import PolledSubscription
 from .real_time import KEEPS_UP, RealTimeReport
-from .shaft_commands import ShaftCommands
+from .shaft_commands import QOS, ShaftCommands
 from .simulation_parameters import SimulationParameters
 from .simulation_services import SimulationServices
 from .stamps import STEADY
@@ -64,7 +64,7 @@ class Simulation(ManagedNode):
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._wait: SubscriptionWait | None = None
         self._commands: ShaftCommands | None = None
-        self._subscription: Subscription | None = None
+        self._inlet: PolledSubscription | None = None
         self._point = OperatingPointControl(self, self)
         self._backlog: Backlog | None = None
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
@@ -78,10 +78,8 @@ class Simulation(ManagedNode):
         self._given.read()
         self._pick_dynamics()
         self._telemetry = Telemetry(self, self._given, self._before)
-        self._commands = ShaftCommands(self._given, self._time_of_stamps)
-        self._subscription = self.create_subscription(
-            JointState, "~/command", self._commands.receive, self._commands.qos
-        )
+        self._inlet = PolledSubscription(self, JointState, "~/command", QOS)
+        self._commands = ShaftCommands(self._given, self._time_of_stamps, self._inlet.take)
         self._wait = SubscriptionWait(self, self._given.wait_for)
         # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * self._given.rate)
@@ -124,9 +122,9 @@ class Simulation(ManagedNode):
         if live is not None:
             live.stop()
         self._twin = self._report = self._wait = None
-        if self._subscription is not None:
-            self.destroy_subscription(self._subscription)
-            self._subscription = None
+        if self._inlet is not None:
+            self._inlet.close()
+            self._inlet = None
         if self._backlog is not None:
             self._backlog.close()
             self._backlog = None
