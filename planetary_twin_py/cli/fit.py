@@ -21,6 +21,7 @@ from ._fitted import Part
 if TYPE_CHECKING:
     from ..studies.fit.identify import Search
 
+OBSERVED = "dte_rms,power_loss"
 
 _Free = Annotated[
     str,
@@ -33,7 +34,12 @@ _Free = Annotated[
 _From = Annotated[float | None, typer.Option("--from", help="Start in simulated time.", **SECONDS)]
 _To = Annotated[float | None, typer.Option(help="End in simulated time.", **SECONDS)]
 _Observe = Annotated[
-    str, typer.Option(metavar="NAMES", help="Measured quantities, separated by commas.")
+    str | None,
+    typer.Option(
+        metavar="NAMES",
+        help="Measured quantities of a recording, separated by commas.",
+        show_default=OBSERVED,
+    ),
 ]
 _Noise = Annotated[
     list[str] | None,
@@ -67,7 +73,7 @@ def fit(  # noqa: PLR0913 - an argument for each option
     free: _Free,
     from_: _From = None,
     to: _To = None,
-    observe: _Observe = "dte_rms,power_loss",
+    observe: _Observe = None,
     noise: _Noise = None,
     hold_out: _HoldOut = None,
     scene: _Scene = None,
@@ -97,9 +103,11 @@ def fit(  # noqa: PLR0913 - an argument for each option
     try:
         given, part = free_fields(free), Part(from_, to, held_out_span(hold_out))
         if manoeuvre:
+            _refuse(f"{file} is a manoeuvre", {"--observe": observe, "--noise": noise})
             found = fit_manoeuvre(console, file, scene, given, part)
         else:
-            search = _search(given, observe, noise or [])
+            _refuse(f"{file} is a recording", {"--scene": scene})
+            search = _search(given, observe or OBSERVED, noise or [])
             found = fit_points(console, file, namespace, search, part)
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
@@ -109,6 +117,13 @@ def fit(  # noqa: PLR0913 - an argument for each option
 
         with writing("--report", report):
             write_report(report, found.report())
+
+
+def _refuse(why: str, options: Mapping[str, object]) -> None:
+    """Refuse options that have no effect."""
+    for name, value in options.items():
+        if value:
+            raise ValueError(f"{name}: has no effect, because {why}")
 
 
 def _search(given: Mapping[str, str], observe: str, noise: Sequence[str]) -> Search:
