@@ -34,7 +34,7 @@ drive: {output: {port: torque}}
 NAMESPACE = "/commanded_live"
 JOINT = "ring_joint"  # of the load; the motor holds its speed
 # Torques of the load [N m], by which states name the command that acts.
-LEAST, STEP, DIFFERENT = 145.0, 1e-4, 40_000
+LEAST, STEP = 145.0, 1e-6
 SETTLING = 5.0  # [s] after which a twin has settled its tolerance
 
 
@@ -45,6 +45,7 @@ class Loop(Client):
         super().__init__("loop", NAMESPACE)
         # Times of arrival and of publication [ns], torque [N m].
         self.arrived: list[tuple[int, int, float]] = []
+        self.sent: list[int] = []  # times of all commands [ns]
         self.figures: dict[str, str] = {}
         self.publisher = self.node.create_publisher(JointState, "simulation/command", 10)
         self.node.create_subscription(JointState, "joint_states", self._on_joints, 10_000)
@@ -57,28 +58,24 @@ class Loop(Client):
     def _on_report(self, message: DiagnosticArray) -> None:
         self.figures.update(real_time_figures(message, NAMESPACE))
 
-    def drive(self, seconds: float, rate: float) -> list[int]:
-        """Send a new torque at `rate` [Hz]; returns when [ns] each was sent."""
-        message, sent = JointState(name=[JOINT], effort=[0.0]), list[int]()
+    def drive(self, seconds: float, rate: float) -> None:
+        """Send a new torque at `rate` [Hz], and note in `sent` when [ns]."""
+        message = JointState(name=[JOINT], effort=[0.0])
         begin = time.monotonic()
         for number in range(round(seconds * rate)):
-            message.effort[0] = LEAST + STEP * (number % DIFFERENT)
+            message.effort[0] = LEAST + STEP * len(self.sent)
             stamp = message.header.stamp
             stamp.sec, stamp.nanosec = divmod(time.time_ns(), 10**9)
-            sent.append(time.monotonic_ns())
+            self.sent.append(time.monotonic_ns())
             self.publisher.publish(message)
             time.sleep(max(begin + (number + 1) / rate - time.monotonic(), 0.0))
-        return sent
 
 
 def _latencies(sent: np.ndarray, came: np.ndarray, torques: np.ndarray) -> np.ndarray:
     """Latency [s] of each command that acted, from times [ns] and the torques of the states."""
-    number = np.rint((torques - LEAST) / STEP).astype(int)
-    newest = np.searchsorted(sent, came) - 1
-    number += DIFFERENT * ((newest - number) // DIFFERENT)  # the last one with this torque
-    acted, first = np.unique(number, return_index=True)
+    acted, first = np.unique(np.rint((torques - LEAST) / STEP).astype(int), return_index=True)
     known = (acted >= 0) & (acted < len(sent))
-    return 1e-9 * (came[first[known]] - sent[acted[known]])
+    return np.asarray(1e-9 * (came[first[known]] - sent[acted[known]]))
 
 
 def _line(name: str, seconds: Quantiles) -> str:
@@ -101,16 +98,16 @@ def main() -> None:
             loop.arrived.clear()
             before, own = processor_time(simulation.pid), resource.getrusage(resource.RUSAGE_SELF)
             begin = time.monotonic()
-            sent = loop.drive(seconds, rate)
+            loop.drive(seconds, rate)
             passed = time.monotonic() - begin
             share = (processor_time(simulation.pid) - before) / passed
             after = resource.getrusage(resource.RUSAGE_SELF)
             arrived = list(loop.arrived)
             time.sleep(1.5)  # for a last report
     came, published, torques = (np.array(column) for column in zip(*arrived, strict=True))
-    latency, period = _latencies(np.array(sent), came, torques), 1.0 / rate
+    latency, period = _latencies(np.array(loop.sent), came, torques), 1.0 / rate
     client = after.ru_utime + after.ru_stime - own.ru_utime - own.ru_stime
-    print(f"{passed:.1f} s at {rate:g} Hz, {len(sent)} commands, {len(arrived)} states")
+    print(f"{passed:.1f} s at {rate:g} Hz, {round(seconds * rate)} commands, {len(arrived)} states")
     print(_line("command to state", Quantiles.of(latency)) + f", {len(latency)} commands acted")
     print(_line("jitter of publication", Quantiles.of(np.abs(1e-9 * np.diff(published) - period))))
     print(_line("jitter of arrival", Quantiles.of(np.abs(1e-9 * np.diff(came) - period))))
