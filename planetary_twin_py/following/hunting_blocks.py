@@ -34,7 +34,7 @@ KEPT = 0.9  # weight of the earlier common waveform in the next one
 CHANGED = 0.1  # relative change of that waveform above which it is learned again
 SLIP = 0.5  # tooth pitches by which the error may jump across a gap
 DELAY = 0.2  # [s] by which packets may be out of order
-BATCH = 0.05  # [s] of samples that are processed at once; affects the cost only
+BATCH = 0.1  # [s] of samples that are processed at once; affects the cost only
 MOST = 16  # samples in a bin, on average, above which a block is thinned
 
 

@@ -23,7 +23,8 @@ from planetary_twin_py.following.measured_messages import (
 
 from .follower_parameters import FollowerOptions
 
-_TICK = 0.04  # [s] between two polls for messages
+_SHORTEST, _LONGEST = 0.02, 0.1  # [s] between two polls for messages
+_TRANSIT = 0.01  # [s] by which the reading that closes a bin may be later than expected
 _DISCOVERY = 0.2  # [s] between two polls for publishers
 _JUMP = 1.0  # [s] smallest step of stamps back in time that is a jump
 _JUMPED = 5  # successive messages that confirm a jump
@@ -180,6 +181,7 @@ class LiveFollower:
         self._portions = Portions(self._options.period)
         self._newest = -math.inf  # stamp of the newest estimate, reported or not [s]
         self._due = -math.inf  # stamp of the next one to report [s]
+        self._closed = -math.inf  # arrival of the reading that closed the last bin [s]
         self._jumps = JumpWatch()
         self._refusal = ""
         self._stale = True  # there is no estimate yet
@@ -192,7 +194,7 @@ class LiveFollower:
 
     def _follow(self) -> None:
         looked = -math.inf
-        while not self._stop.wait(_TICK):
+        while not self._stop.wait(self._idle_time()):
             if time.monotonic() > looked + _DISCOVERY:
                 looked = time.monotonic()
                 self._source.follow_publishers()
@@ -207,6 +209,16 @@ class LiveFollower:
         if not self._refusal:
             self._checked(self._follower.finish)
             self._report(self._follower.estimate())
+
+    def _idle_time(self) -> float:
+        """
+        Return the time until the next poll [s].
+
+        Polls cost more than the readings that they find, so there is one for each bin, when the
+        reading that closes it is expected.
+        """
+        expected = self._closed + self._options.period + _TRANSIT
+        return min(max(expected - time.time(), _SHORTEST), _LONGEST)
 
     def _use(self, arrived: Sequence[Arrived]) -> None:
         """Process the messages, and report a new estimate."""
@@ -237,7 +249,7 @@ class LiveFollower:
             for portion in self._portions.divide(arrived):
                 for block in self._reader.read(portion):
                     self._follower.add(block)
-                self._report_what_is_new()
+                self._report_what_is_new(portion[0].time)
 
         self._checked(process)
 
@@ -249,12 +261,16 @@ class LiveFollower:
             self._refusal = str(fault)
             self._listener.refused(self._refusal)
 
-    def _report_what_is_new(self) -> None:
-        """Report an estimate whenever the stamps have advanced by the publishing period."""
+    def _report_what_is_new(self, arrival: float) -> None:
+        """
+        Report an estimate whenever the stamps have advanced by the publishing period.
+
+        `arrival` is that of the reading that may have closed a bin [s].
+        """
         now = self._follower.time
         if not now > self._newest:
             return
-        self._newest = now
+        self._newest, self._closed = now, arrival
         self._advanced, self._stale = time.monotonic(), False
         if now >= self._due:
             self._due = now + 1.0 / self._options.publish_rate - 0.5 * self._options.period
