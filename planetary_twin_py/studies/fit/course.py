@@ -63,17 +63,19 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     columns["oil_temperature"] = np.where(np.isfinite(oil), oil, train.oil_temperature)
     names = ("input_torque", "output_torque", "input_speed", "oil_temperature")
     values = np.stack([columns[name] for name in names])
-    good = np.isfinite(values).all(axis=0) & np.isfinite(time)
-    first = float(time[good].min()) if good.any() else 0.0
-    filled, place = np.unique(np.floor((time[good] - first) / period), return_inverse=True)
-    if len(filled) < FEWEST:
+    complete = np.isfinite(values).all(axis=0) & np.isfinite(time)
+    first = float(time[complete].min()) if complete.any() else 0.0
+    bin_numbers, bin_index = np.unique(
+        np.floor((time[complete] - first) / period), return_inverse=True
+    )
+    if len(bin_numbers) < FEWEST:
         raise ValueError(
-            f"{path}: {len(filled)} bins of {period:g} s with all channels, must be at least "
+            f"{path}: {len(bin_numbers)} bins of {period:g} s with all channels, must be at least "
             f"{FEWEST}"
         )
-    count = np.bincount(place)
-    means = np.stack([np.bincount(place, row) / count for row in values[:, good]])
-    middles = np.asarray(first + (filled + 0.5) * period, dtype=float)
+    count = np.bincount(bin_index)
+    means = np.stack([np.bincount(bin_index, row) / count for row in values[:, complete]])
+    middles = np.asarray(first + (bin_numbers + 0.5) * period, dtype=float)
     acceleration = np.gradient(means[2], middles)
     slope = np.asarray(acceleration, dtype=float)
     return Course(middles, means[0], means[1], means[2], slope, means[3])

@@ -114,7 +114,7 @@ def read_excerpt(
         run, intervals = longest_steady_part(runs)
         within = [i for i in intervals if i.end <= intervals[0].begin + LONGEST * TICKS]
         intervals = intervals[: max(FEWEST, len(within))]
-        remarks.extend(_left_out(run, intervals))
+        remarks.extend(_omitted_points(run, intervals))
     else:
         run = max(runs, key=lambda run: length(run.intervals))
         intervals = between(run, begin or 0.0, math.inf if end is None else end)
@@ -150,7 +150,7 @@ def read_excerpt(
     )
 
 
-def _left_out(run: RecordedRun, intervals: list[Interval]) -> Iterator[str]:
+def _omitted_points(run: RecordedRun, intervals: list[Interval]) -> Iterator[str]:
     """Warning if the longest steady part does not contain all operating points of a run."""
     last = run.intervals[-1].end / TICKS
     points = sum(change.time < last for change in run.changes)
@@ -196,19 +196,21 @@ def _since_start_angles(scene: Scene, state: Any) -> float:
     Every run starts at the same angles, so a run started at that time has the recorded phases. The
     result is 0 if the angles were not measured.
     """
-    first = Twin(scene).advance(1.0 / TICKS)
-    at = {body: first.angle[k] for k, body in enumerate(first.bodies)}
+    first_window = Twin(scene).advance(1.0 / TICKS)
+    start_angle = {body: first_window.angle[k] for k, body in enumerate(first_window.bodies)}
     member = scene.drive.input.member
-    turned = (getattr(state, f"{member}_angle") - at[member]) / (2.0 * math.pi)
+    turned = (getattr(state, f"{member}_angle") - start_angle[member]) / (2.0 * math.pi)
     speed = getattr(state, f"{member}_speed") / (2.0 * math.pi)
-    meshed = state.sun_angle - at["sun"] - state.carrier_angle + at["carrier"]
+    relative_angle = (
+        state.sun_angle - start_angle["sun"] - state.carrier_angle + start_angle["carrier"]
+    )
     rate = state.sun_speed - state.carrier_speed
-    if not np.isfinite([turned, speed, meshed, rate, state.mesh_frequency]).all():
+    if not np.isfinite([turned, speed, relative_angle, rate, state.mesh_frequency]).all():
         return 0.0  # not measured
     if speed == 0.0 or state.mesh_frequency == 0.0:
         return 0.0
     since = (turned * math.copysign(1.0, speed)) % 1.0 / abs(speed)
-    cycles = scene.gearset.teeth.sun * (meshed - rate * since) / (2.0 * math.pi)
+    cycles = scene.gearset.teeth.sun * (relative_angle - rate * since) / (2.0 * math.pi)
     return since + (cycles - round(cycles)) * math.copysign(1.0, rate) / float(state.mesh_frequency)
 
 

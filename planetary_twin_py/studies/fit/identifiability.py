@@ -50,11 +50,13 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
     """
     size = magnitudes(minimum, parameters)
     _, strength, directions = np.linalg.svd(minimum.slopes * size, full_matrices=False)
-    seen = strength > quantile
-    known = directions[seen] / strength[seen, None]
+    identifiable = strength > quantile
+    known = directions[identifiable] / strength[identifiable, None]
     covariance = (known.T @ known) * np.outer(size, size)
-    lost = tuple(tuple(np.flatnonzero(np.abs(v) > PART).tolist()) for v in directions[~seen])
-    return LinearAnalysis(covariance, lost)
+    groups = tuple(
+        tuple(np.flatnonzero(np.abs(v) > PART).tolist()) for v in directions[~identifiable]
+    )
+    return LinearAnalysis(covariance, groups)
 
 
 def magnitudes(minimum: Minimum, parameters: Sequence[Parameter]) -> Array:
@@ -94,8 +96,11 @@ def insensitive_range(
         for point, value in zip(points, tried, strict=True):
             point[place] = value
         end = centre
-        for value, there in zip(tried, residuals(points), strict=True):
-            if there is None or float(there @ there) - minimum.sum > rise:
+        for value, trial_residuals in zip(tried, residuals(points), strict=True):
+            if (
+                trial_residuals is None
+                or float(trial_residuals @ trial_residuals) - minimum.sum > rise
+            ):
                 break
             end = value
         ends.append(end)
