@@ -99,8 +99,8 @@ def fields(table: pa.Table) -> list[str]:
     Args:
         table: of a study.
     """
-    own = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
-    return [name for name in table.column_names if name not in own]
+    other_columns = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
+    return [name for name in table.column_names if name not in other_columns]
 
 
 def failures(table: pa.Table) -> int:
@@ -196,9 +196,9 @@ def _draw(choice: Choice) -> Figure:
 def _share_limits(panes: list[Axes], count: int) -> None:
     """Give every group of `count` panels, which show one measure, the same limits."""
     for first in range(0, len(panes), count):
-        own = panes[first : first + count]
-        lows, highs = zip(*(axes.get_ylim() for axes in own), strict=True)
-        for axes in own:
+        group = panes[first : first + count]
+        lows, highs = zip(*(axes.get_ylim() for axes in group), strict=True)
+        for axes in group:
             axes.set_ylim(min(lows), max(highs))
 
 
@@ -211,13 +211,13 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
             "choose another field with by, or a map"
         )
     for n, value in enumerate(groups):
-        own = rows if by is None else rows & (by.values == value)
-        order = np.argsort(x.values[own], kind="stable") if x.is_number else slice(None)
+        selected = rows if by is None else rows & (by.values == value)
+        order = np.argsort(x.values[selected], kind="stable") if x.is_number else slice(None)
         colour = CYCLE[n] if len(groups) <= len(CYCLE) else _shade(n, len(groups))
-        hollow = own & choice.clipped
+        hollow = selected & choice.clipped
         axes.plot(
-            x.values[own][order],
-            measure.values[own][order],
+            x.values[selected][order],
+            measure.values[selected][order],
             "o-" if x.is_number else "o",
             color=colour,
             label="" if by is None else by.text(value).removesuffix(f" {by.quantity.unit}"),

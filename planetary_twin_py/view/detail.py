@@ -40,13 +40,13 @@ def detailed_spans(recording: Recording) -> list[TimeSpan]:
     changes = np.unique(np.append(begin, recording.operating_point.time))
     changes = changes[: math.floor(room / _SHORTEST)]
     length = room / len(changes)
-    found: list[TimeSpan] = []
+    spans: list[TimeSpan] = []
     for instant in changes:
         first, last = max(instant - _BEFORE * length, begin), min(instant + length, end)
-        if found and first <= found[-1][1]:
-            first, _ = found.pop()
-        found.append((first, last))
-    return found
+        if spans and first <= spans[-1][1]:
+            first, _ = spans.pop()
+        spans.append((first, last))
+    return spans
 
 
 def overview(recording: Recording, detail: list[TimeSpan]) -> Recording:

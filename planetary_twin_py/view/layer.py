@@ -75,8 +75,8 @@ class Layer:
 
     def shade(self, colour: Colour) -> Colour:
         """A colour as drawn in this layer."""
-        kept = _FADE**self.order
-        red, green, blue = (round(255 - kept * (255 - channel)) for channel in colour)
+        strength = _FADE**self.order
+        red, green, blue = (round(255 - strength * (255 - channel)) for channel in colour)
         return red, green, blue
 
     def _place(self, path: str) -> str:

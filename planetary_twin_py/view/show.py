@@ -206,9 +206,9 @@ def _log_difference(
     layer: Layer, first: Recording, other: Recording, detail: list[TimeSpan]
 ) -> list[str]:
     try:
-        less = difference(first, other)
+        differences = difference(first, other)
     except RecordingError as reason:
         return [str(reason)]
     # Its warning about omitted samples repeats that of the recording.
-    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), less, detail)
+    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), differences, detail)
     return []
