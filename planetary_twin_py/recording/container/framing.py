@@ -174,9 +174,9 @@ def _exact(kind: Any, content: bytes) -> Any:
         raise McapError(f"{len(content) - fields.count} bytes after the last field")
     if isinstance(record, Attachment):
         (expected,) = _CHECKSUM.unpack(content[-_CHECKSUM.size :])
-        found = zlib.crc32(content[: -_CHECKSUM.size])
-        if expected not in (0, found):
-            raise CRCValidationError(expected, found, record)
+        checksum = zlib.crc32(content[: -_CHECKSUM.size])
+        if expected not in (0, checksum):
+            raise CRCValidationError(expected, checksum, record)
     return record
 
 

@@ -54,8 +54,8 @@ def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -
 def _topic(name: str, kind: str, latched: bool) -> Topic:
     types = get_typestore(Stores.ROS2_JAZZY)
     definition = definition_of(kind)
-    found = get_types_from_msg(definition, kind)
-    types.register({name: made for name, made in found.items() if name not in types.types})
+    parsed = get_types_from_msg(definition, kind)
+    types.register({name: fields for name, fields in parsed.items() if name not in types.types})
     return Topic(name, kind, types.hash_rihs01(kind), definition, [_offer(latched)])
 
 

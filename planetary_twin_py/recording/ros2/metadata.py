@@ -56,10 +56,10 @@ def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
     Raises:
         ValueError: the text is not a list of profiles.
     """
-    found = _profiles(text)
-    if isinstance(found, ValueError):
-        raise found
-    return found
+    profiles = _profiles(text)
+    if isinstance(profiles, ValueError):
+        raise profiles
+    return profiles
 
 
 @lru_cache(maxsize=1024)  # most topics of a bag have the same profiles; errors are cached, too
@@ -71,13 +71,13 @@ def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
 
 
 def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
-    found = read_yaml(text, _QOS) or []
-    if not isinstance(found, list) or not all(isinstance(qos, dict) for qos in found):
+    profiles = read_yaml(text, _QOS) or []
+    if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
         raise ValueError(f"{_QOS}: must be a list of mappings")
-    for qos in found:
+    for qos in profiles:
         if not isinstance(qos.get("depth", 0), int):
             raise ValueError(f"{_QOS}: depth = {qos['depth']!r}: must be a whole number")
-    return found
+    return profiles
 
 
 def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:
