@@ -342,8 +342,8 @@ class BalanceFollower:
         """Speed and torque of the bins whose middles are within an interval and just outside it.
 
         Args:
-            begin: of the interval [s].
-            end: of the interval [s].
+            begin: start of the interval [s].
+            end: end of the interval [s].
         """
         reach = 1.5 * self.period
         return Turning(*self._turning.between(begin - reach, end + reach).T)

@@ -49,8 +49,8 @@ def resonances(
 
     Args:
         scene: gives the mesh frequency.
-        modes: of the scene; a run resonates at the modes for the mean mesh stiffness.
-        highest_speed: of the first motor [rad/s].
+        modes: modes of the scene; a run resonates at the modes for the mean mesh stiffness.
+        highest_speed: highest speed of the first motor [rad/s].
         harmonics: number of mesh harmonics.
 
     Returns:

@@ -95,7 +95,7 @@ def turning_modes(model: SpringModel, terms: Turning) -> NaturalModes:
 
     Args:
         model: masses and springs.
-        terms: of the turning frame.
+        terms: terms of the turning frame.
 
     Returns:
         Frequencies [Hz] (modes,), complex shapes [kg^-1/2] (coordinates, modes), and kinds.

@@ -66,7 +66,7 @@ class AxesSums:
         """Add samples.
 
         Args:
-            samples: of a run whose axes move.
+            samples: samples of a run whose axes move.
         """
         self._count += len(samples.moved)
         self._moved = self._moved + samples.moved.sum(axis=0)

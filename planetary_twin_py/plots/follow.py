@@ -22,7 +22,7 @@ def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Followi
     """Draw estimates over time, with a dotted line where a change has been found.
 
     Args:
-        name: of the scene, for the title.
+        name: name of the scene, for the title.
         teeth: number of teeth by gear, in the order of `Following.every_z`.
         states: estimated states, in the order of time.
 

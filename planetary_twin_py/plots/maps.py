@@ -27,7 +27,7 @@ def draw_map(
         axes: where to draw.
         fields: columns of the horizontal axis, of the vertical axis and of the colour.
         rows: rows to draw (bool).
-        limits: of the colours.
+        limits: limits of the colours.
     """
     x, y, z = (column.values[rows] for column in fields)
     levels = MaxNLocator(LEVELS).tick_values(*limits)

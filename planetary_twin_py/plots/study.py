@@ -57,7 +57,7 @@ def plot_study(
     value of the third. Failed points are omitted, and the figure states their number.
 
     Args:
-        table: of a sweep or a bifurcation.
+        table: table of a sweep or a bifurcation.
         x: column of the horizontal axis.
         measures: columns to draw, in separate panels; if empty, the first measure.
         by: field distinguished by colour; in a map, the vertical axis.
@@ -97,7 +97,7 @@ def fields(table: pa.Table) -> list[str]:
     """Names of the columns that the study varied.
 
     Args:
-        table: of a study.
+        table: table of a study.
     """
     other_columns = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
     return [name for name in table.column_names if name not in other_columns]
@@ -107,7 +107,7 @@ def failures(table: pa.Table) -> int:
     """Number of rows without results.
 
     Args:
-        table: of a study.
+        table: table of a study.
     """
     return len(table) - table["failure"].null_count if "failure" in table.column_names else 0
 

@@ -22,7 +22,7 @@ class Cluster:
     All workers must have this version of the package, so that their results are identical.
 
     Args:
-        address: of the scheduler, e.g. "tcp://10.0.0.1:8786".
+        address: address of the scheduler, e.g. "tcp://10.0.0.1:8786".
 
     Raises:
         ValueError: there is no scheduler, it has no workers, or a worker has another core.
@@ -51,7 +51,7 @@ class Cluster:
 
         Args:
             work: function to evaluate at each point.
-            points: of the study.
+            points: points of the study.
         """
         from distributed import as_completed
 

@@ -16,7 +16,7 @@ def inaccuracies(table: pa.Table) -> Iterator[str]:
     """Warn about motions that amplify errors beyond the tolerance.
 
     Args:
-        table: with a row per point, and those columns of `COURSE` that apply.
+        table: table with a row per point, and those columns of `COURSE` that apply.
 
     Returns:
         A sentence per kind of motion.

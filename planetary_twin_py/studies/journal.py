@@ -15,7 +15,7 @@ class Journal:
     Failures are not stored, so that they are tried again.
 
     Args:
-        path: of the file; it is created if it does not exist.
+        path: path of the file; it is created if it does not exist.
 
     Raises:
         OSError: `path` cannot be read or written.
@@ -32,7 +32,7 @@ class Journal:
         """Store the result of the point with this key.
 
         Args:
-            key: of the point.
+            key: key of the point.
             found: its result.
         """
         if isinstance(found, Failure):

@@ -35,7 +35,7 @@ class Threads:
 
         Args:
             work: function to evaluate at each point.
-            points: of the study.
+            points: points of the study.
         """
         waiting = iter(points)
         pool = ThreadPoolExecutor(self.count, "point")

@@ -139,7 +139,7 @@ def lost_motion(
     gears would require steps of a microsecond. Neither changes the statics.
 
     Args:
-        scene: with one input.
+        scene: scene with one input.
         torque: largest torque on the output member [N m].
         share: part of it at which lost motion is measured.
         levels: torques from 0 to the largest.

@@ -35,7 +35,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
 
     Args:
         scene: the gearbox.
-        settings: of the run.
+        settings: settings of the run.
 
     Returns:
         Values in SI by the names of `STUDY_RESULTS`, and of `AXES_RESULTS` where axes move.
@@ -65,7 +65,7 @@ def summary_of(result: Result) -> RunSummary:
     """Summary of a run over its duration and over all meshes.
 
     Args:
-        result: of the run.
+        result: result of the run.
     """
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}

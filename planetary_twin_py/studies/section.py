@@ -33,7 +33,7 @@ class Section:
     Args:
         scene: the gearbox.
         tolerance: relative local error tolerance of the integrator.
-        phase: in [0, 1).
+        phase: phase of the section, in [0, 1).
 
     Raises:
         ValueError: the scene is quasi-static, or an argument is out of range.

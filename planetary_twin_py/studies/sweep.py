@@ -26,7 +26,7 @@ def sweep(
     """Run the points of `study` that are not yet in `journal`, and tabulate all points.
 
     Args:
-        study: from `grid` or `latin_hypercube`.
+        study: study from `grid` or `latin_hypercube`.
         executor: runs the points.
         journal: file of completed points, from which an interrupted study resumes; the caller
             deletes it. None stores nothing.

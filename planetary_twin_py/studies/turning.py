@@ -59,7 +59,7 @@ def off_speed(share: float) -> bool:
     """Whether the mean speed deviates from that of the operating point.
 
     Args:
-        share: from `speed_share`.
+        share: result of `speed_share`.
     """
     return abs(share - 1.0) > ALLOWED  # NaN is no deviation
 
@@ -68,7 +68,7 @@ def turning_of_study(table: pa.Table) -> Iterator[str]:
     """Warnings of a study about the mesh cycles and the mean speeds of its points.
 
     Args:
-        table: from `tabulate`, with its settings.
+        table: table from `tabulate`, with its settings.
 
     Returns:
         A sentence about the points with less than a mesh cycle, another about those at a mean

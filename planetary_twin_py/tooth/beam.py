@@ -49,10 +49,10 @@ def beam_compliance(
     centre line below the root, the integral is negative: it corrects the larger moment on the body.
 
     Args:
-        thickness: of the section [m], as a function of its height [m].
+        thickness: thickness of the section [m], as a function of its height [m].
         knots: heights at which the thickness is not smooth [m].
         load: unit forces, (m,).
-        material: of the tooth.
+        material: material of the tooth.
     """
     height, weight = _quadrature(load.crossing, knots)
     thick = thickness(height)

@@ -34,7 +34,7 @@ class Crack:
         """Thickness of the remaining sections.
 
         Args:
-            profile: of the tooth.
+            profile: profile of the tooth.
 
         Returns:
             Thickness [m] as a function of the height [m].

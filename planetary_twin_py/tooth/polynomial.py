@@ -33,7 +33,7 @@ def fit(law: Callable[[Floats], Floats], low: float, high: float, degree: int = 
         law: positive function of the position, (m,) to (m,).
         low: start of the interval.
         high: end of the interval.
-        degree: of the polynomial.
+        degree: degree of the polynomial.
 
     Returns:
         Coefficients and largest relative error at these points.

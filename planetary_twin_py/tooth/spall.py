@@ -28,7 +28,7 @@ class Spall(NamedTuple):
         """Share of the face width in contact, any shape.
 
         Args:
-            position: after the pitch point [base pitches], any shape.
+            position: position after the pitch point [base pitches], any shape.
         """
         within = (self.start <= position) & (position <= self.end)
         return np.where(within, 1.0 - self.width, 1.0)

@@ -31,7 +31,7 @@ def check_undercut(mesh: WorkingMesh) -> Iterator[str]:
     """Errors of gears whose mates touch them where undercut has removed the involute.
 
     Args:
-        mesh: with a path of contact.
+        mesh: mesh with a path of contact.
 
     Yields:
         One line per error.

@@ -56,7 +56,7 @@ def blueprint(
     """Make the layout of a view.
 
     Args:
-        gearset: of the gears to show; None shows no gears.
+        gearset: gears to show; None shows no gears.
         mode: variant.
         compared: name of the reference recording, if there are several.
         axes: how axes that move are drawn; None if they are held.

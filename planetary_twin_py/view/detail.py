@@ -68,7 +68,7 @@ def first_rows(time: NDArray[np.float64], detail: list[TimeSpan]) -> NDArray[np.
     """First row of each group that is aggregated to one row; in `detail` a group is one row.
 
     Args:
-        time: of the rows [s], (n,).
+        time: times of the rows [s], (n,).
         detail: time spans [s] whose rows are kept.
     """
     step = math.ceil(len(time) / MOST_ROWS)

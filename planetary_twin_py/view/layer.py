@@ -45,9 +45,9 @@ class Layer:
         """Send columns at `path` unless they are empty, on which the viewer fails.
 
         Args:
-            path: of the entity.
+            path: path of the entity.
             index: time columns.
-            columns: of components.
+            columns: columns of components.
         """
         if len(index[0].as_arrow_array()):
             self.stream.send_columns(self._place(path), index, columns)
@@ -62,8 +62,8 @@ class Layer:
         """Style of one line per name.
 
         Args:
-            names: of the lines.
-            colours: of the lines.
+            names: names of the lines.
+            colours: colours of the lines.
             steps: whether values are constant between their times.
         """
         return rr.SeriesLines(

@@ -41,10 +41,10 @@ class LiveView:
     """Draws the messages of a twin; each run, from one reset to the next, has its own stream.
 
     Args:
-        namespace: of the twin.
+        namespace: namespace of the twin.
         begin: opens the stream of a run.
-        scene: to draw in place of the published one; without it, drawing starts when the twin has
-            published its scene.
+        scene: scene to draw in place of the published one; without it, drawing starts when the
+            twin has published its scene.
     """
 
     def __init__(

@@ -21,7 +21,7 @@ def names_of(recordings: Sequence[Recording]) -> list[str]:
     """A name for each recording: of its file, or its path if several files have the same name.
 
     Args:
-        recordings: at least one; the name of a single recording is "".
+        recordings: recordings, at least one; the name of a single recording is "".
 
     Raises:
         RecordingError: a recording occurs twice.

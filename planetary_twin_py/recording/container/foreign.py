@@ -16,7 +16,7 @@ def how_stored(path: Path) -> str | None:
     """Detect a storage format that cannot be read.
 
     Args:
-        path: of the folder of a bag, or of one of its files.
+        path: path of the folder of a bag, or of one of its files.
 
     Returns:
         The format and the command that converts the bag, as the end of an error message; None for

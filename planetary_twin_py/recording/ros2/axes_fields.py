@@ -43,7 +43,7 @@ def largest_of_kind(message: Any, name: str) -> float:
 
     Args:
         message: AxesState.
-        name: of a field.
+        name: name of a field.
 
     Returns:
         Of all bodies and components of the same quantity [m] or [N]; 0 for other fields.

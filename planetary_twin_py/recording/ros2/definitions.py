@@ -43,7 +43,7 @@ def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -
     """Topics of a twin in `namespace` whose messages follow from its windows.
 
     Args:
-        namespace: of the twin.
+        namespace: namespace of the twin.
         moving_axes: whether its axes move.
         driven: whether torques or motions are given at its ports.
     """

@@ -16,7 +16,7 @@ def choose_namespace(counts: Mapping[str, int], wanted: str | None, path: str | 
     Args:
         counts: numbers of messages by topic.
         wanted: namespace; None selects the only one.
-        path: of the recording, for error messages.
+        path: path of the recording, for error messages.
 
     Returns:
         The namespace.

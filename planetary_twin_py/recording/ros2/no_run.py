@@ -17,7 +17,7 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
     """Return a line if a recording of a twin has no end, and no state or no origin of its run.
 
     Args:
-        path: of the recording.
+        path: path of the recording.
         counts: numbers of messages by topic; 0 for a topic without messages.
 
     Returns:

@@ -38,7 +38,7 @@ class Playback:
             read.
 
     Args:
-        path: of an .mcap file, or a folder of them.
+        path: path of an .mcap file, or a folder of them.
         chosen: topics to play; all if empty.
 
     Raises:

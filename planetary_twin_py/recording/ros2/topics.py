@@ -18,7 +18,7 @@ def status_name(report: str, namespace: str) -> str:
 
     Args:
         report: kind of report, such as `REAL_TIME`.
-        namespace: of the twin, such as `/left`.
+        namespace: namespace of the twin, such as `/left`.
     """
     return "/".join(filter(None, (namespace.strip("/"), report)))
 

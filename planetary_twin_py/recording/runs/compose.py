@@ -39,8 +39,8 @@ class Composer:
 
     Args:
         bag: where to write.
-        topics: to write; topics that are not of the twin are ignored.
-        namespace: of the twin.
+        topics: topics to write; topics that are not of the twin are ignored.
+        namespace: namespace of the twin.
         frame: name of the base frame of the gearbox.
     """
 
@@ -82,7 +82,7 @@ class Composer:
         """Write the messages of a window.
 
         Args:
-            window: of the twin.
+            window: window of the twin.
             stamp: ROS time of its end [ns].
             first: ROS time of its first sample [ns].
         """

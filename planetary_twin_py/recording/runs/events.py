@@ -25,8 +25,8 @@ def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Even
     """Read starts, resets, missing messages, changed settings, and loss of contact.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         remarks: warnings are appended.
 
     Raises:

@@ -134,8 +134,8 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     """Read a recording.
 
     Args:
-        path: of an .mcap file, or a folder of them.
-        namespace: of the gearbox; None if there is only one.
+        path: path of an .mcap file, or a folder of them.
+        namespace: namespace of the gearbox; None if there is only one.
 
     Returns:
         The recording.
@@ -183,10 +183,10 @@ def assemble(
 
     Args:
         rows: structured arrays by topic, with at least one state.
-        blocks: of the waveform.
-        axes_blocks: of the waveform of axes that move.
-        path: of the recording, for error messages.
-        namespace: of the gearbox.
+        blocks: blocks of the waveform.
+        axes_blocks: blocks of the waveform of axes that move.
+        path: path of the recording, for error messages.
+        namespace: namespace of the gearbox.
 
     Raises:
         RecordingError: the number of planets is invalid or changes.

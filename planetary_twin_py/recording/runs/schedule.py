@@ -66,8 +66,8 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
     """Read the runs of a gearbox.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         remarks: warnings about incomplete runs are appended.
 
     Returns:
@@ -119,9 +119,9 @@ def messages_of(
     """Read messages of several topics in file order.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
-        names: of the topics, without namespace.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
+        names: names of the topics, without namespace.
         remarks: warnings are appended.
 
     Yields:

@@ -80,8 +80,8 @@ def verify(
     """Simulate the runs of a gearbox again and compare all published values.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         progress: called with the simulated time [s] up to which everything is compared.
 
     Returns:

@@ -52,10 +52,10 @@ def resimulate(
     bit. A measured run is simulated there, too.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         branch: the changes.
-        folder: of the new recording.
+        folder: folder of the new recording.
         progress: called with the simulated time and the end [s].
 
     Returns:

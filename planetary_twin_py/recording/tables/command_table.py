@@ -13,8 +13,8 @@ def read_commands(path: Path) -> Commands:
     """Read a CSV or Parquet file of commands, with the columns of `Commands`.
 
     Args:
-        path: of the file. Headings are `time` and names such as `output_torque`, with a unit in
-            brackets unless it is SI: `input_speed [rpm]`. An empty cell leaves a port as it is.
+        path: path of the file. Headings are `time` and names such as `output_torque`, with a unit
+            in brackets unless it is SI: `input_speed [rpm]`. An empty cell leaves a port as it is.
 
     Returns:
         The commands in SI.

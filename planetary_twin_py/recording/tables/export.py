@@ -41,7 +41,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     """Write the tables of a recording.
 
     Args:
-        path: of the recording.
+        path: path of the recording.
         chosen: options.
         progress: called with the completed and the total ROS time [ns].
 

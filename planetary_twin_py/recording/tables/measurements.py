@@ -83,7 +83,7 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
-        path: of the .csv, .parquet or .mat file.
+        path: path of the .csv, .parquet or .mat file.
         units: SI unit of every allowed column, by name.
 
     Returns:
@@ -116,8 +116,8 @@ def read_columns(path: Path) -> dict[str, Column]:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
-        path: of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or tabs. The
-            columns of a MAT file are its vectors.
+        path: path of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or
+            tabs. The columns of a MAT file are its vectors.
 
     Returns:
         The columns by name, in order.
@@ -221,7 +221,7 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
     """Values of a column.
 
     Args:
-        name: of the column, for messages.
+        name: name of the column, for messages.
         column: numbers, or dates if it is the time.
         given: unit of the column; None means SI.
         unit: SI unit of the result.

@@ -40,8 +40,9 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     """Read a manoeuvre from a table.
 
     Args:
-        path: of a .csv, .parquet or .mat table with the columns time, input_torque, output_torque
-            and input_speed or output_speed, with units in brackets unless they are SI.
+        path: path of a .csv, .parquet or .mat table with the columns time, input_torque,
+            output_torque and input_speed or output_speed, with units in brackets unless they are
+            SI.
         train: gear train of the gearbox.
         period: length of the bins [s].
 

@@ -56,7 +56,7 @@ def conclude(
     Args:
         residuals: see `least_squares.Residuals`.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         freedom: degrees of freedom of the noise estimate.
         confidence: level of the intervals, within 0 and 1.
 

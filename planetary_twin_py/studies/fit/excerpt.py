@@ -95,7 +95,7 @@ def read_excerpt(
 
     Args:
         path: an .mcap file, or its folder.
-        namespace: of the gearbox, if the recording has several.
+        namespace: namespace of the gearbox, if the recording has several.
         begin: start [s]. Without `begin` and `end`, the longest settled part of any run with a
             constant operating point is used, up to `LONGEST`.
         end: end [s].

@@ -189,7 +189,7 @@ def course_remarks(found: FittedCourse) -> Iterator[str]:
     """Warn about parameters and residuals.
 
     Args:
-        found: from `fit_course`.
+        found: result of `fit_course`.
 
     Returns:
         A line per warning.

@@ -41,7 +41,7 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
     deviations of the noise, for a change of the parameters by their own magnitude.
 
     Args:
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         parameters: the free parameters.
         quantile: singular value below which a direction is not identifiable.
 
@@ -63,7 +63,7 @@ def magnitudes(minimum: Minimum, parameters: Sequence[Parameter]) -> Array:
     """Magnitudes (p,) that scale changes of the parameters.
 
     Args:
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         parameters: the p free parameters.
     """
     return np.maximum(np.abs(minimum.values), [0.1 * p.scale for p in parameters])
@@ -81,7 +81,7 @@ def insensitive_range(
     Args:
         residuals: see `least_squares.Residuals`.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         place: index of the parameter.
         rise: increase of the sum of squares at the ends of the range.
 
@@ -118,7 +118,7 @@ def correlation(linear: LinearAnalysis) -> Array:
     """Correlation of the estimates (p, p); NaN for parameters that are not identifiable.
 
     Args:
-        linear: from `split`.
+        linear: result of `split`.
     """
     deviation = np.sqrt(np.diag(linear.covariance))
     deviation[[not linear.identifiable(k) for k in range(len(deviation))]] = math.nan

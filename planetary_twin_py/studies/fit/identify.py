@@ -85,7 +85,7 @@ def identify(
     Args:
         path: an .mcap file, or its folder.
         search: free parameters, observables and noise.
-        namespace: of the gearbox, if the recording has several.
+        namespace: namespace of the gearbox, if the recording has several.
         begin: start of the part of the longest run to use [s]; None: see `read_excerpt`.
         end: its end [s].
         threads: threads that simulate; None uses all cores.

@@ -43,7 +43,7 @@ def intervals(
     Args:
         residuals: see `least_squares.Residuals`.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         linear: identifiability at the minimum.
         rise: increase of the least sum of squares at the ends.
 

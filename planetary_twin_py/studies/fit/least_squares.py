@@ -53,7 +53,7 @@ def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0)
     Args:
         residuals: see `Residuals`.
         parameters: the p free parameters.
-        seed: of the random starts.
+        seed: seed of the random starts.
 
     Returns:
         The lowest minimum found.

@@ -85,7 +85,7 @@ def measure_noise(
     Args:
         recorded: readings of the recording.
         readings: the same readings of a simulation.
-        tolerance: of the simulation.
+        tolerance: tolerance of the simulation.
         given: known standard deviations of a reading by observable, in SI.
 
     Returns:
@@ -148,7 +148,7 @@ def means_of(readings: Readings) -> Array:
     """Means over each operating point.
 
     Args:
-        readings: of one observable.
+        readings: readings of one observable.
 
     Returns:
         Means, shape (segments, channels).

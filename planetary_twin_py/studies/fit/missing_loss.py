@@ -42,7 +42,7 @@ def find_missing_loss(
     Args:
         scene: the model.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         trial: see `Trial`.
 
     Returns:

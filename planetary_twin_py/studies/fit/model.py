@@ -77,9 +77,9 @@ def read_all(
     """Readings of every observable `names` over these intervals.
 
     Args:
-        names: of the observables, see `readings.OBSERVABLES`.
+        names: names of the observables, see `readings.OBSERVABLES`.
         intervals: recorded or simulated.
-        excerpt: of which the intervals are a part.
+        excerpt: excerpt that contains the intervals.
     """
     return tuple(read(name, intervals, excerpt) for name in names)
 

@@ -54,7 +54,7 @@ def check_observables(names: Sequence[str]) -> None:
     """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice.
 
     Args:
-        names: of the observables.
+        names: names of the observables.
     """
     if not names:
         raise ValueError("no observable: name at least one, e.g. dte_rms")
@@ -97,7 +97,7 @@ def read(name: str, intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> 
     Args:
         name: one of `OBSERVABLES`.
         intervals: recorded or simulated.
-        excerpt: that the intervals are part of.
+        excerpt: excerpt that contains the intervals.
 
     Returns:
         The readings.

@@ -41,7 +41,7 @@ def report_of_course(found: FittedCourse) -> Report:
     """Report on a manoeuvre.
 
     Args:
-        found: from `fit_course`.
+        found: result of `fit_course`.
     """
     held_out = None
     facts = [
@@ -71,7 +71,7 @@ def report_of_points(found: Identified) -> Report:
     """Report on operating points of a recording.
 
     Args:
-        found: from `identify`.
+        found: result of `identify`.
     """
     predictions = {prediction.name: prediction for prediction in found.predictions}
     facts = [
