@@ -34,9 +34,9 @@ class FleetEstimate(NamedTuple):
     value: Array
     """Value in SI; NaN where the readings do not determine it."""
     low: Array
-    """Lower end of the 95 % interval, likewise."""
+    """Lower end of the 95 % interval, in SI; NaN where there is no value."""
     high: Array
-    """Upper end of the 95 % interval, likewise."""
+    """Upper end of the 95 % interval, in SI; NaN where there is no value."""
 
 
 class FleetEvent(NamedTuple):

@@ -36,7 +36,7 @@ class LearnedCell(NamedTuple):
     needed: int
     """Hunting periods of a baseline."""
     digest: str
-    """Of the baseline, once it is learned; empty before."""
+    """Digest of the baseline, once it is learned; empty before."""
 
 
 @dataclass
@@ -67,7 +67,7 @@ class Baseline:
     slope: Array | None = None
     """Change of the deviation with torque [m/(N m)], (cycles, BINS); None if not significant."""
     digest: str = ""
-    """Of the mean and its scatter, once learned."""
+    """Digest of the mean and its scatter, once learned."""
     _centre: float = 0.0  # mean torque of its blocks [N m]
     _spread: float = 1.0  # sum of squares of their torques about it [N m^2]
     _blocks: list[tuple[HuntingBlock, float]] = field(default_factory=list)

@@ -35,8 +35,8 @@ MISPLACED = (
 )
 WINDOWS = 1, 4, 16, 64  # numbers of blocks that are judged together
 UNCERTAIN = 0.15  # relative standard deviation of a size: runout shifts load between teeth
-UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a changed tooth
-WAITING = 64  # hunting periods that wait for readings of the torque at most
+UNSCALED = 0.35  # the same without a compliance, or at a load learned with a changed tooth
+WAITING = 64  # largest number of hunting periods that wait for readings of the torque
 SPEED_STEP = 0.3  # relative difference of the speeds for which signatures are computed
 
 

@@ -43,10 +43,10 @@ STRETCH = 2e-3  # largest relative error of the measured speed
 STEPS = 21  # trial values of the scale of the speed within `STRETCH`
 CELL = 0.1  # relative distance of torque and speed within which a baseline applies
 OVER_TORQUE = 1.0  # largest exponent over the torque of an amplitude divided by the torque
-OVER_SPEED = 4.0  # the same over the speed: 2 of an acceleration, the rest of resonances
+OVER_SPEED = 4.0  # largest exponent over the speed: 2 of an acceleration, the rest of resonances
 WINDOWS = 4, 16  # hunting periods that are judged together
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
-STEADY = 0.02  # relative standard deviation of the speed, above which it is not used
+STEADY = 0.02  # relative standard deviation of the speed, above which the period is not used
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
 SLOWEST = 0.05  # share of the speed of the scene, below which the train counts as at rest
 UNKNOWN = "; size of the fault: NOT IDENTIFIABLE, as the path to the sensor is unknown"
@@ -84,11 +84,11 @@ class _Line(NamedTuple):
     side: int
     """Number of the sideband, negative below the harmonic."""
     teeth: int
-    """Of its gear, whose rotation separates the sidebands."""
+    """Number of teeth of the gear whose rotation separates the sidebands."""
 
     @property
     def order(self) -> float:
-        """Order over that of the mesh."""
+        """Frequency of the line over the mesh frequency."""
         return self.mesh + self.side / self.teeth
 
 
@@ -123,7 +123,7 @@ class _Judged(NamedTuple):
     found: Array
     """Amplitudes over torque, (channels, patterns)."""
     floor: Array
-    """The same beside their sidebands, where no gear has lines; NaN without sidebands."""
+    """Amplitudes over torque beside the sidebands, where no gear has lines, or NaN."""
     torque: float
     """Mean torque at the input [N m]."""
     speed: float

@@ -34,7 +34,7 @@ class Load(NamedTuple):
     crossing: Floats
     """Height above the root at which the line of action crosses the centre line [m], (m,)."""
     angle: Floats
-    """Between the force and the normal to the centre line [rad], (m,), positive if the force
+    """Angle between the force and the normal to the centre line [rad], (m,), positive if the force
     compresses the tooth."""
 
 

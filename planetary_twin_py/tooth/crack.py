@@ -28,7 +28,7 @@ class Crack:
     depth: float = 0.0
     """Length [m]."""
     angle: float = math.radians(70.0)
-    """To the centre line of the tooth [rad]."""
+    """Angle to the centre line of the tooth [rad]."""
 
     def thickness(self, profile: ToothProfile) -> Callable[[Floats], Floats]:
         """Thickness of the remaining sections.

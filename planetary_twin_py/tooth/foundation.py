@@ -35,7 +35,7 @@ class GearBody:
     """Radius of the held circle [root radii]: below 1 for an external gear (hub), above 1 for an
     internal gear (housing)."""
     half_angle: float
-    """Of the root of a tooth [rad]."""
+    """Half angle of the root of a tooth [rad]."""
     poisson_ratio: float
 
     def compliance(self, neighbour: float = 0.0) -> Floats:

@@ -26,11 +26,11 @@ class ToothPair:
     """Two teeth in mesh."""
 
     first: Tooth
-    """Of the driving gear: the sun, or the planet in mesh with the ring."""
+    """Tooth of the driving gear: of the sun, or of the planet in mesh with the ring."""
     second: Tooth
-    """Of the driven gear."""
+    """Tooth of the driven gear."""
     path: PathOfContact
-    """Between the base circles, see `gearset.geometry`."""
+    """Path of contact between the base circles, see `gearset.geometry`."""
     contact: ContactLaw
     spall: Spall = NO_SPALL
     angle: float | None = None

@@ -18,7 +18,7 @@ class Fit(NamedTuple):
     """A polynomial and its error."""
 
     coefficients: Floats
-    """Of 1, s, s^2, ..., (degree + 1,)."""
+    """Coefficients of 1, s, s^2, ..., (degree + 1,)."""
     error: float
     """Largest relative error at the points of the fit."""
 

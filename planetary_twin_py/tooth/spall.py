@@ -18,9 +18,9 @@ class Spall(NamedTuple):
     """
 
     start: float = 0.0
-    """After the pitch point [base pitches]."""
+    """Position after the pitch point [base pitches]."""
     end: float = 0.0
-    """After the pitch point [base pitches]."""
+    """Position after the pitch point [base pitches]."""
     width: float = 0.0
     """Lost share of the face width, at least 0 and below 1."""
 

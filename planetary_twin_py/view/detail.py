@@ -50,7 +50,7 @@ def detailed_spans(recording: Recording) -> list[TimeSpan]:
 
 
 def overview(recording: Recording, detail: list[TimeSpan]) -> Recording:
-    """The same with fewer states: intervals outside `detail` are aggregated.
+    """Recording with fewer states: intervals outside `detail` are aggregated.
 
     Args:
         recording: the recording.

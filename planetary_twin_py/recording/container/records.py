@@ -83,7 +83,7 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 
 
 def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
-    """The same records, section by section."""
+    """All intact records as in `records_of`, section by section."""
     known, damages, ended, end_remark = _Known(file), Damages(file), False, ""
     with file.open("rb") as stream:
         remarks += _begin_remarks(file, stream)

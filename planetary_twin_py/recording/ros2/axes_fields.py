@@ -39,14 +39,14 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
 
 
 def largest_of_kind(message: Any, name: str) -> float:
-    """Largest displacement or force of any body, beside which a component may be next to nothing.
+    """Largest displacement or force of any body, to which differences of a component are compared.
 
     Args:
         message: AxesState.
         name: name of a field.
 
     Returns:
-        Of all bodies and components of the same quantity [m] or [N]; 0 for other fields.
+        Largest value of the same quantity over all bodies [m] or [N]; 0 for other fields.
     """
     for kinds, largest in _OF_KIND.items():
         if any(f"_{kind}" in name for kind in kinds):
@@ -59,7 +59,7 @@ _OF_KIND = {
     ("bearing_force",): [f"{body}_bearing_force_peak" for body in COMPONENTS],
     tuple(FLANKS): [f"{side}_{name}" for side in SIDES for name in FLANKS],
 }
-"""By names of quantities, the fields whose largest value is theirs."""
+"""Fields that have the largest values, by the names of the quantities."""
 
 
 def axes_waveform_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:

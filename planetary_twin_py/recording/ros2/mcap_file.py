@@ -85,7 +85,7 @@ class McapFile:
     ) -> None:
         """Append a message, and flush if those since the last flush cover the flush period.
 
-        So the loss of a kill has a limit in time by the stamps, however late a timer is.
+        A kill then loses messages of at most one flush period of log time, even if a timer is late.
         """
         # MCAP stores 32 bits of the sequence number.
         self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)

@@ -71,11 +71,11 @@ def absent(kind: str, recorded: Collection[str]) -> dict[str, Any]:
 
     Args:
         kind: name of the type, `pkg/msg/Name`.
-        recorded: names of fields that there are.
+        recorded: names of the fields that the definition has.
 
     Returns:
         By name, NaN of a floating-point field, as of a quantity that does not exist; the default of
-        ROS of any other. Nothing of a type that is not the twin's.
+        ROS of any other. Empty for a type that is not the twin's.
     """
     own_fields = _own(kind)[kind][1] if kind in KINDS.values() else ()
     return {name: _empty(*described) for name, described in own_fields if name not in recorded}

@@ -38,7 +38,7 @@ class TopicInfo:
     lost: int | None = None
     """Messages published but not received, by the recorder's account; None without one."""
     before: int = 0
-    """Of these, published before the first received message."""
+    """Lost messages that were published before the first received one."""
     first: int = 0
     last: int = 0
     longest_gap: int = 0
@@ -168,7 +168,7 @@ class _Collector:
         self._add_losses(accounts)
 
     def look_up(self, file: Path, index: Index) -> None:
-        """The same from the index of a file, and the few messages that are needed."""
+        """Add the contents of a file from its index and the few messages that are needed."""
         decoder = Decoder(file, _is_decoded)
         self._repeats.next_file()
         for schema in index.schemas.values():
@@ -280,7 +280,7 @@ def _cover(states: Sequence[Any]) -> _Covered:
     """
 
     def after(first: int, last: int) -> _Covered:
-        """The same, without the time of `first`."""
+        """States after `first`, up to `last`, without the time of `first`."""
         if first == last:
             return _Covered(0.0, 0)
         begin, end = states[first], states[last]

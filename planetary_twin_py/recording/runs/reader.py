@@ -64,7 +64,7 @@ class Recording:
     operating_point: Series
     blocks: Samples
     axes_state: Series
-    """Of axes that move; without rows where they are held."""
+    """States of axes that move; without rows where they are held."""
     axes_blocks: AxesBlocks
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
@@ -100,7 +100,7 @@ class Recording:
         return self.blocks.waveform(begin, end)
 
     def within(self, spans: Sequence[TimeSpan]) -> Recording:
-        """The same with only the samples of these time spans [s], in memory."""
+        """Recording with only the samples of these time spans [s], in memory."""
         waveforms = [self.samples(begin, end) for begin, end in spans]
         axes = [self.axes_blocks.samples(begin, end) for begin, end in spans]
         return replace(
@@ -311,7 +311,7 @@ def _series(parts: list[NDArray[Any]], kind: str) -> Series:
 
 
 def _values(rows: NDArray[Any], name: str, empty: Mapping[str, Any]) -> NDArray[Any]:
-    """Of a field in each row."""
+    """Values of a field in each row."""
     if name in (rows.dtype.names or ()):
         return rows[name]
     value = np.asarray(empty[name])

@@ -34,7 +34,7 @@ class Resimulation:
         if place == len(self._stamps) or stamp < self._begins[place]:
             return None
         if topic in (WAVEFORM, AXES_WAVEFORM):  # stamped with its first sample
-            for candidate in (place, place + 1):  # it may be rounded to the end of the previous one
+            for candidate in (place, place + 1):  # the stamp may be rounded to the interval before
                 simulated = self._simulated(candidate)
                 if simulated and _is_block_of(simulated[1], message):
                     return simulated

@@ -187,7 +187,7 @@ def _axes(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
 
 
 def _size_beside(topic: str, message: Any, name: str) -> float:
-    """Size of what a field is a small difference of; 0 if it has a size of its own."""
+    """Size of the quantities whose small difference a field is; 0 for other fields."""
     if topic == AXES_STATE:
         return largest_of_kind(message, name)
     return abs(float(message.input_power)) if name == "stored_power" else 0.0

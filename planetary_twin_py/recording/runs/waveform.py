@@ -209,7 +209,7 @@ class Blocks:
 
 
 def read_stored(batches: Iterable[Stored], begin: float, end: float) -> Iterator[NDArray[Any]]:
-    """Read the messages whose blocks overlap a time span [s] again."""
+    """Read again the messages whose blocks overlap a time span [s]."""
     wanted = {
         (batch.source, batch.place): None
         for batch in batches

@@ -48,7 +48,7 @@ class Column(NamedTuple):
 
     heading: str
     unit: str | None
-    """In brackets or parentheses in the heading; None without."""
+    """Unit in brackets or parentheses in the heading; None without."""
     values: pa.ChunkedArray
     """(rows,)."""
 
@@ -69,7 +69,7 @@ class Measurements(NamedTuple):
     step: float
     """Length of the interval of each row, which ends at its time stamp [s]."""
     columns: dict[str, Array]
-    """By name, each (rows,) in SI; NaN for missing values."""
+    """Columns by name, each (rows,) in SI; NaN for missing values."""
     labels: Sequence[Any] | None
     """Values of the column `operating_point`; None if there is no such column."""
 
@@ -249,7 +249,7 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
 
 
 def _seconds(dates: pa.ChunkedArray) -> Array:
-    """Since the first of `dates` (rows,)."""
+    """Seconds since the first of `dates` (rows,)."""
     stamps = _stamps(dates)
     return np.asarray((stamps - stamps[:1]) / np.timedelta64(1, "s"), dtype=float)
 

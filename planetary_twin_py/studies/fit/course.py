@@ -25,7 +25,7 @@ class Course(NamedTuple):
     input_torque: Array
     output_torque: Array
     speed: Array
-    """Of the input."""
+    """Speed of the input [rad/s]."""
     acceleration: Array
     """Acceleration of the input [rad/s^2]."""
     oil_temperature: Array

@@ -64,7 +64,7 @@ class Identified:
     missing_loss: MissingLoss | None
     """A loss absent from the model that would explain the residuals, or None."""
     predictions: tuple[Predicted, ...]
-    """Of the part that was held out, an entry for each observable; empty without one."""
+    """Predictions of the part that was held out, by observable; empty without such a part."""
     simulations: int
     wall_time: float
     """[s]"""
