@@ -286,9 +286,9 @@ class TeethFollower:
         residual_sum = np.sum([judged.residual for judged in recent], axis=0)
         block_counts = np.sum([judged.measured for judged in recent], axis=0, dtype=float)
         sd = block_sd * cell.noise(torques[-window:])
-        found = find_teeth(cell.bank, Residual(residual_sum, block_counts, sd))
-        if found:
-            self._update_teeth(found, cell, block, cell.noise(torques[-window:]))
+        matches = find_teeth(cell.bank, Residual(residual_sum, block_counts, sd))
+        if matches:
+            self._update_teeth(matches, cell, block, cell.noise(torques[-window:]))
         else:
             self._clear_teeth()
 

@@ -126,13 +126,13 @@ def _free_coordinates(scene: Scene, rows: PlanarRows) -> np.ndarray:
     and planets move with the carrier.
     """
     basis = np.eye(len(rows.coordinates))
-    held = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
+    fixed = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
     if scene.supports is None:
-        held += [f"{body}.{motion}" for body in CENTRAL for motion in "xy"]
+        fixed += [f"{body}.{motion}" for body in CENTRAL for motion in "xy"]
         for i in range(scene.gearset.planets):
-            held += [f"planet_{i + 1}.xi", f"planet_{i + 1}.eta"]
+            fixed += [f"planet_{i + 1}.xi", f"planet_{i + 1}.eta"]
             basis[rows.place(f"planet_{i + 1}.eta"), rows.place("carrier.u")] = 1.0
-    return np.delete(basis, [rows.place(name) for name in held], axis=1)
+    return np.delete(basis, [rows.place(name) for name in fixed], axis=1)
 
 
 def _input_force(scene: Scene, rows: PlanarRows) -> np.ndarray:

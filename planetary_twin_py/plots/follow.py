@@ -66,11 +66,11 @@ def _headline(state: Following) -> str:
 def _significance(axes: Axes, states: Sequence[Following], changed: Mapping[Tooth, int]) -> None:
     """Significance of every tooth in each hunting period; teeth that have changed in colour."""
     judged = [state for state in states if state.every_z]
-    time, every = (np.array([getattr(state, n) for state in judged]) for n in ("time", "every_z"))
-    axes.plot(time, every, color=GREY, linewidth=0.4, alpha=0.5)
+    time, every_z = (np.array([getattr(state, n) for state in judged]) for n in ("time", "every_z"))
+    axes.plot(time, every_z, color=GREY, linewidth=0.4, alpha=0.5)
     for n, ((gear, number), column) in enumerate(changed.items()):
         label = f"{gear} tooth {number}"
-        axes.plot(time, every[:, column], color=CYCLE[n % len(CYCLE)], label=label)
+        axes.plot(time, every_z[:, column], color=CYCLE[n % len(CYCLE)], label=label)
     axes.axhline(ALARM, color="black", linewidth=0.8, linestyle="--", label="limit of an event")
     axes.set_ylabel("Each tooth, z [-]")
     axes.legend(loc="upper left")

@@ -69,15 +69,15 @@ def plot_study(
     Raises:
         ValueError: a column does not exist, or there is nothing to draw.
     """
-    known, (whole, failed) = columns(table), _without_failures(table)
+    known, (completed, failed) = columns(table), _without_failures(table)
     if kind is not None and kind not in KINDS:
         raise ValueError(f"kind = {kind!r}: must be one of {', '.join(KINDS)}")
     for name, role in [(x, "x"), (by, "by"), *((name, "y") for name in measures)]:
         if name is not None:
             find(known, name, role)
-    if not len(whole):
+    if not len(completed):
         raise ValueError("all points of the table failed")
-    known = columns(whole)
+    known = columns(completed)
     with applied():
         if (table.schema.metadata or {}).get(b"study") == BIFURCATION.encode():
             figure = bifurcation_diagram(known, measures)
@@ -87,7 +87,7 @@ def plot_study(
             varying = [name for name in fields(table) if len(known[name].distinct) > 1]
             figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
         notes = [f"{failed} of {len(table)} points failed and are omitted"] if failed else []
-        notes += [LEGEND] if clipped_points(known, len(whole)).any() else []
+        notes += [LEGEND] if clipped_points(known, len(completed)).any() else []
         if notes:
             remark(figure, "; ".join(notes))
     return figure

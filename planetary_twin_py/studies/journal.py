@@ -49,10 +49,10 @@ class Journal:
     def _read(self) -> None:
         """Read complete lines, and remove an incomplete last line."""
         text = self.path.read_bytes()
-        whole = text[: text.rfind(b"\n") + 1]
-        for line in whole.splitlines():
+        complete = text[: text.rfind(b"\n") + 1]
+        for line in complete.splitlines():
             entry = json.loads(line)
             self.done[entry["key"]] = entry["figures"]
-        if len(whole) < len(text):
+        if len(complete) < len(text):
             with self.path.open("r+b") as stream:
-                stream.truncate(len(whole))
+                stream.truncate(len(complete))

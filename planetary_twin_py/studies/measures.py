@@ -95,11 +95,11 @@ def axes_row(motion: AxesMotion) -> Row:
     Args:
         motion: statistics of the axes over a window.
     """
-    found, members = axes_statistics(motion), len(MEMBERS)
+    statistics, members = axes_statistics(motion), len(MEMBERS)
     figures = {"load_sharing_factor": motion.load_sharing_factor}
     for name in STUDIED_OF_AXES:
-        figures |= {f"{body}_{name}": float(found[name][k]) for k, body in enumerate(MEMBERS)}
-        figures[f"planet_{name}"] = float(found[name][members:].max())
+        figures |= {f"{body}_{name}": float(statistics[name][k]) for k, body in enumerate(MEMBERS)}
+        figures[f"planet_{name}"] = float(statistics[name][members:].max())
     return figures
 
 

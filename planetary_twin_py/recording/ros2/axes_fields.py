@@ -15,7 +15,7 @@ from .fields import with_room
 
 def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
     """Fields of AxesState of a window whose axes move as `axes`."""
-    planets, found = len(axes.mean_load_share), axes_statistics(axes)
+    planets, statistics = len(axes.mean_load_share), axes_statistics(axes)
     fields: dict[str, Any] = {
         "planets": planets,
         "simulated_time": window.end,
@@ -25,9 +25,9 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
         "load_share": with_room(axes.mean_load_share),
     }
     for name in FLANKS:
-        of_sides = found.pop(name).reshape(len(SIDES), planets)
+        of_sides = statistics.pop(name).reshape(len(SIDES), planets)
         fields |= {f"{side}_{name}": with_room(of_sides[k]) for k, side in enumerate(SIDES)}
-    for name, values in found.items():
+    for name, values in statistics.items():
         for body, member in enumerate(MEMBERS):
             fields |= _named(member, name, values[body])
         if len(values) > len(MEMBERS):

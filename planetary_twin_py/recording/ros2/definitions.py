@@ -68,9 +68,9 @@ def _text(kind: str) -> str:
     """Text of one .msg file, from this package or from rosbags."""
     package, _, name = kind.split("/")
     if package == "planetary_twin_msgs":
-        own = Path(__file__).parent / "msg" / f"{name}.msg"
+        file = Path(__file__).parent / "msg" / f"{name}.msg"
         # If installed as a ROS package, the files belong to planetary_twin_msgs.
-        return own.read_text(encoding="utf-8") if own.is_file() else installed_definition(kind)
+        return file.read_text(encoding="utf-8") if file.is_file() else installed_definition(kind)
     text, _ = get_typestore(Stores.ROS2_JAZZY).generate_msgdef(kind, ros_version=2)
     return text.partition("=" * 80)[0]
 

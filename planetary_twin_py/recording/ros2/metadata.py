@@ -95,15 +95,15 @@ class FileEntry(NamedTuple):
 
 def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]) -> dict[str, Any]:
     """Metadata of a bag from its files, and its topics with their message counts."""
-    whole = Extent()
+    extent = Extent()
     for file in files:
         if file.messages:
-            whole.include(file.extent.start)
-            whole.include(file.extent.end)
+            extent.include(file.extent.start)
+            extent.include(file.extent.end)
     return {
         "version": VERSION,
         "storage_identifier": "mcap",
-        **_span(whole, sum(file.messages for file in files)),
+        **_span(extent, sum(file.messages for file in files)),
         "topics_with_message_count": [_topic_entry(topic, count) for topic, count in topics],
         "compression_format": "",
         "compression_mode": "",

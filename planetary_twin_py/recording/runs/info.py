@@ -184,9 +184,9 @@ class _Collector:
             messages = _Messages(index, number, decoder)
             if channel.topic.endswith(f"/{STATE}") and len(messages):
                 self._count_missing(channel.topic, messages[0])
-                found = _cover(messages)
-                self.info.simulated += found.time
-                self._missing[channel.topic] += found.missing
+                covered = _cover(messages)
+                self.info.simulated += covered.time
+                self._missing[channel.topic] += covered.missing
                 self._states[channel.topic] = messages[len(messages) - 1]
             elif channel.topic.endswith(f"/{POINT}"):
                 changes += [(times[k], channel.topic, messages[k]) for k in new]
@@ -289,11 +289,13 @@ def _cover(states: Sequence[Any]) -> _Covered:
         if last == first + 1:
             return _Covered(float(end.interval), _missing_between(begin, end))
         middle = (first + last) // 2
-        left, right = after(first, middle), after(middle, last)
-        return _Covered(left.time + right.time, left.missing + right.missing)
+        first_half, second_half = after(first, middle), after(middle, last)
+        return _Covered(
+            first_half.time + second_half.time, first_half.missing + second_half.missing
+        )
 
-    found = after(0, len(states) - 1)
-    return found._replace(time=states[0].interval + found.time)
+    rest_covered = after(0, len(states) - 1)
+    return rest_covered._replace(time=states[0].interval + rest_covered.time)
 
 
 def _missing_between(begin: Any, end: Any) -> int:

@@ -87,9 +87,9 @@ def steps(run: RecordedRun) -> Iterator[Step]:
 def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
     """Simulate every recorded interval, run by run."""
     for run in runs:
-        whole = without_gaps(run, remarks)
-        for interval, _, window in steps(replace(run, intervals=whole)):
+        intervals = without_gaps(run, remarks)
+        for interval, _, window in steps(replace(run, intervals=intervals)):
             if interval.recorded:
                 yield interval, window
-        if whole[-1] != run.intervals[-1]:
+        if intervals[-1] != run.intervals[-1]:
             return

@@ -94,7 +94,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
     An inferred interval has the length and settings of the next recorded one. Where that is
     inconsistent, the result ends, with a warning in `remarks`.
     """
-    whole: list[Interval] = []
+    intervals: list[Interval] = []
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
     for interval in run.intervals:
         length, missing = interval.end - interval.begin, interval.number - number - 1
@@ -107,10 +107,12 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
         for n in range(1, missing + 1):
             end = reached + n * length
             between = stamp + (interval.stamp - stamp) * n // (missing + 1)
-            whole.append(Interval(number + n, between, end - length, end, *interval[4:6], False))
-        whole.append(interval)
+            intervals.append(
+                Interval(number + n, between, end - length, end, *interval[4:6], False)
+            )
+        intervals.append(interval)
         number, reached, stamp = interval.number, interval.end, interval.stamp
-    return whole
+    return intervals
 
 
 def messages_of(

@@ -92,8 +92,8 @@ def fit_course(
         OSError: the file cannot be read.
     """
     began = time.process_time()
-    whole = _without_standstill(read_course(path, followed_train(scene)))
-    course = _select_part(whole, span)
+    manoeuvre = _without_standstill(read_course(path, followed_train(scene)))
+    course = _select_part(manoeuvre, span)
     if hold_out is not None and hold_out[0] < course.time[-1] and hold_out[1] > course.time[0]:
         raise ValueError(
             f"hold_out = {hold_out[0]:g} to {hold_out[1]:g} s: overlaps the fitted part, "
@@ -109,7 +109,7 @@ def fit_course(
     runs = count_runs(simulated - course.input_torque)
     held_out = predicted = reach = None
     if hold_out is not None:
-        held_out = _select_part(whole, hold_out)
+        held_out = _select_part(manoeuvre, hold_out)
         predicted, reach = _predict(model, held_out, parameters, estimate, noise, freedom)
     return FittedCourse(
         scene, parameters, estimate, course, simulated, noise, correlation, runs, held_out,
@@ -199,9 +199,9 @@ def course_remarks(found: FittedCourse) -> Iterator[str]:
         names = " and ".join(found.parameters[k].name for k in members)
         yield f"{names}: not identifiable from this manoeuvre"
     for k, parameter in enumerate(found.parameters):
-        value, near = float(estimate.values[k]), NEAR * parameter.scale
-        if value - parameter.low <= near or parameter.high - value <= near:
-            end = parameter.low if value - parameter.low <= near else parameter.high
+        value, margin = float(estimate.values[k]), NEAR * parameter.scale
+        if value - parameter.low <= margin or parameter.high - value <= margin:
+            end = parameter.low if value - parameter.low <= margin else parameter.high
             yield (
                 f"{parameter.name}: is at the end of its range, {end:.3g} {parameter.unit}".rstrip()
                 + "; the model lacks a loss, or another field is wrong"

@@ -114,12 +114,12 @@ def with_initial_magnitudes(
     Returns:
         The parameters with their new starts.
     """
-    found = list(parameters)
+    updated = list(parameters)
     for k, parameter in enumerate(parameters):
         if parameter.start != 0.0 or parameter.low != 0.0 or parameter.high == math.inf:
             continue
         tried = [parameter.high * 10.0**-n for n in range(1, DECADES + 1)]
-        starts = [np.array([p.start for p in found])]
+        starts = [np.array([p.start for p in updated])]
         starts += [np.insert(np.delete(starts[0], k), k, value) for value in tried]
         sums = [_sum(start_residuals) for start_residuals in residuals(starts)]
         candidates = [
@@ -127,8 +127,8 @@ def with_initial_magnitudes(
             for trial, total in zip(tried, sums[1:], strict=True)
             if total <= min(sums) + NO_WORSE
         ]
-        found[k] = parameter._replace(start=max(candidates, default=0.0))
-    return tuple(found)
+        updated[k] = parameter._replace(start=max(candidates, default=0.0))
+    return tuple(updated)
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
@@ -146,8 +146,8 @@ def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array
     width = len(_residuals_at(residuals, start))
 
     def at(scaled: Array) -> Array:
-        found = residuals([scaled * scale])[0]
-        return np.full(width, math.inf) if found is None else found
+        values = residuals([scaled * scale])[0]
+        return np.full(width, math.inf) if values is None else values
 
     def slopes(scaled: Array) -> Array:
         return differentiate(residuals, parameters, scaled * scale) * scale
