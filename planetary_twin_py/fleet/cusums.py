@@ -9,12 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.cusum import CLIP, CORRELATED, KAPPA, MEMORY, TRUSTED
+from ..following.cusum import CLIP, CORRELATED, KAPPA, MEMORY
 
 Array = NDArray[np.float64]
 
 TERM = 60.0  # [s] over which innovations are averaged: single readings are too noisy for 5 %
 YEAR = 365.25 * 86_400.0  # [s] in which the whole fleet has one false alarm
+KNOWN = 30.0  # successive readings from which their correlation is known
 OVERSHOOT = 1.166  # mean excess of a sum over its limit (Siegmund 1985, ch. 10)
 
 
@@ -100,7 +101,7 @@ class Cusums:
         score, readings, value, weight = self._sums
         has_reading = readings > 0.0
         term = score / np.sqrt(np.maximum(readings, 1.0))
-        held = (self._known >= TRUSTED) & (self.correlation > CORRELATED)
+        held = (self._known >= KNOWN) & (self.correlation > CORRELATED)
         for sign, row in ((1.0, 0), (-1.0, 1)):
             sums = self._value[row]
             sums[has_reading] += (sign * term - KAPPA)[has_reading]

@@ -57,7 +57,8 @@ class HuntingBlock(NamedTuple):
     mean: float
     """Mean transmission error [m]; NaN if much of the block is missing."""
     segment: int
-    """Number of times that the count of turns was lost; encoder zeros are valid in one segment."""
+    """Number of the segment, from 1. The count of turns was lost between two segments, and encoder
+    zeros are valid in one of them."""
 
 
 class EncoderCounters:
@@ -74,7 +75,7 @@ class EncoderCounters:
         """Hunting periods with too many gaps, in which the train reversed, or too long before the
         readings of the torque."""
         self.segments = 1
-        """Number of times that the count of turns restarted."""
+        """Number of segments: one more than the times that the count of turns was lost."""
 
 
 class HuntingBlocks:

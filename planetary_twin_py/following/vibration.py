@@ -182,7 +182,7 @@ class VibrationFollower:
         self.names, self.period, self.counters = names, period, VibrationCounters()
         self.events: list[Event] = []
         """Patterns that have grown."""
-        self._train, self._learning = train, learning
+        self._train, self._usual_learning = train, learning
         self._period_angle = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
         self._longest_period = self._period_angle / (SLOWEST * train.speed)  # [s]
         self._patterns = tuple(_patterns(train))
@@ -192,9 +192,6 @@ class VibrationFollower:
         self._begin = math.nan  # start of the present hunting period [s]
         self._judged_until = math.nan  # time of the last call of `judge` [s]
         self.learn()
-        # The standard deviation is known from `learning` hunting periods only, so this is the
-        # quantile of Student's distribution that has the probability of a normal z of ALARM.
-        self._limit = -float(stdtrit(learning - 1, ndtr(-ALARM)))
 
     @property
     def saved(self) -> VibrationBaseline | None:
@@ -228,11 +225,21 @@ class VibrationFollower:
 
     def learn(self) -> None:
         """Forget baselines; events remain. The next hunting periods are learned."""
+        self._learning = self._usual_learning
         self._baselines: list[_Baseline] = []
         self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: _Baseline | None = None
         self._reported: dict[tuple[int, int], tuple[int, _Baseline]] = {}
         """Index of the event, and the baseline that showed it, by channel and pattern."""
+
+    @property
+    def _limit(self) -> float:
+        """Standardised growth that is reported.
+
+        The standard deviation is known from a few hunting periods only, so this is the quantile of
+        Student's distribution that has the probability of a normal z of ALARM.
+        """
+        return -float(stdtrit(self._learning - 1, ndtr(-ALARM)))
 
     def add(self, time: Array, values: Array) -> None:
         """Add samples in the order of their arrival.
@@ -307,6 +314,9 @@ class VibrationFollower:
         self, span: tuple[float, float], time: Array, values: Array, course: Turning
     ) -> None:
         inside = (course.time > span[0]) & (course.time < span[1])
+        if np.count_nonzero(inside) < 2:  # whether the speed was steady is not known
+            self.counters.dropped_periods += 1
+            return
         speeds, torque = course.speed[inside], float(np.mean(course.torque[inside]))
         speed = float(np.mean(speeds))
         complete = len(time) >= PRESENT * (span[1] - span[0]) / self.period

@@ -50,6 +50,8 @@ def open_segment(file: Path, warn: Warn) -> Segment:
         return _InOrder(file, warn)
     if summary.statistics.message_count and not summary.chunk_indexes:
         return _InOrder(file, warn)
+    if len(summary.channels) < summary.statistics.channel_count:  # they are not repeated there
+        return _InOrder(file, warn)
     return _Indexed(file, summary, warn)
 
 

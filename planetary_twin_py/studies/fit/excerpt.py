@@ -22,6 +22,7 @@ from ...recording.runs.schedule import (
     Interval,
     RecordedRun,
     messages_of,
+    nanoseconds,
     read_runs,
     stamp_of,
 )
@@ -217,7 +218,7 @@ def _since_start_angles(scene: Scene, state: Any) -> float:
 def _blocks(path: Path, namespace: str, intervals: list[Interval]) -> Iterator[Any]:
     """Blocks of the waveform within the intervals."""
     begin, end = intervals[0].begin / TICKS, intervals[-1].end / TICKS
-    stamps = intervals[0].stamp - (intervals[0].end - intervals[0].begin) // 1000, intervals[-1]
+    stamps = intervals[0].stamp - nanoseconds(intervals[0].end - intervals[0].begin), intervals[-1]
     for _, message in messages_of(path, namespace, (WAVEFORM,), []):
         within = stamps[0] <= stamp_of(message) <= stamps[1].stamp
         if within and begin - 1e-9 <= message.start_time <= end:

@@ -174,7 +174,9 @@ def _mesh_phase(intervals: Sequence[IntervalReadings], excerpt: Excerpt, time: A
     times, phases = [first.end - first.length], [0.0]
     for before, interval in zip([None, *intervals], intervals, strict=False):
         if before and interval.end - interval.length > before.end + 1e-9:
-            raise ValueError(f"observe = {HARMONICS}: intervals are missing before {interval.end}")
+            raise ValueError(
+                f"observe = {HARMONICS}: intervals are missing before {interval.end:g} s"
+            )
         rate = interval.fields["sun_speed"] - interval.fields["carrier_speed"]
         times.append(interval.end)
         phases.append(phases[-1] + teeth * rate / (2.0 * math.pi) * interval.length)
