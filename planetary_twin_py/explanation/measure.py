@@ -54,18 +54,18 @@ def explain(
     dynamics = choose_dynamics(scene)
     if scene.dynamics == AUTO:
         scene = dynamics.scene
-    whole = simulate(scene, duration)
+    run = simulate(scene, duration)
     effects = []
     for term in terms(scene):
         progress(term.name)
         effects.append(_effect(scene, term, duration))
-    warned = tuple(remarks(scene, whole, TOLERANCE))
-    return Explanation(summary_of(whole), tuple(effects), dynamics, warned)
+    warned = tuple(remarks(scene, run, TOLERANCE))
+    return Explanation(summary_of(run), tuple(effects), dynamics, warned)
 
 
 def _effect(scene: Scene, term: Term, duration: float) -> Effect:
-    other = scene.replace(**term.without)
-    pairs = [(simulate(scene, duration), simulate(other, duration)) for _ in range(REPEATS)]
+    changed = scene.replace(**term.without)
+    pairs = [(simulate(scene, duration), simulate(changed, duration)) for _ in range(REPEATS)]
     cost = 1.0 - median(_time(without) / _time(with_) for with_, without in pairs)
     return Effect(term, summary_of(pairs[-1][1]), cost)
 

@@ -74,20 +74,20 @@ def describe_meshes(scene: Scene) -> Meshes:
     force = abs(mesh_force(scene, point.input_torque))
     pressure = [_pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
-    found = gearset.geometry.meshes
-    paths = [mesh.path for mesh in found]
+    working_meshes = gearset.geometry.meshes
+    paths = [mesh.path for mesh in working_meshes]
     sun_planet, planet_ring = (
         MeshFigures(
             teeth=(teeth[first], teeth[second]),
-            pressure_angle=found[kind].pressure_angle,
+            pressure_angle=working_meshes[kind].pressure_angle,
             contact_ratio=paths[kind].contact_ratio,
             overlap_ratio=overlap_ratio(
-                gearset.face_width, gearset.base_helix, found[kind].base_pitch
+                gearset.face_width, gearset.base_helix, working_meshes[kind].base_pitch
             ),
             approach=paths[kind].approach,
             recess=paths[kind].recess,
-            geometric_backlash=found[kind].backlash,
-            tip_clearances=found[kind].tip_clearances,
+            geometric_backlash=working_meshes[kind].backlash,
+            tip_clearances=working_meshes[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
             mean_stiffness=float(mean[kind]),
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),

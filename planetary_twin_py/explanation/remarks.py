@@ -19,7 +19,7 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
     Args:
         scene: the scene.
         run: its result.
-        tolerance: of the run.
+        tolerance: tolerance of the run.
     """
     if line := ledger_warning(balance_of_run(run.energy), tolerance):
         yield line

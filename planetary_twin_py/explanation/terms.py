@@ -79,7 +79,7 @@ def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model that apply to `scene`."""
     statics = (STATICS_ONLY,) if scene.quasi_static else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
-    rolling = (CAGE,) if _elements(scene) is not None else ()
+    rolling = (CAGE,) if _rolling_elements(scene) is not None else ()
     if scene.tilting_axes:
         return (*statics, SHUTTLING, *NOMINAL_LINES, *rolling, *NOT_MODELLED)
     if scene.moving_axes:
@@ -193,11 +193,11 @@ def _unequal_stiffness(scene: Scene) -> Term | None:
     planets = [scene.errors.of_planet(i) for i in range(scene.gearset.planets)]
     meshes = len({planet.stiffness for planet in planets}) > 1
     pins = len({planet.pin_stiffness for planet in planets}) > 1 and scene.moving_axes
-    found = [name for name, differ in (("meshes", meshes), ("pins", pins)) if differ]
-    if not found:
+    parts = [name for name, differ in (("meshes", meshes), ("pins", pins)) if differ]
+    if not parts:
         return None
     without: dict[str, Any] = {f"errors.{name}": () for name in _FACTORS}
-    return Term("unequal stiffness", f"{' and '.join(found)} of the planets", without)
+    return Term("unequal stiffness", f"{' and '.join(parts)} of the planets", without)
 
 
 def _damping(scene: Scene) -> Term | None:
@@ -225,24 +225,24 @@ def _ripple(scene: Scene) -> Term | None:
 
 
 def _bearings(scene: Scene) -> Term | None:
-    found = [kind for kind in KINDS if getattr(scene.losses, f"{kind}_bearing") is not None]
-    if not found:
+    kinds = [kind for kind in KINDS if getattr(scene.losses, f"{kind}_bearing") is not None]
+    if not kinds:
         return None
-    without = {f"losses.{kind}_bearing": None for kind in found}
-    return Term("bearings", f"Palmgren, of {', '.join(found)}", without)
+    without = {f"losses.{kind}_bearing": None for kind in kinds}
+    return Term("bearings", f"Palmgren, of {', '.join(kinds)}", without)
 
 
-def _elements(scene: Scene) -> Term | None:
-    """Rolling elements, against linear bearings with their stiffness under a nominal load."""
+def _rolling_elements(scene: Scene) -> Term | None:
+    """Rolling elements; without them, bearings are linear, as stiff as under a nominal load."""
     supports = scene.supports
     if supports is None or not scene.moving_axes:
         return None
-    found = {kind: getattr(supports, kind).rolling for kind in KINDS}
-    names = [f"{kind} on {rolling.text}" for kind, rolling in found.items() if rolling]
+    rolling_of = {kind: getattr(supports, kind).rolling for kind in KINDS}
+    names = [f"{kind} on {rolling.text}" for kind, rolling in rolling_of.items() if rolling]
     if not names:
         return None
     without: dict[str, Any] = {}
-    for kind, rolling in found.items():
+    for kind, rolling in rolling_of.items():
         if rolling:
             without[f"supports.{kind}.rolling"] = None
             without[f"supports.{kind}.bearing"], _ = linear_bearing(scene, kind)
@@ -251,11 +251,11 @@ def _elements(scene: Scene) -> Term | None:
 
 def _drag(scene: Scene) -> Term | None:
     drags = {kind: getattr(scene.losses, f"{kind}_drag") for kind in ("sun", "ring", "carrier")}
-    found = [kind for kind, drag in drags.items() if drag.coulomb or drag.viscous]
-    if not found:
+    kinds = [kind for kind, drag in drags.items() if drag.coulomb or drag.viscous]
+    if not kinds:
         return None
-    without: dict[str, Any] = {f"losses.{kind}_drag": {} for kind in found}
-    return Term("seals and grease", f"Coulomb and viscous, of {', '.join(found)}", without)
+    without: dict[str, Any] = {f"losses.{kind}_drag": {} for kind in kinds}
+    return Term("seals and grease", f"Coulomb and viscous, of {', '.join(kinds)}", without)
 
 
 def _churning(scene: Scene) -> Term | None:
@@ -280,7 +280,7 @@ _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _boundary,
     _rolling,
     _bearings,
-    _elements,
+    _rolling_elements,
     _drag,
     _churning,
 )

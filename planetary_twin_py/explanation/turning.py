@@ -26,19 +26,19 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
 
     Returns:
         A sentence if the run covers less than a mesh cycle, another if its mean speed is not that
-        of the operating point. None where the gears are to stand still.
+        of the operating point. Nothing where the gears are to stand still.
     """
     wanted = wanted_mesh_frequency(scene)
     if not wanted > STANDSTILL:
         return
     speeds = dict(zip(run.bodies, run.mean_speed.tolist(), strict=True))
-    found = mesh_frequency(scene.gearset.tooth_numbers, speeds["sun"], speeds["carrier"])
-    if found * run.duration < WHOLE:
+    frequency = mesh_frequency(scene.gearset.tooth_numbers, speeds["sun"], speeds["carrier"])
+    if frequency * run.duration < WHOLE:
         yield (
-            f"the run covers {found * run.duration:.2g} of a mesh cycle: means depend on where the "
-            f"teeth are; a mesh cycle takes {1.0 / wanted:.3g} s"
+            f"the run covers {frequency * run.duration:.2g} of a mesh cycle: means depend on where "
+            f"the teeth are; a mesh cycle takes {1.0 / wanted:.3g} s"
         )
-    elif off_speed(share := speed_share(scene, found)):
+    elif off_speed(share := speed_share(scene, frequency)):
         yield (
             f"the gears turn at {share:.3g} of the speed of the operating point on average, "
             f"because {ADVICE}"

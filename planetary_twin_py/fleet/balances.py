@@ -134,43 +134,51 @@ class Balances:
         turning = np.abs(row.input_speed) > STANDSTILL * train.speed
         driving = row.input_torque - self._inertia * row.acceleration
         driven = train.ratio * row.output_torque
-        good = np.isfinite(driving) & np.isfinite(driven) & turning
-        speed = np.where(good, row.input_speed, train.speed)
-        first = np.where(good, driving, train.torque)
+        usable = np.isfinite(driving) & np.isfinite(driven) & turning
+        speed = np.where(usable, row.input_speed, train.speed)
+        measured_torque = np.where(usable, driving, train.torque)
         oil = np.where(np.isfinite(row.oil_temperature), row.oil_temperature, train.oil_temperature)
         sign = np.sign(speed)
-        losses = self.table(first, speed, oil)
-        phi, over = self._friction(first, speed)
-        lost = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * first
+        losses = self.table(measured_torque, speed, oil)
+        phi, logarithms = self._friction(measured_torque, speed)
+        expected_sum = (
+            sign * (phi * losses.teeth + losses.rest + x[:, D])
+            + x[:, B]
+            + x[:, G] * measured_torque
+        )
         # Mean of both ends, weighted by the inverse variances of their readings.
-        share = self._noise[1] / sum(self._noise)
-        torque = share * first + (1.0 - share) * (lost - np.where(good, driven, lost - first))
+        weight = self._noise[1] / sum(self._noise)
+        torque = weight * measured_torque + (1.0 - weight) * (
+            expected_sum - np.where(usable, driven, expected_sum - measured_torque)
+        )
         losses = self.table(torque, speed, oil)
-        phi, over = self._friction(torque, speed)
+        phi, logarithms = self._friction(torque, speed)
         slope = np.stack(
             [
                 sign * losses.teeth, np.ones(self.count), sign, torque,
-                sign * losses.teeth * over[0], sign * losses.teeth * over[1],
+                sign * losses.teeth * logarithms[0], sign * losses.teeth * logarithms[1],
             ], axis=1,
         )  # fmt: skip
         expected = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * torque
         noise = self.excess * sum(self._noise)
-        noise += (INERTIA * self._inertia * np.where(good, row.acceleration, 0.0)) ** 2
-        return self._update(np.where(good, driving + driven - expected, np.nan), slope, noise, step)
+        noise += (INERTIA * self._inertia * np.where(usable, row.acceleration, 0.0)) ** 2
+        return self._update(
+            np.where(usable, driving + driven - expected, np.nan), slope, noise, step
+        )
 
     def _friction(self, torque: Array, speed: Array) -> tuple[Array, tuple[Array, Array]]:
         """Friction level at operating points, and the logarithms of torque and speed, (n,) each."""
-        over_t = np.log(np.maximum(np.abs(torque) / self.train.torque, LEAST))
-        over_w = np.log(np.maximum(np.abs(speed) / self.train.speed, LEAST))
+        log_torque = np.log(np.maximum(np.abs(torque) / self.train.torque, LEAST))
+        log_speed = np.log(np.maximum(np.abs(speed) / self.train.speed, LEAST))
         x = self.x
-        return x[:, F] + x[:, F_T] * over_t + x[:, F_W] * over_w, (over_t, over_w)
+        return x[:, F] + x[:, F_T] * log_torque + x[:, F_W] * log_speed, (log_torque, log_speed)
 
     def _predict(self, step: float) -> None:
-        keep = np.exp(-step / self._fall)
-        self.x = self.mean + keep * (self.x - self.mean)
-        self.p *= np.outer(keep, keep)
-        fresh = (1.0 - keep**2) * self.sd**2 + self._walk**2 * step
-        self.p[:, range(len(keep)), range(len(keep))] += fresh
+        decay = np.exp(-step / self._fall)
+        self.x = self.mean + decay * (self.x - self.mean)
+        self.p *= np.outer(decay, decay)
+        added_variance = (1.0 - decay**2) * self.sd**2 + self._walk**2 * step
+        self.p[:, range(len(decay)), range(len(decay))] += added_variance
 
     def _update(self, innovation: Array, slope: Array, noise: Array, step: float) -> Innovations:
         """Scalar updates in Joseph's form, of the gearboxes whose reading passes the gate.
@@ -178,19 +186,21 @@ class Balances:
         (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h. Sums
         are element by element, so that the bits of a gearbox do not depend on the others.
         """
-        along = _sum(self.p[:, :, k] * slope[:, k, None] for k in range(len(PARAMETERS)))
-        variance = _sum(slope[:, k] * along[:, k] for k in range(len(PARAMETERS))) + noise
+        cross_covariance = _sum(self.p[:, :, k] * slope[:, k, None] for k in range(len(PARAMETERS)))
+        variance = (
+            _sum(slope[:, k] * cross_covariance[:, k] for k in range(len(PARAMETERS))) + noise
+        )
         sd = np.sqrt(variance)
         score = innovation / sd
-        fits = np.abs(score) <= GATE  # false without a reading
-        gain = np.where(fits[:, None], along / variance[:, None], 0.0)
-        self.x = self.x + gain * np.where(fits, innovation, 0.0)[:, None]
-        cross = gain[:, :, None] * along[:, None, :]
+        accepted = np.abs(score) <= GATE  # false without a reading
+        gain = np.where(accepted[:, None], cross_covariance / variance[:, None], 0.0)
+        self.x = self.x + gain * np.where(accepted, innovation, 0.0)[:, None]
+        cross = gain[:, :, None] * cross_covariance[:, None, :]
         square = variance[:, None, None] * (gain[:, :, None] * gain[:, None, :])
         self.p = self.p - (cross + np.swapaxes(cross, 1, 2)) + square
-        share = min(step / NOISE_MEMORY, 0.1)
-        over = np.where(np.isfinite(score), np.minimum(score**2, GATE**2), 1.0)
-        self.excess = np.maximum(1.0, self.excess * (1.0 + share * (over - 1.0)))
+        weight = min(step / NOISE_MEMORY, 0.1)
+        normalised_square = np.where(np.isfinite(score), np.minimum(score**2, GATE**2), 1.0)
+        self.excess = np.maximum(1.0, self.excess * (1.0 + weight * (normalised_square - 1.0)))
         return Innovations(innovation, sd)
 
 

@@ -9,12 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.cusum import CLIP, CORRELATED, KAPPA, MEMORY, TRUSTED
+from ..following.cusum import CLIP, CORRELATED, KAPPA, MEMORY
 
 Array = NDArray[np.float64]
 
 TERM = 60.0  # [s] over which innovations are averaged: single readings are too noisy for 5 %
 YEAR = 365.25 * 86_400.0  # [s] in which the whole fleet has one false alarm
+KNOWN = 30.0  # successive readings from which their correlation is known
 OVERSHOOT = 1.166  # mean excess of a sum over its limit (Siegmund 1985, ch. 10)
 
 
@@ -84,11 +85,11 @@ class Cusums:
             Steps that are detected now; their sums then start from zero.
         """
         score = np.clip(value / sd, -CLIP, CLIP)
-        there = np.isfinite(score)
-        self._correlate(score, there, step)
+        has_reading = np.isfinite(score)
+        self._update_correlation(score, has_reading, step)
         weight = 1.0 / sd**2
         terms = np.stack([score, np.ones(self.count), weight * value, weight])
-        self._sums += np.where(there, terms, 0.0)
+        self._sums += np.where(has_reading, terms, 0.0)
         if math.isnan(self._begin):
             self._begin, self._since[:] = time - step, time - step
         if time < self._begin + TERM - 0.5 * step:
@@ -98,22 +99,22 @@ class Cusums:
 
     def _end_term(self, time: float) -> Steps:
         score, readings, value, weight = self._sums
-        there = readings > 0.0
+        has_reading = readings > 0.0
         term = score / np.sqrt(np.maximum(readings, 1.0))
-        held = (self._known >= TRUSTED) & (self.correlation > CORRELATED)
-        for sign, place in ((1.0, 0), (-1.0, 1)):
-            sums = self._value[place]
-            sums[there] += (sign * term - KAPPA)[there]
+        held = (self._known >= KNOWN) & (self.correlation > CORRELATED)
+        for sign, row in ((1.0, 0), (-1.0, 1)):
+            sums = self._value[row]
+            sums[has_reading] += (sign * term - KAPPA)[has_reading]
             zero = sums <= 0.0
             sums[zero] = 0.0
-            self._total[place][zero] = self._weight[place][zero] = 0.0
-            self._since[place][zero], self._held[place][zero] = time, held[zero]
-            grows = there & ~zero
-            self._total[place][grows] += value[grows]
-            self._weight[place][grows] += weight[grows]
+            self._total[row][zero] = self._weight[row][zero] = 0.0
+            self._since[row][zero], self._held[row][zero] = time, held[zero]
+            grows = has_reading & ~zero
+            self._total[row][grows] += value[grows]
+            self._weight[row][grows] += weight[grows]
         self._sums[:] = 0.0
-        found = (self._value > self.limit) & ~self._held
-        side, gearbox = np.nonzero(found)
+        alarms = (self._value > self.limit) & ~self._held
+        side, gearbox = np.nonzero(alarms)
         if not len(gearbox):
             return NONE
         weight = self._weight[side, gearbox]
@@ -124,11 +125,13 @@ class Cusums:
         self._since[:, gearbox] = time
         return steps
 
-    def _correlate(self, score: Array, there: NDArray[np.bool_], step: float) -> None:
+    def _update_correlation(
+        self, score: Array, has_reading: NDArray[np.bool_], step: float
+    ) -> None:
         """Update the correlation of successive innovations, over a minute or 50 of them."""
-        both = there & np.isfinite(self._last)
+        successive = has_reading & np.isfinite(self._last)
         share = min(step / MEMORY, 0.02)
-        change = np.where(both, score * self._last - self.correlation, 0.0)
+        change = np.where(successive, score * self._last - self.correlation, 0.0)
         self.correlation += share * change
-        self._known += np.where(both, 1.0, 0.0)
-        self._last = np.where(there, score, self._last)
+        self._known += np.where(successive, 1.0, 0.0)
+        self._last = np.where(has_reading, score, self._last)

@@ -34,9 +34,9 @@ class FleetEstimate(NamedTuple):
     value: Array
     """Value in SI; NaN where the readings do not determine it."""
     low: Array
-    """Lower end of the 95 % interval, likewise."""
+    """Lower end of the 95 % interval, in SI; NaN where there is no value."""
     high: Array
-    """Upper end of the 95 % interval, likewise."""
+    """Upper end of the 95 % interval, in SI; NaN where there is no value."""
 
 
 class FleetEvent(NamedTuple):
@@ -91,9 +91,9 @@ class Fleet:
                 f"period = {self.period!r} s: must be within {FASTEST:g} and {SLOWEST:g}"
             )
         self.train, self.table = followed_train(self.scene), loss_table(self.scene)
-        made = self.train, self.table, self.sensors
-        self._wide = Balances(*made, interval_memory(), self.count)
-        self._slow = Balances(*made, alarm_memory(self.train), self.count)
+        common = self.train, self.table, self.sensors
+        self._interval_filters = Balances(*common, interval_memory(), self.count)
+        self._alarm_filters = Balances(*common, alarm_memory(self.train), self.count)
         self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
@@ -103,8 +103,8 @@ class Fleet:
         """Whether the readings do not fit the scene, (n,): the loss has stepped three times in
         close succession, because units, signs or gains are wrong, or the scene is another one.
         Such a gearbox has no estimates, and no further events."""
-        self._stepped = np.full(self.count, -math.inf)  # time of the last step [s]
-        self._successive = np.zeros(self.count, dtype=np.int64)  # steps in close succession
+        self._last_step_times = np.full(self.count, -math.inf)  # [s]
+        self._close_steps = np.zeros(self.count, dtype=np.int64)  # in close succession
 
     def add(self, time: float, readings: Mapping[str, Array]) -> None:
         """Add one reading of every gearbox.
@@ -133,11 +133,13 @@ class Fleet:
         acceleration = np.where(np.isfinite(change), change / step, 0.0)
         self._time, self._speed = time, speed
         self._oil = np.where(np.isfinite(row["oil_temperature"]), row["oil_temperature"], self._oil)
-        taken = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
-        self._wide.update(taken, step)
-        found = self._slow.update(taken, step)
-        self.readings += np.isfinite(found.value)
-        self._alarm(time, taken, self._cusums.add(time, found.value, found.sd, self.period))
+        reading = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
+        self._interval_filters.update(reading, step)
+        innovations = self._alarm_filters.update(reading, step)
+        self.readings += np.isfinite(innovations.value)
+        self._alarm(
+            time, reading, self._cusums.add(time, innovations.value, innovations.sd, self.period)
+        )
 
     def _alarm(self, time: float, row: Row, steps: Steps) -> None:
         fits = ~self.misfits[steps.gearbox]
@@ -146,23 +148,23 @@ class Fleet:
         if not len(gearbox):
             return
         oil = row.oil_temperature[gearbox]
-        lost = self.table(row.input_torque[gearbox], row.input_speed[gearbox], oil)
-        sense = np.sign(row.input_speed[gearbox])
-        for place, n in enumerate(gearbox):
-            value = float(sense[place] * size[place])
-            whole = float(lost.teeth[place] + lost.rest[place])
-            self.events.append(FleetEvent(int(n), float(since[place]), time, value, value / whole))
-        which = np.zeros(self.count, dtype=bool)
-        which[gearbox] = True
-        self._slow.restart(which)
-        self._wide.reopen(which)
+        losses = self.table(row.input_torque[gearbox], row.input_speed[gearbox], oil)
+        direction = np.sign(row.input_speed[gearbox])
+        for k, index in enumerate(gearbox):
+            value = float(direction[k] * size[k])
+            loss = float(losses.teeth[k] + losses.rest[k])
+            self.events.append(FleetEvent(int(index), float(since[k]), time, value, value / loss))
+        mask = np.zeros(self.count, dtype=bool)
+        mask[gearbox] = True
+        self._alarm_filters.restart(mask)
+        self._interval_filters.reopen(mask)
 
     def _note_misfits(self, time: float, gearbox: NDArray[np.int64]) -> None:
         """Count the steps of each gearbox in close succession."""
-        close = time - self._stepped[gearbox] <= max(CLOSE, 3.0 * self.period)
-        self._successive[gearbox] = np.where(close, self._successive[gearbox] + 1, 1)
-        self._stepped[gearbox] = time
-        self.misfits |= self._successive >= MOST_STEPS
+        close = time - self._last_step_times[gearbox] <= max(CLOSE, 3.0 * self.period)
+        self._close_steps[gearbox] = np.where(close, self._close_steps[gearbox] + 1, 1)
+        self._last_step_times[gearbox] = time
+        self.misfits |= self._close_steps >= MOST_STEPS
 
     def estimate(self, name: str) -> FleetEstimate:
         """Estimate of one parameter for all gearboxes.
@@ -180,10 +182,10 @@ class Fleet:
         """
         if name not in PARAMETERS[:4]:
             raise ValueError(f"{name!r}: must be one of {', '.join(PARAMETERS[:4])}")
-        state, wide = PARAMETERS.index(name), self._wide
-        sd = np.sqrt(np.maximum(wide.p[:, state, state], 0.0))
-        known = (sd < IDENTIFIABLE * wide.sd[state]) & ~self.misfits
+        state, filters = PARAMETERS.index(name), self._interval_filters
+        sd = np.sqrt(np.maximum(filters.p[:, state, state], 0.0))
+        known = (sd < IDENTIFIABLE * filters.sd[state]) & ~self.misfits
         if state == F:
-            sd = np.hypot(sd, self.table.error * wide.x[:, F] / CONFIDENT)
-        value = np.where(known, wide.x[:, state], math.nan)
+            sd = np.hypot(sd, self.table.error * filters.x[:, F] / CONFIDENT)
+        value = np.where(known, filters.x[:, state], math.nan)
         return FleetEstimate(value, value - CONFIDENT * sd, value + CONFIDENT * sd)

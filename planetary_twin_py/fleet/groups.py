@@ -61,21 +61,21 @@ class FollowGroup:
             return Failure(f"gearboxes {group[0]} to {group[-1]}: {reason}")
 
     def _follow(self, group: Group) -> tuple[GearboxResult, ...]:
-        read = read_fleet(self.path, group)
-        if len(read.time) < 2:
+        table = read_fleet(self.path, group)
+        if len(table.time) < 2:
             raise ValueError(f"{self.path}: must have at least two times")
-        period = float(np.median(np.diff(read.time)))
+        period = float(np.median(np.diff(table.time)))
         fleet = Fleet(self.scene, len(group), period, self.sensors, fleet_size=self.count)
-        for row, time in enumerate(read.time):
-            fleet.add(float(time), {name: values[row] for name, values in read.columns.items()})
+        for row, time in enumerate(table.time):
+            fleet.add(float(time), {name: values[row] for name, values in table.columns.items()})
         estimates = {name: fleet.estimate(name) for name in PARAMETERS[:4]}
         return tuple(
             GearboxResult(
                 name,
                 int(fleet.readings[n]),
                 {
-                    key: (float(one.value[n]), float(one.low[n]), float(one.high[n]))
-                    for key, one in estimates.items()
+                    key: (float(estimate.value[n]), float(estimate.low[n]), float(estimate.high[n]))
+                    for key, estimate in estimates.items()
                 },
                 tuple(event for event in fleet.events if event.gearbox == n),
                 not fleet.misfits[n],
@@ -118,10 +118,10 @@ def follow_groups(
         ValueError: a group cannot be processed.
     """
     groups = [tuple(gearboxes[n : n + size]) for n in range(0, len(gearboxes), size)]
-    found: dict[Group, tuple[GearboxResult, ...]] = {}
+    results: dict[Group, tuple[GearboxResult, ...]] = {}
     for group, result in executor.run(work, groups):
         if isinstance(result, Failure):
             raise ValueError(result.reason)
-        found[group] = result
+        results[group] = result
         report(len(group))
-    return [one for group in groups for one in found[group]]
+    return [gearbox_result for group in groups for gearbox_result in results[group]]

@@ -52,47 +52,52 @@ class LossTable:
         Returns:
             The loss torques.
         """
-        size, rate = np.maximum(np.abs(torque), 1e-9), np.maximum(np.abs(speed), 1e-9)
+        torque_size, speed_size = np.maximum(np.abs(torque), 1e-9), np.maximum(np.abs(speed), 1e-9)
         drives = (torque * speed >= 0.0).astype(np.int64)
-        k, h = _place(self._heat, temperature)
-        m, v = _place(np.log(self._speeds), np.log(rate))
-        n, u = _place(np.log(self._torques), np.log(size))
-        teeth = _between(self._teeth, drives, (k, m, n), (h, v, u)) * size
-        v = _share(self._speeds, m, rate)
-        u = _share(self._torques, n, size)
-        return Losses(teeth, _between(self._rest, drives, (k, m, n), (h, v, u)))
+        heat_index, heat_fraction = _interval_of(self._heat, temperature)
+        speed_index, speed_fraction = _interval_of(np.log(self._speeds), np.log(speed_size))
+        torque_index, torque_fraction = _interval_of(np.log(self._torques), np.log(torque_size))
+        cell = heat_index, speed_index, torque_index
+        fractions = heat_fraction, speed_fraction, torque_fraction
+        teeth = _interpolate(self._teeth, drives, cell, fractions) * torque_size
+        speed_fraction = _fraction(self._speeds, speed_index, speed_size)
+        torque_fraction = _fraction(self._torques, torque_index, torque_size)
+        fractions = heat_fraction, speed_fraction, torque_fraction
+        return Losses(teeth, _interpolate(self._rest, drives, cell, fractions))
 
     def _measured_error(self, losses: LossMap) -> float:
         """Largest relative error at random points within the table, times a safety factor."""
         chance = np.random.default_rng(0)
-        part = chance.random((3, CHECKED))
+        fractions = chance.random((3, CHECKED))
         ends = [np.log(knots[[0, -1]]) for knots in (self._torques, self._speeds)]
         torque, speed = (
             np.exp(low + share * (high - low))
-            for share, (low, high) in zip(part, ends, strict=False)
+            for share, (low, high) in zip(fractions, ends, strict=False)
         )
         low, high = self._heat[[0, -1]]
-        temperature = low + part[2] * (high - low)
-        found = self(torque, speed, temperature)
+        temperature = low + fractions[2] * (high - low)
+        interpolated = self(torque, speed, temperature)
         worst = 0.0
-        for place in range(CHECKED):
-            at = float(torque[place]), float(speed[place]), float(temperature[place])
-            true = sum(losses.run(*at))
-            worst = max(worst, abs(float(found.teeth[place] + found.rest[place]) / true - 1.0))
+        for k in range(CHECKED):
+            point = float(torque[k]), float(speed[k]), float(temperature[k])
+            exact = sum(losses.run(*point))
+            worst = max(
+                worst, abs(float(interpolated.teeth[k] + interpolated.rest[k]) / exact - 1.0)
+            )
         return SAFETY * worst
 
 
-def _place(knots: Array, value: Array) -> tuple[NDArray[np.int64], Array]:
+def _interval_of(knots: Array, value: Array) -> tuple[NDArray[np.int64], Array]:
     """Index of the interval of each value, and its position within it from 0 to 1."""
     n = np.clip(np.searchsorted(knots, value, "right") - 1, 0, len(knots) - 2)
-    return n, np.clip(_share(knots, n, value), 0.0, 1.0)
+    return n, np.clip(_fraction(knots, n, value), 0.0, 1.0)
 
 
-def _share(knots: Array, n: NDArray[np.int64], value: Array) -> Array:
+def _fraction(knots: Array, n: NDArray[np.int64], value: Array) -> Array:
     return np.asarray((value - knots[n]) / (knots[n + 1] - knots[n]))
 
 
-def _between(
+def _interpolate(
     table: Array,
     drives: NDArray[np.int64],
     place: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
@@ -100,13 +105,13 @@ def _between(
 ) -> Array:
     """Interpolate linearly in a cell; the table is (2, temperatures, speeds, torques)."""
     (k, m, n), (h, v, u) = place, share
-    found = np.zeros(len(u))
+    values = np.zeros(len(u))
     for a in (0, 1):
         for b in (0, 1):
             for c in (0, 1):
                 weight = (h if a else 1.0 - h) * (v if b else 1.0 - v) * (u if c else 1.0 - u)
-                found += weight * table[drives, k + a, m + b, n + c]
-    return found
+                values += weight * table[drives, k + a, m + b, n + c]
+    return values
 
 
 def loss_table(scene: Scene) -> LossTable:

@@ -28,8 +28,8 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
     if kind not in FORMATS:
         raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
     batch: dict[str, np.ndarray] = {
-        "gearbox": np.array([one.gearbox for one in found]),
-        "readings": np.array([one.readings for one in found]),
+        "gearbox": np.array([result.gearbox for result in found]),
+        "readings": np.array([result.readings for result in found]),
     }
     units = {
         "gearbox": "",
@@ -41,13 +41,13 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
     }
     for name in found[0].estimates:
         for part, heading in enumerate((name, f"{name}_low", f"{name}_high")):
-            batch[heading] = np.array([one.estimates[name][part] for one in found])
+            batch[heading] = np.array([result.estimates[name][part] for result in found])
             units[heading] = UNITS[name]
-    batch["fits"] = np.array([int(one.fits) for one in found])
-    batch["events"] = np.array([len(one.events) for one in found])
-    last = [one.events[-1] if one.events else None for one in found]
-    batch["last_event"] = np.array([np.nan if one is None else one.found for one in last])
-    batch["last_size"] = np.array([np.nan if one is None else one.size for one in last])
+    batch["fits"] = np.array([int(result.fits) for result in found])
+    batch["events"] = np.array([len(result.events) for result in found])
+    last = [result.events[-1] if result.events else None for result in found]
+    batch["last_event"] = np.array([np.nan if event is None else event.found for event in last])
+    batch["last_size"] = np.array([np.nan if event is None else event.size for event in last])
     columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
     table = FORMATS[kind](path, columns)
     table.write(batch)

@@ -42,10 +42,10 @@ def gearboxes_of(path: Path) -> tuple[str, ...]:
         ValueError: the file is not such a table.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
-    if GEARBOX not in found:
+    columns = read_columns(path)
+    if GEARBOX not in columns:
         raise ValueError(f"{path}: column {GEARBOX!r}: missing")
-    names = pc.unique(found[GEARBOX].values).to_pylist()
+    names = pc.unique(columns[GEARBOX].values).to_pylist()
     if not names:
         raise ValueError(f"{path}: has no rows")
     return tuple(sorted(map(str, names)))
@@ -67,24 +67,25 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
         ValueError: a column is missing, or a unit or a value is invalid.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
+    table = read_columns(path)
     for name in (GEARBOX, TIME, *CHANNELS[:3]):
-        if name not in found:
+        if name not in table:
             raise ValueError(f"{path}: column {name!r}: missing")
-    labels = pc.cast(found[GEARBOX].values, pa.string())
-    wanted = pc.is_in(labels, pa.array(gearboxes))
-    found = {
-        name: column._replace(values=column.values.filter(wanted)) for name, column in found.items()
+    labels = pc.cast(table[GEARBOX].values, pa.string())
+    selected = pc.is_in(labels, pa.array(gearboxes))
+    table = {
+        name: column._replace(values=column.values.filter(selected))
+        for name, column in table.items()
     }
-    place = np.asarray(pc.index_in(labels.filter(wanted), pa.array(gearboxes)))
-    stamps = found[TIME].in_si(TIME, "s")
+    gearbox_index = np.asarray(pc.index_in(labels.filter(selected), pa.array(gearboxes)))
+    stamps = table[TIME].in_si(TIME, "s")
     if not np.isfinite(stamps).all():
         raise ValueError(f"{path}: {TIME}: must be a finite number in every row")
     time, row = np.unique(stamps, return_inverse=True)
     columns = {}
     for name in CHANNELS:
         values = np.full((len(time), len(gearboxes)), np.nan)
-        if name in found:
-            values[row, place] = found[name].in_si(name, UNITS[name])
+        if name in table:
+            values[row, gearbox_index] = table[name].in_si(name, UNITS[name])
         columns[name] = values
     return FleetReadings(gearboxes, time, columns)

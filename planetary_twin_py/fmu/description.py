@@ -75,11 +75,11 @@ def model_description_3(about: Description) -> bytes:
     Xml.SubElement(root, "CoSimulation", {"modelIdentifier": about.identifier} | CAPABILITIES_3)
     _put_units(root, about.variables)
     _put_experiment(root, about.tolerance)
-    found = Xml.SubElement(root, "ModelVariables")
+    model_variables = Xml.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(about.variables):
         values = {"name": variable.name, "valueReference": str(reference)}
         values |= _attributes(variable) | _values(variable)
-        Xml.SubElement(found, "Float64", values)
+        Xml.SubElement(model_variables, "Float64", values)
     structure = Xml.SubElement(root, "ModelStructure")
     for element in ("Output", "InitialUnknown"):
         for reference, variable in enumerate(about.variables):
@@ -110,10 +110,10 @@ def model_description_2(about: Description) -> bytes:
     Xml.SubElement(root, "CoSimulation", {"modelIdentifier": about.identifier} | CAPABILITIES_2)
     _put_units(root, about.variables)
     _put_experiment(root, about.tolerance)
-    found = Xml.SubElement(root, "ModelVariables")
+    model_variables = Xml.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(about.variables):
         scalar = Xml.SubElement(
-            found,
+            model_variables,
             "ScalarVariable",
             {"name": variable.name, "valueReference": str(reference)} | _attributes(variable),
         )

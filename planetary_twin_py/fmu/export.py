@@ -55,8 +55,8 @@ def export_fmu(
         raise ValueError(f"version = {version!r}: must be {' or '.join(VERSIONS)}")
     _check(scene)
     exported = build_records(scene, tolerance)
-    found = variables(scene, exported)
-    put_variables(exported, found)
+    model_variables = variables(scene, exported)
+    put_variables(exported, model_variables)
     records, levels = file_of(exported), _levels()
     identifier = re.sub(r"^(?=\d)|\W", "_", scene.name, flags=re.ASCII)
     about = Description(
@@ -66,7 +66,7 @@ def export_fmu(
         token=f"{{{uuid.uuid5(NAMESPACE, version + records.hex())}}}",
         tool=f"planetary_twin_py {version_of('planetary_twin_py')}",
         tolerance=tolerance,
-        variables=found,
+        variables=model_variables,
     )
     write = model_description_3 if version == "3.0" else model_description_2
     files = {

@@ -34,16 +34,16 @@ def build_records(scene: Scene, tolerance: float) -> Exported:
         ValueError: the tolerance is out of range, or the scene cannot be built.
     """
     engine = DrivenEngine(scene, tolerance)
-    control, own = new_integrator(_core, "auto").control.copy(), engine.integrator
+    control, integrator = new_integrator(_core, "auto").control.copy(), engine.integrator
     control.acceleration_deflection, control.speed_per_deflection = (
-        own.control.acceleration_deflection,
-        own.control.speed_per_deflection,
+        integrator.control.acceleration_deflection,
+        integrator.control.speed_per_deflection,
     )
     least, points = zip(*POINTS, strict=True)
     exported = Exported(
         model=engine.model,
         control=control,
-        pause=own.periodic.pause,
+        pause=integrator.periodic.pause,
         limits=Limits(scene, engine.train).record,
         ranges=engine.port_ranges,
         report=build_report(_core, body_names(scene), mesh_names(scene)),

@@ -90,8 +90,8 @@ def variables(scene: Scene, exported: Exported) -> list[Variable]:
 
 def _of_ports(scene: Scene, exported: Exported) -> Iterator[Variable]:
     load, ranges = exported.model.load, exported.ranges
-    start = {"torque": load.torque, "speed": load.speed}
-    most = {"torque": ranges.torque, "speed": ranges.speed}
+    starts = {"torque": load.torque, "speed": load.speed}
+    limits = {"torque": ranges.torque, "speed": ranges.speed}
     for side, place in PORTS.items():
         port: Causality = getattr(scene.drive.ports, side)
         for kind, (text, unit) in SHOWN.items():
@@ -99,10 +99,10 @@ def _of_ports(scene: Scene, exported: Exported) -> Iterator[Variable]:
             if kind != GIVEN.get(port):
                 yield Variable(name, kind, description, unit, place)
                 continue
-            largest = float(most[kind][place])
+            limit = float(limits[kind][place])
             yield Variable(
                 name, kind, description, unit, place, "input",
-                start=float(start[kind][place]), minimum=-largest, maximum=largest,
+                start=float(starts[kind][place]), minimum=-limit, maximum=limit,
             )  # fmt: skip
 
 
@@ -130,17 +130,19 @@ def _variabilities(scene: Scene) -> dict[str, Literal["tunable", "fixed"]]:
     other parts of the scene, and the speed if the speed loop is not stable at every speed.
     """
     ports = scene.drive.ports
-    found: dict[str, Literal["tunable", "fixed"]] = {}
+    variabilities: dict[str, Literal["tunable", "fixed"]] = {}
     if scene.lubrication.lambda_ratio == "prescribed":
-        found["lambda_ratio"] = "tunable"
+        variabilities["lambda_ratio"] = "tunable"
     if _holds_any_speed(scene):
-        found["input_speed"] = "tunable" if ports.hold_speed else "fixed"
+        variabilities["input_speed"] = "tunable" if ports.hold_speed else "fixed"
     if _accepts_any_load(scene):
-        found["backlash"] = "tunable"
-        found["input_torque"] = "tunable" if "machine" in ports else "fixed"
+        variabilities["backlash"] = "tunable"
+        variabilities["input_torque"] = "tunable" if "machine" in ports else "fixed"
         if ports.input == "machine":
-            found["torque_ripple"] = "tunable"
-    return {name: found[name] for name in OperatingPoint.model_fields if name in found}
+            variabilities["torque_ripple"] = "tunable"
+    return {
+        name: variabilities[name] for name in OperatingPoint.model_fields if name in variabilities
+    }
 
 
 def _accepts_any_load(scene: Scene) -> bool:
@@ -148,9 +150,9 @@ def _accepts_any_load(scene: Scene) -> bool:
 
     Bounds of runout and tip relief depend on them; they are strictest without load and backlash.
     """
-    least = {"backlash": scene.tunables["backlash"].minimum, "input_torque": 0.0}
+    lightest_load = {"backlash": scene.tunables["backlash"].minimum, "input_torque": 0.0}
     try:
-        scene.point_with(scene.operating_point, least)
+        scene.point_with(scene.operating_point, lightest_load)
     except ValueError:
         return False
     return True

@@ -77,14 +77,14 @@ class _Refusals:
 
     first: bool = True
 
-    def add(self, time: float, found: Innovation) -> float | None:
+    def add(self, time: float, innovation: Innovation) -> float | None:
         """Return the time of the first of them, once they last `REFUSED`.
 
         The filter adapts to the first balance of all, so a rare one counts at once.
         """
-        rare = self.first and abs(found.value) > RARE * found.sd
+        rare = self.first and abs(innovation.value) > RARE * innovation.sd
         self.first = False
-        if not (found.gated or rare or self.rare):
+        if not (innovation.gated or rare or self.rare):
             self.begin = math.nan
             return None
         self.rare |= rare
@@ -125,8 +125,10 @@ class BalanceFollower:
         self.train = followed_train(self.scene)
         losses = loss_map(self.scene)
         self._losses = losses
-        self._wide = BalanceFilter(self.train, losses, self.sensors, interval_memory())
-        self._slow = BalanceFilter(self.train, losses, self.sensors, alarm_memory(self.train))
+        self._interval_filter = BalanceFilter(self.train, losses, self.sensors, interval_memory())
+        self._alarm_filter = BalanceFilter(
+            self.train, losses, self.sensors, alarm_memory(self.train)
+        )
         noise = torque_noise(self.sensors, self.train)
         self._bins = Merge(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
         self._checks = Checks(
@@ -138,9 +140,9 @@ class BalanceFollower:
         self._cusum, self._refusals = Cusum(), _Refusals()
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
-        self._before: tuple[BalanceFilter, StepCause, int] | None = None
-        self._steps: deque[float] = deque()  # times of the last steps [s]
-        self._last: tuple[float, float] | None = None  # time and speed
+        self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
+        self._step_times: deque[float] = deque()  # [s], the latest last
+        self._last_speed: tuple[float, float] | None = None  # time and speed
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
         self.operating = (math.nan, self.train.oil_temperature)
@@ -166,8 +168,8 @@ class BalanceFollower:
         Raises:
             InputError: a channel has another unit, sign or shaft, see `checks`.
         """
-        for found in self._bins.add(time, columns, sender):
-            self._process(found)
+        for time_bin in self._bins.add(time, columns, sender):
+            self._process(time_bin)
 
     def finish(self) -> None:
         """Process the bins that are still open, at the end of a recording.
@@ -175,54 +177,57 @@ class BalanceFollower:
         Raises:
             InputError: see `add`.
         """
-        for found in self._bins.finish():
-            self._process(found)
+        for time_bin in self._bins.finish():
+            self._process(time_bin)
         self._checks.check()
 
-    def _process(self, found: Bin) -> None:
-        self._checks.add(found)
-        self.time = (found.number + 1) * self.period
-        read = self._measured(found)
+    def _process(self, time_bin: Bin) -> None:
+        self._checks.add(time_bin)
+        self.time = (time_bin.number + 1) * self.period
+        read = self._measured(time_bin)
         if math.isfinite(read.input_torque):
             self._torques.add(self.time, read.input_torque)
         if math.isfinite(read.speed):
             self._turning.add(read.time, read.speed, read.input_torque)
             self.operating = read.speed, read.oil_temperature
-        before = self._wide.kept()
-        innovation = self._wide.update(read)
-        slow = self._slow.update(read)
-        if innovation is None or slow is None:
+        filter_before = self._interval_filter.kept()
+        innovation = self._interval_filter.update(read)
+        alarm_innovation = self._alarm_filter.update(read)
+        if innovation is None or alarm_innovation is None:
             return
-        self._recent.append((read, before))
+        self._recent.append((read, filter_before))
         self.innovation = innovation
         self.gated += innovation.gated
-        began = self._refusals.add(read.time, innovation)
-        step = self._cusum.add(read.time, slow.value, slow.sd)
-        if step is None and began is not None:
+        refused_since = self._refusals.add(read.time, innovation)
+        step = self._cusum.add(read.time, alarm_innovation.value, alarm_innovation.sd)
+        if step is None and refused_since is not None:
             self._cusum.restart(read.time)
-            step = Step(began, read.time)
+            step = Step(refused_since, read.time)
         if step is not None:
             self._alarm(step)
         self._compare_causes(read)
 
-    def _measured(self, found: Bin) -> Measured:
-        means, nan = found.means, math.nan
-        time = (found.number + 0.5) * self.period
+    def _measured(self, time_bin: Bin) -> Measured:
+        means, nan = time_bin.means, math.nan
+        time = (time_bin.number + 0.5) * self.period
         shaft, factor = "input_speed", 1.0
         if shaft not in means:
             shaft, factor = "output_speed", 1.0 / self.train.ratio
         speed = means[shaft].value * factor if shaft in means else nan
         acceleration, noise = 0.0, 0.0
         if shaft in means:
-            acceleration, noise = self._acceleration(time, speed, found, (shaft, factor))
+            acceleration, noise = self._acceleration(time, speed, time_bin, (shaft, factor))
         if "oil_temperature" in means:
             self._oil = means["oil_temperature"].value
-        first, second = means.get("input_torque"), means.get("output_torque")
+        input_mean, output_mean = means.get("input_torque"), means.get("output_torque")
         return Measured(
             time=time,
-            input_torque=nan if first is None else first.value,
-            output_torque=nan if second is None else second.value,
-            counts=(first.readings if first else 1, second.readings if second else 1),
+            input_torque=nan if input_mean is None else input_mean.value,
+            output_torque=nan if output_mean is None else output_mean.value,
+            counts=(
+                input_mean.readings if input_mean else 1,
+                output_mean.readings if output_mean else 1,
+            ),
             speed=speed,
             acceleration=acceleration,
             acceleration_noise=noise,
@@ -230,87 +235,95 @@ class BalanceFollower:
         )
 
     def _acceleration(
-        self, time: float, speed: float, found: Bin, shaft: tuple[str, float]
+        self, time: float, speed: float, time_bin: Bin, shaft: tuple[str, float]
     ) -> tuple[float, float]:
         """Acceleration of the input, and its standard deviation [rad/s^2]."""
-        mean, factor = found.means[shaft[0]], shaft[1]
-        before, self._last = self._last, (time, speed)
+        mean, factor = time_bin.means[shaft[0]], shaft[1]
+        previous, self._last_speed = self._last_speed, (time, speed)
         if math.isfinite(mean.slope):
             if math.isfinite(mean.scatter):
-                own = (mean.scatter * factor) ** 2
-                known = math.isfinite(self._scatter)
-                self._scatter = self._scatter + 0.02 * (own - self._scatter) if known else own
-            spread = self.period * math.sqrt(mean.readings / 12.0)
-            noise = math.sqrt(self._scatter) / spread if math.isfinite(self._scatter) else 0.0
+                variance = (mean.scatter * factor) ** 2
+                has_scatter = math.isfinite(self._scatter)
+                self._scatter = (
+                    self._scatter + 0.02 * (variance - self._scatter) if has_scatter else variance
+                )
+            time_norm = self.period * math.sqrt(mean.readings / 12.0)
+            noise = math.sqrt(self._scatter) / time_norm if math.isfinite(self._scatter) else 0.0
             return mean.slope * factor, noise
-        if before is None or time - before[0] > 10.0 * self.period:
+        if previous is None or time - previous[0] > 10.0 * self.period:
             return 0.0, 0.0
-        slope = (speed - before[1]) / (time - before[0])
-        return slope, 0.3 * abs(slope)  # it belongs to half a bin earlier
+        slope = (speed - previous[1]) / (time - previous[0])
+        return slope, 0.3 * abs(slope)  # the slope is that of half a bin earlier
 
     def _alarm(self, step: Step) -> None:
         reads, filters = zip(*self._recent, strict=True)
         times = np.array([read.time for read in reads])
-        place = min(int(np.searchsorted(times, step.since - MARGIN)), len(times) - 1)
-        before, reads, times = filters[place], reads[place:], times[place:]
-        balances = [before.balance(read) for read in reads]
-        covariance = before.p[PARAMETERS, PARAMETERS]
-        found = size_of(balances, covariance)
+        offset = min(int(np.searchsorted(times, step.since - MARGIN)), len(times) - 1)
+        reference_filter, reads, times = filters[offset], reads[offset:], times[offset:]
+        balances = [reference_filter.balance(read) for read in reads]
+        covariance = reference_filter.p[PARAMETERS, PARAMETERS]
+        step_size = size_of(balances, covariance)
         cause = StepCause(step.found, covariance)
-        for one in balances[found.likely :]:
-            cause.add(one)
-        sense = math.copysign(1.0, self.operating[0])
-        size = estimated("loss_torque_step", sense * found.size, found.sd, "N m")
-        torque = float(np.mean([read.input_torque for read in reads[found.likely :]]))
+        for balance in balances[step_size.likely :]:
+            cause.add(balance)
+        direction = math.copysign(1.0, self.operating[0])
+        size = estimated("loss_torque_step", direction * step_size.size, step_size.sd, "N m")
+        torque = float(np.mean([read.input_torque for read in reads[step_size.likely :]]))
         loss = self._losses(torque, *self.operating).teeth
         evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m"
-        for whole, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
-            if abs(size.value) < MANY * whole:
-                evidence += f", {100.0 * size.value / whole:.3g} % of {name}"
-        since = float(times[found.first]) - 0.5 * self.period
-        from_start = place + found.first == 0 and len(self._recent) < RECENT
-        what = "readings do not fit the scene" if from_start else "loss torque stepped"
-        self._report(before, cause, Event(what, since, step.found, size, cause.causes, evidence))
-        slope = np.sqrt(np.mean([one.slope**2 for one in balances[found.likely :]], axis=0))
-        self._slow.restart()
-        for each in (self._slow, self._wide):
-            each.reopen(found.size, slope)
+        for reference, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
+            if abs(size.value) < MANY * reference:
+                evidence += f", {100.0 * size.value / reference:.3g} % of {name}"
+        since = float(times[step_size.first]) - 0.5 * self.period
+        from_start = offset + step_size.first == 0 and len(self._recent) < RECENT
+        description = "readings do not fit the scene" if from_start else "loss torque stepped"
+        self._report(
+            reference_filter,
+            cause,
+            Event(description, since, step.found, size, cause.causes, evidence),
+        )
+        slope = np.sqrt(np.mean([after.slope**2 for after in balances[step_size.likely :]], axis=0))
+        self._alarm_filter.restart()
+        for balance_filter in (self._alarm_filter, self._interval_filter):
+            balance_filter.reopen(step_size.size, slope)
 
-    def _report(self, before: BalanceFilter, cause: StepCause, event: Event) -> None:
+    def _report(self, reference_filter: BalanceFilter, cause: StepCause, event: Event) -> None:
         """Add an event, unless steps follow each other: then no single cause explains them."""
-        while self._steps and event.found - self._steps[0] > UNSTEADY:
-            self._steps.popleft()
-        self._steps.append(event.found)
-        if len(self._steps) > FREQUENT:
+        while self._step_times and event.found - self._step_times[0] > UNSTEADY:
+            self._step_times.popleft()
+        self._step_times.append(event.found)
+        if len(self._step_times) > FREQUENT:
             return
-        self._before = before, cause, len(self.events)
-        if len(self._steps) == FREQUENT:
-            self._before = None
-            what = f"the torque balance has stepped {FREQUENT} times in {UNSTEADY:g} s"
-            more = f"last by {event.evidence}; steps are not reported while they are so frequent"
-            event = replace(event, what=what, causes=(), evidence=more)
+        self._last_step = reference_filter, cause, len(self.events)
+        if len(self._step_times) == FREQUENT:
+            self._last_step = None
+            description = f"the torque balance has stepped {FREQUENT} times in {UNSTEADY:g} s"
+            evidence = (
+                f"last by {event.evidence}; steps are not reported while they are so frequent"
+            )
+            event = replace(event, what=description, causes=(), evidence=evidence)
         self.events.append(event)
 
     def _compare_causes(self, read: Measured) -> None:
         """Update the causes of the last step."""
-        if self._before is None:
+        if self._last_step is None:
             return
-        before, cause, place = self._before
+        reference_filter, cause, event_index = self._last_step
         if not cause.begin < read.time <= cause.begin + LONGEST:
             return
-        cause.add(before.balance(read))
-        if (causes := cause.causes) != self.events[place].causes:
-            self.events[place] = replace(self.events[place], causes=causes)
+        cause.add(reference_filter.balance(read))
+        if (causes := cause.causes) != self.events[event_index].causes:
+            self.events[event_index] = replace(self.events[event_index], causes=causes)
 
     @property
     def scatter(self) -> float:
         """Standard deviation of innovations over that of the sensors' noise, at least 1."""
-        return math.sqrt(self._wide.excess)
+        return math.sqrt(self._interval_filter.excess)
 
     @property
     def friction_level(self) -> float:
         """Friction level, identifiable or not."""
-        return float(self._wide.x[F])
+        return float(self._interval_filter.x[F])
 
     def torque_between(self, begin: float, end: float) -> float:
         """Mean input torque of the bins that end within an interval.
@@ -326,17 +339,17 @@ class BalanceFollower:
         return float(np.mean(inside)) if len(inside) else math.nan
 
     def turning_between(self, begin: float, end: float) -> Turning:
-        """Speed and torque of the bins whose middles are within an interval, and one beside it.
+        """Speed and torque of the bins whose middles are within an interval and just outside it.
 
         Args:
-            begin: of the interval [s].
-            end: of the interval [s].
+            begin: start of the interval [s].
+            end: end of the interval [s].
         """
         reach = 1.5 * self.period
         return Turning(*self._turning.between(begin - reach, end + reach).T)
 
     def estimates(self) -> tuple[Estimate, ...]:
-        """Torque, loss and parameters, with intervals or with the readings that are missing."""
+        """Torque, loss and parameters: intervals, or the readings that would determine them."""
         if math.isnan(self.time):
             remedy = "readings of input_torque, output_torque and a speed"
             names = ["input_torque", "loss_torque", *UNITS]
@@ -344,23 +357,23 @@ class BalanceFollower:
                 not_identifiable(name, math.nan, UNITS.get(name, "N m"), remedy, "LEARNING")
                 for name in names
             )
-        return (*self._of_now(), *(self._parameter(n) for n in (F, D, B, G, J)))
+        return (*self._present_estimates(), *(self._parameter(n) for n in (F, D, B, G, J)))
 
-    def _of_now(self) -> Iterator[Estimate]:
-        wide = self._wide
-        sd = math.sqrt(max(float(wide.p[T, T]), 0.0))
+    def _present_estimates(self) -> Iterator[Estimate]:
+        interval_filter = self._interval_filter
+        sd = math.sqrt(max(float(interval_filter.p[T, T]), 0.0))
         if not sd < self.train.torque:
             yield not_identifiable("input_torque", sd, "N m", "readings of input_torque")
             yield not_identifiable("loss_torque", sd, "N m", "readings of both torques")
             return
-        yield estimated("input_torque", float(wide.x[T]), sd, "N m")
+        yield estimated("input_torque", float(interval_filter.x[T]), sd, "N m")
         speed, oil = self.operating
         if self.innovation is None or abs(speed) <= STANDSTILL * self.train.speed:
             yield not_identifiable(
                 "loss_torque", math.nan, "N m", "both torques while the train turns"
             )
             return
-        value, sd = wide.loss_torque(speed, oil)
+        value, sd = interval_filter.loss_torque(speed, oil)
         yield estimated("loss_torque", value, sd, "N m")
 
     def remarks(self) -> Iterator[str]:
@@ -385,27 +398,27 @@ class BalanceFollower:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"
 
     def _parameter(self, state: int) -> Estimate:
-        wide, name = self._wide, STATES[state]
-        sd = math.sqrt(max(float(wide.p[state, state]), 0.0))
+        interval_filter, name = self._interval_filter, STATES[state]
+        sd = math.sqrt(max(float(interval_filter.p[state, state]), 0.0))
         if state == F:  # the loss of the scene is as uncertain as the torque
-            sd = math.hypot(sd, float(wide.x[F] * wide.x[G]))
-        prior = float(wide.prior[1][state - F])
+            sd = math.hypot(sd, float(interval_filter.x[F] * interval_filter.x[G]))
+        prior = float(interval_filter.prior[1][state - F])
         remedy = self._remedy(state)
         if not sd < IDENTIFIABLE * prior:
             return not_identifiable(name, sd, UNITS[name], remedy)
-        return estimated(name, float(wide.x[state]), sd, UNITS[name], remedy)
+        return estimated(name, float(interval_filter.x[state]), sd, UNITS[name], remedy)
 
     def _remedy(self, state: int) -> str:
         """The readings that would separate a parameter from the one it correlates with most."""
-        p = self._wide.p
+        p = self._interval_filter.p
         sd = np.sqrt(np.maximum(np.diag(p), 1e-300))
         correlation = np.abs(p[state] / (sd * sd[state]))
         correlation[[T, 1, state]] = 0.0
-        most = int(np.argmax(correlation))
+        strongest = int(np.argmax(correlation))
         if state in (B, D):
             return REMEDIES[D]
-        if state == J or float(correlation[most]) < 0.3:
+        if state == J or float(correlation[strongest]) < 0.3:
             return OWN.get(state, REMEDIES[state])
         if state == G:
             return REMEDIES[G]
-        return REMEDIES[most]
+        return REMEDIES[strongest]

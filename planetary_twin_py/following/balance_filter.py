@@ -39,7 +39,7 @@ STATES = (
 T, RATE, F, B, D, G, J, F_T, F_W = range(len(STATES))
 PARAMETERS = slice(F, None)
 WANDER = 0.025  # random walk of the torque per sqrt(s), over the torque of the scene
-RATE_WANDER = 0.24  # random walk of its rate, likewise, in 1/s
+RATE_WANDER = 0.24  # [1/s] random walk of its rate per sqrt(s), over the torque of the scene
 INERTIA = 0.1  # standard deviation over the inertia of the scene
 DRAG = 5e-4  # standard deviation over the torque of the scene
 LAW = 0.2, 0.3  # standard deviations of f_T and f_w
@@ -224,9 +224,9 @@ class BalanceFilter:
 
     def kept(self) -> BalanceFilter:
         """A copy with the present state, which later updates do not change."""
-        other = copy.copy(self)
-        other.x, other.p = self.x.copy(), self.p.copy()
-        return other
+        copied = copy.copy(self)
+        copied.x, copied.p = self.x.copy(), self.p.copy()
+        return copied
 
     def balance(self, read: Measured) -> Balance:
         """Balance of the readings of one bin alone with the present parameters.
@@ -281,13 +281,13 @@ class BalanceFilter:
         self.p[T, T] += (WANDER * scale) ** 2 * step
         self.p[RATE, RATE] += (RATE_WANDER * scale) ** 2 * step
         mean, sd = self.prior
-        keep = np.exp(-step / self.memory.fall)
-        self.x[PARAMETERS] = mean + keep * (self.x[PARAMETERS] - mean)
-        every = np.concatenate([[1.0, 1.0], keep])
-        self.p *= np.outer(every, every)
-        wide = np.maximum(sd, np.abs(self.x[PARAMETERS] - mean) / USUAL)
-        fresh = (1.0 - keep**2) * wide**2 + self.memory.walk**2 * step
-        self.p[np.arange(F, len(STATES)), np.arange(F, len(STATES))] += fresh
+        decay = np.exp(-step / self.memory.fall)
+        self.x[PARAMETERS] = mean + decay * (self.x[PARAMETERS] - mean)
+        state_decay = np.concatenate([[1.0, 1.0], decay])
+        self.p *= np.outer(state_decay, state_decay)
+        stationary_sd = np.maximum(sd, np.abs(self.x[PARAMETERS] - mean) / USUAL)
+        added_variance = (1.0 - decay**2) * stationary_sd**2 + self.memory.walk**2 * step
+        self.p[np.arange(F, len(STATES)), np.arange(F, len(STATES))] += added_variance
 
     def _reset_torque(self) -> None:
         self.x[RATE] = 0.0
@@ -299,13 +299,13 @@ class BalanceFilter:
         train, x = self.train, self.x
         sign = math.copysign(1.0, speed)
         loss = self.losses(torque, speed, temperature)
-        over_t = math.log(max(abs(torque) / train.torque, LEAST))
-        over_w = math.log(max(abs(speed) / train.speed, LEAST))
-        phi = float(x[F] + x[F_T] * over_t + x[F_W] * over_w)
+        log_torque = math.log(max(abs(torque) / train.torque, LEAST))
+        log_speed = math.log(max(abs(speed) / train.speed, LEAST))
+        phi = float(x[F] + x[F_T] * log_torque + x[F_W] * log_speed)
         slope = np.zeros(len(STATES))
         slope[T] = -1.0 + x[G] + sign * phi * loss.slope * math.copysign(1.0, torque)
         slope[F], slope[F_T], slope[F_W] = (
-            sign * loss.teeth, sign * loss.teeth * over_t, sign * loss.teeth * over_w,
+            sign * loss.teeth, sign * loss.teeth * log_torque, sign * loss.teeth * log_speed,
         )  # fmt: skip
         slope[B], slope[D], slope[G] = 1.0, sign, torque
         expected = -torque + sign * (phi * loss.teeth + loss.rest + float(x[D]))
@@ -321,16 +321,16 @@ class BalanceFilter:
         gated = abs(innovation) > GATE * sd
         if not gated:
             self._update(slope, innovation, noise)
-        share = min(step / NOISE_MEMORY, 0.1)
-        over = min(innovation**2 / variance, GATE**2)
-        self.excess = max(1.0, self.excess * (1.0 + share * (over - 1.0)))
+        weight = min(step / NOISE_MEMORY, 0.1)
+        normalised_square = min(innovation**2 / variance, GATE**2)
+        self.excess = max(1.0, self.excess * (1.0 + weight * (normalised_square - 1.0)))
         return Innovation(innovation, sd, gated)
 
     def _update(self, slope: Array, innovation: float, noise: float) -> None:
         """Scalar update in Joseph's form."""
-        along = self.p @ slope
-        gain = along / (float(slope @ along) + noise)
+        cross_covariance = self.p @ slope
+        gain = cross_covariance / (float(slope @ cross_covariance) + noise)
         self.x = self.x + gain * innovation
-        left = np.eye(len(STATES)) - np.outer(gain, slope)
-        self.p = left @ self.p @ left.T + noise * np.outer(gain, gain)
+        reduction = np.eye(len(STATES)) - np.outer(gain, slope)
+        self.p = reduction @ self.p @ reduction.T + noise * np.outer(gain, gain)
         self.p = 0.5 * (self.p + self.p.T)

@@ -36,7 +36,7 @@ class LearnedCell(NamedTuple):
     needed: int
     """Hunting periods of a baseline."""
     digest: str
-    """Of the baseline, once it is learned; empty before."""
+    """Digest of the baseline, once it is learned; empty before."""
 
 
 @dataclass
@@ -67,7 +67,7 @@ class Baseline:
     slope: Array | None = None
     """Change of the deviation with torque [m/(N m)], (cycles, BINS); None if not significant."""
     digest: str = ""
-    """Of the mean and its scatter, once learned."""
+    """Digest of the mean and its scatter, once learned."""
     _centre: float = 0.0  # mean torque of its blocks [N m]
     _spread: float = 1.0  # sum of squares of their torques about it [N m^2]
     _blocks: list[tuple[HuntingBlock, float]] = field(default_factory=list)
@@ -76,7 +76,7 @@ class Baseline:
         """Values of a learned baseline, from which `of_fields` makes it again."""
         assert self.mean is not None  # called for learned baselines only
         values = {name: getattr(self, name) for name in FIELDS["teeth"]}
-        return {name: np.array(one) for name, one in values.items() if one is not None}
+        return {name: np.array(value) for name, value in values.items() if value is not None}
 
     @classmethod
     def of_fields(cls, fields: Mapping[str, NDArray[Any]], segment: int) -> Baseline:
@@ -87,7 +87,7 @@ class Baseline:
             segment: number of times that the encoders have lost the count of turns.
         """
         values: dict[str, Any] = {
-            name: one.item() if one.ndim == 0 else one for name, one in fields.items()
+            name: value.item() if value.ndim == 0 else value for name, value in fields.items()
         }
         return cls(**values, segment=segment)
 
@@ -101,14 +101,19 @@ class Baseline:
             True if another number of mesh cycles between both explains it far better than none.
         """
         assert self.mean is not None  # called for learned baselines only
-        there = block.measured & self.known
-        here, mean = np.where(there, block.deviation, 0.0), np.where(self.known, self.mean, 0.0)
-        product = np.fft.rfft(here, axis=0) * np.conj(np.fft.rfft(mean, axis=0))
-        common = np.fft.irfft(product.sum(axis=1), len(mean))
-        best, square = int(np.argmax(common)), float(np.sum(mean**2))
-        left = float(np.sum(here**2)) + square - 2.0 * float(common[best])
-        sd = math.sqrt(2.0 * square * max(left, 0.0) / there.sum())
-        return best != 0 and float(common[best] - common[0]) > MOVED * sd
+        both_measured = block.measured & self.known
+        deviation, mean = (
+            np.where(both_measured, block.deviation, 0.0),
+            np.where(self.known, self.mean, 0.0),
+        )
+        product = np.fft.rfft(deviation, axis=0) * np.conj(np.fft.rfft(mean, axis=0))
+        correlation = np.fft.irfft(product.sum(axis=1), len(mean))
+        shift, baseline_energy = int(np.argmax(correlation)), float(np.sum(mean**2))
+        residual_energy = (
+            float(np.sum(deviation**2)) + baseline_energy - 2.0 * float(correlation[shift])
+        )
+        sd = math.sqrt(2.0 * baseline_energy * max(residual_energy, 0.0) / both_measured.sum())
+        return shift != 0 and float(correlation[shift] - correlation[0]) > MOVED * sd
 
     def covers(self, torque: float, speed: float, segment: int) -> bool:
         """Whether a block belongs to this cell.
@@ -121,9 +126,11 @@ class Baseline:
         Returns:
             True if torque, speed and segment are those of the cell.
         """
-        near = abs(torque - self.torque) <= CELL * abs(self.torque)
+        similar_torque = abs(torque - self.torque) <= CELL * abs(self.torque)
         return (
-            near and abs(speed - self.speed) <= CELL * abs(self.speed) and (segment == self.segment)
+            similar_torque
+            and abs(speed - self.speed) <= CELL * abs(self.speed)
+            and (segment == self.segment)
         )
 
     @property
@@ -156,39 +163,39 @@ class Baseline:
         if len(self._blocks) < self.needed:
             return
         assert self.bank is not None  # set with the cell
-        deviations = np.array([one.deviation for one, _ in self._blocks])
-        measured = np.array([one.measured for one, _ in self._blocks])
-        torques = np.array([one for _, one in self._blocks])
+        deviations = np.array([past.deviation for past, _ in self._blocks])
+        measured = np.array([past.measured for past, _ in self._blocks])
+        torques = np.array([past_torque for _, past_torque in self._blocks])
         counts = measured.sum(axis=0)
         self.known = counts >= self.needed // 2
         self.mean = deviations.sum(axis=0) / np.maximum(counts, 1)
         self._centre = float(torques.mean())
-        apart = torques - self._centre
-        self._spread = float(apart @ apart) or 1.0
-        there = measured & self.known
-        left = np.where(there, deviations - self.mean, 0.0)
-        losses = self._losses(left, there)
+        torque_offsets = torques - self._centre
+        self._spread = float(torque_offsets @ torque_offsets) or 1.0
+        both_measured = measured & self.known
+        residuals = np.where(both_measured, deviations - self.mean, 0.0)
+        losses = self._tooth_losses(residuals, both_measured)
         leverage = np.full(len(torques), 1.0 / self.needed)
-        courses = apart @ losses / self._spread
-        if np.mean(self._spread * courses**2) > SEEN * np.mean(losses**2):
-            self.slope = np.tensordot(apart, left, 1) / self._spread
-            left -= np.where(there, apart[:, None, None] * self.slope, 0.0)
-            losses = self._losses(left, there)
-            leverage += apart**2 / self._spread
+        loss_slopes = torque_offsets @ losses / self._spread
+        if np.mean(self._spread * loss_slopes**2) > SEEN * np.mean(losses**2):
+            self.slope = np.tensordot(torque_offsets, residuals, 1) / self._spread
+            residuals -= np.where(both_measured, torque_offsets[:, None, None] * self.slope, 0.0)
+            losses = self._tooth_losses(residuals, both_measured)
+            leverage += torque_offsets**2 / self._spread
         variance = np.mean(np.square(losses) / (1.0 - leverage[:, None]), axis=0)
         gears = range(len(self.bank.gears))
         self.sd = np.sqrt([np.mean(variance[self.bank.gear_of == g]) for g in gears])
         self.digest = sha256(self.mean.tobytes() + self.sd.tobytes()).hexdigest()[:16]
         self._blocks.clear()
 
-    def _losses(self, left: Array, there: NDArray[np.bool_]) -> Array:
+    def _tooth_losses(self, residuals: Array, masks: NDArray[np.bool_]) -> Array:
         """Loss of every tooth alone in every block, (blocks, teeth)."""
         assert self.bank is not None  # set with the cell
-        found = []
-        for one, measured in zip(left, there, strict=True):
-            product, square = self.bank.score(without_common(one, measured), measured)
-            found.append(product / square)
-        return np.array(found)
+        losses = []
+        for residual, measured in zip(residuals, masks, strict=True):
+            product, square = self.bank.score(without_common(residual, measured), measured)
+            losses.append(product / square)
+        return np.array(losses)
 
     def noise(self, torques: Array) -> float:
         """Standard deviation of a mean over blocks, relative to that of one block.
@@ -216,8 +223,10 @@ class Baseline:
             (cycles, BINS) each.
         """
         assert self.mean is not None  # called for learned baselines only
-        there = block.measured & self.known
+        measured = block.measured & self.known
         expected = self.mean
         if self.slope is not None:
             expected = expected + (torque - self._centre) * self.slope
-        return without_common(np.where(there, block.deviation - expected, 0.0), there), there
+        return without_common(
+            np.where(measured, block.deviation - expected, 0.0), measured
+        ), measured

@@ -109,8 +109,8 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
         with np.load(path, allow_pickle=False) as archive:
             members = archive.zip.infolist()
             check_unpacked(path.stat().st_size, sum(member.file_size for member in members))
-            found = {name: archive[name] for name in archive.files}
-        about = json.loads(str(found[ABOUT]))
+            arrays = {name: archive[name] for name in archive.files}
+        about = json.loads(str(arrays[ABOUT]))
         version, digest = about["version"], about["scene"]
     except UnpackedTooLargeError as reason:
         raise ValueError(f"{path}: {reason}") from None
@@ -121,37 +121,37 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
     if digest != _digest(scene):
         raise ValueError(f"{path}: belongs to another scene or to other values of its fields")
     try:
-        saved = SavedBaseline(*(_part(kind, about, found) for kind in SavedBaseline._fields))
+        saved = SavedBaseline(*(_read_part(kind, about, arrays) for kind in SavedBaseline._fields))
     except (KeyError, TypeError, ValueError, IndexError) as reason:
         raise ValueError(f"{path}: is incomplete") from reason
     try:
-        _check(saved, scene)
+        _check_fields(saved, scene)
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
     return saved
 
 
-def _part(kind: str, about: dict[str, Any], found: dict[str, NDArray[Any]]) -> Any:
+def _read_part(kind: str, about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> Any:
     if kind not in about:
         return None
     fields = dict(about[kind])
-    if not 0 < fields["cells"] <= len(found):
-        raise ValueError(f"cells = {fields['cells']!r}: must be at most {len(found)}")
+    if not 0 < fields["cells"] <= len(arrays):
+        raise ValueError(f"cells = {fields['cells']!r}: must be at most {len(arrays)}")
     cells: list[dict[str, NDArray[Any]]] = [{} for _ in range(fields["cells"])]
-    for name, value in found.items():
+    for name, value in arrays.items():
         if name.startswith(f"{kind}/") and name.count("/") == 2:
-            _, place, field = name.split("/")
-            cells[int(place)][field] = value
+            _, number, field = name.split("/")
+            cells[int(number)][field] = value
     fields["cells"] = tuple(cells)
     if kind == "vibration":
         return VibrationBaseline(**fields | {"names": tuple(fields["names"])})
     counts = tuple(fields["counts_per_turn"])
     return TeethBaseline(
-        **fields | {"counts_per_turn": counts, "blocks": found.get("teeth/blocks")}
+        **fields | {"counts_per_turn": counts, "blocks": arrays.get("teeth/blocks")}
     )
 
 
-def _check(saved: SavedBaseline, scene: Scene) -> None:
+def _check_fields(saved: SavedBaseline, scene: Scene) -> None:
     """Raise `ValueError` for a field that is missing or has another type or shape."""
     train = followed_train(scene)
     sizes = {"cycles": train.hunting_cycles, "gears": len(train.teeth)}
@@ -160,8 +160,8 @@ def _check(saved: SavedBaseline, scene: Scene) -> None:
     if saved.vibration is not None:
         sizes["channels"] = len(saved.vibration.names)
     for kind, part in saved._asdict().items():
-        for place, cell in enumerate(() if part is None else part.cells):
-            check_cell(f"{kind}/{place}", kind, cell, sizes)
+        for number, cell in enumerate(() if part is None else part.cells):
+            check_cell(f"{kind}/{number}", kind, cell, sizes)
 
 
 def _digest(scene: Scene) -> str:

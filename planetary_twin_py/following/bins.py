@@ -101,14 +101,16 @@ class Bins:
         self.counters = Counters() if counters is None else counters
         self._noise = noise
         self._pending = {name: _Pending() for name in CHANNELS}
-        self._latest = -np.inf  # stamp
-        self._closed: int | None = None  # number of the first open bin
-        self._held: tuple[Array, dict[str, Array]] | None = None  # a last row, perhaps ahead
+        self._latest_stamp = -np.inf
+        self._first_open: int | None = None  # number of that bin
+        self._withheld: tuple[Array, dict[str, Array]] | None = (
+            None  # the last row, if its stamp may be wrong
+        )
 
     @property
     def opened(self) -> int | None:
         """Number of the first bin that is still open; None before the first reading."""
-        return self._closed
+        return self._first_open
 
     def add(self, time: Array, columns: Mapping[str, Array]) -> Iterator[Bin]:
         """Add readings in the order of their arrival.
@@ -120,10 +122,10 @@ class Bins:
         Returns:
             The bins that these readings close, in order. Bins without readings are omitted.
         """
-        time, rows = self._in_turn(time, columns)
+        time, rows = self._without_leaps(time, columns)
         if len(time):
             self._sort(time, rows)
-            yield from self._close(closed_by(self._latest, self.length))
+            yield from self._close_bins(closed_by(self._latest_stamp, self.length))
 
     def finish(self) -> Iterator[Bin]:
         """Close the open bins, at the end of a recording.
@@ -131,106 +133,116 @@ class Bins:
         Returns:
             The last bins.
         """
-        if self._held is not None:
+        if self._withheld is not None:
             self.counters.ahead += 1
-            self._held = None
-        if np.isfinite(self._latest):
-            yield from self._close(slot_of(self._latest, self.length) + 1)
+            self._withheld = None
+        if np.isfinite(self._latest_stamp):
+            yield from self._close_bins(slot_of(self._latest_stamp, self.length) + 1)
 
-    def _in_turn(self, time: Array, columns: Mapping[str, Array]) -> tuple[Array, dict[str, Array]]:
-        """Remove rows with a single stamp far ahead; a last row that may be one is held back."""
+    def _without_leaps(
+        self, time: Array, columns: Mapping[str, Array]
+    ) -> tuple[Array, dict[str, Array]]:
+        """Remove rows with a single stamp far ahead; withhold a last row that may be one."""
         time = np.asarray(time, dtype=float)
         rows = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
-        if self._held is not None:
-            time, rows = _joined(self._held, (time, rows))
-            self._held = None
-        stamped = np.isfinite(time)
-        if not stamped.all():
-            self.counters.missing += int(np.sum(~stamped)) * len(rows)
-            time, rows = _chosen(stamped, time, rows)
+        if self._withheld is not None:
+            time, rows = _concatenate_rows(self._withheld, (time, rows))
+            self._withheld = None
+        has_stamp = np.isfinite(time)
+        if not has_stamp.all():
+            self.counters.missing += int(np.sum(~has_stamp)) * len(rows)
+            time, rows = _select_rows(has_stamp, time, rows)
         if not len(time):
             return time, rows
-        before = np.concatenate([[self._latest], np.maximum.accumulate(time)[:-1]])
-        leaps = np.flatnonzero((time > before + AHEAD) & np.isfinite(before))
+        latest_before = np.concatenate([[self._latest_stamp], np.maximum.accumulate(time)[:-1]])
+        leaps = np.flatnonzero((time > latest_before + AHEAD) & np.isfinite(latest_before))
         wrong = np.zeros(len(time), dtype=bool)
         for n in leaps:
-            latest = np.max(time[:n][~wrong[:n]], initial=self._latest)
+            latest = np.max(time[:n][~wrong[:n]], initial=self._latest_stamp)
             if time[n] <= latest + AHEAD:
                 continue
             if n + 1 == len(time):
-                self._held = _chosen(np.arange(len(time)) == n, time, rows)
+                self._withheld = _select_rows(np.arange(len(time)) == n, time, rows)
                 wrong[n] = True
             elif time[n + 1] < time[n] - AHEAD:
                 self.counters.ahead += 1
                 wrong[n] = True
-        return _chosen(~wrong, time, rows) if wrong.any() else (time, rows)
+        return _select_rows(~wrong, time, rows) if wrong.any() else (time, rows)
 
     def _sort(self, time: Array, rows: dict[str, Array]) -> None:
         """Keep the readings of bins that were open as each of them arrived."""
         number = np.floor(time / self.length + 1e-9)
         latest = np.maximum.accumulate(time)
-        before = np.concatenate([[self._latest], np.maximum(latest[:-1], self._latest)])
-        first_open = np.floor((before - LAG) / self.length + 1e-9)
+        latest_before = np.concatenate(
+            [[self._latest_stamp], np.maximum(latest[:-1], self._latest_stamp)]
+        )
+        first_open = np.floor((latest_before - LAG) / self.length + 1e-9)
         in_time = number >= first_open
-        self._latest = max(self._latest, float(latest[-1]))
-        if self._closed is None:
-            self._closed = int(number[in_time].min())
+        self._latest_stamp = max(self._latest_stamp, float(latest[-1]))
+        if self._first_open is None:
+            self._first_open = int(number[in_time].min())
         for name, values in rows.items():
-            there = np.isfinite(values)
-            self.counters.missing += int(np.sum(~there))
-            self.counters.late += int(np.sum(there & ~in_time))
-            kept = there & in_time
-            if kept.any():
-                self._pending[name].parts.append((time[kept], values[kept]))
+            finite = np.isfinite(values)
+            self.counters.missing += int(np.sum(~finite))
+            self.counters.late += int(np.sum(finite & ~in_time))
+            accepted = finite & in_time
+            if accepted.any():
+                self._pending[name].parts.append((time[accepted], values[accepted]))
 
-    def _close(self, until: int) -> Iterator[Bin]:
-        """Bins below `until`."""
-        if self._closed is None or until <= self._closed:
+    def _close_bins(self, until: int) -> Iterator[Bin]:
+        """Close the bins below number `until`, and yield their means."""
+        if self._first_open is None or until <= self._first_open:
             return
         means: dict[int, dict[str, Mean]] = {}
         for name, pending in self._pending.items():
             times, values = pending.join()
-            number = np.floor(times / self.length + 1e-9).astype(np.int64)
-            done = number < until
-            order = np.argsort(times[done], kind="stable")
-            time, value = times[done][order], values[done][order]
-            own = number[done][order]
+            bin_numbers = np.floor(times / self.length + 1e-9).astype(np.int64)
+            ready = bin_numbers < until
+            order = np.argsort(times[ready], kind="stable")
+            time, value = times[ready][order], values[ready][order]
+            ready_numbers = bin_numbers[ready][order]
             if len(time):
-                cuts = np.flatnonzero(np.diff(own)) + 1
+                cuts = np.flatnonzero(np.diff(ready_numbers)) + 1
                 parts = zip(np.split(time, cuts), np.split(value, cuts), strict=True)
-                for k, (at, read) in zip(own[np.r_[0, cuts]], parts, strict=True):
-                    middle = (int(k) + 0.5) * self.length
-                    means.setdefault(int(k), {})[name] = self._mean(name, middle, at, read)
-            pending.parts = [(times[~done], values[~done])]
-        self._closed = until
-        for k in sorted(means):
-            yield Bin(k, means[k])
+                for number, (bin_time, bin_values) in zip(
+                    ready_numbers[np.r_[0, cuts]], parts, strict=True
+                ):
+                    middle = (int(number) + 0.5) * self.length
+                    means.setdefault(int(number), {})[name] = self._mean(
+                        name, middle, bin_time, bin_values
+                    )
+            pending.parts = [(times[~ready], values[~ready])]
+        self._first_open = until
+        for number in sorted(means):
+            yield Bin(number, means[number])
 
     def _mean(self, name: str, middle: float, time: Array, value: Array) -> Mean:
         """Mean of the readings of a bin around `middle`, in the order of their stamps."""
-        single = time[1:] > time[:-1]
-        if not single.all():
-            self.counters.doubled += int(np.sum(~single))
-            kept = np.concatenate([[True], single])
-            time, value = time[kept], value[kept]
+        distinct = time[1:] > time[:-1]
+        if not distinct.all():
+            self.counters.doubled += int(np.sum(~distinct))
+            selected = np.concatenate([[True], distinct])
+            time, value = time[selected], value[selected]
         if len(value) >= ENOUGH:
-            off = np.abs(value - _median(value))
-            spread = max(self._noise.get(name, 0.0), NORMAL * _median(off))
-            inside = off <= OUTLIER * spread if spread > 0.0 else off == 0.0
-            if not inside.all():
-                self.counters.outlying += int(np.sum(~inside))
-                time, value = time[inside], value[inside]
+            deviation = np.abs(value - _median(value))
+            robust_sd = max(self._noise.get(name, 0.0), NORMAL * _median(deviation))
+            accepted = deviation <= OUTLIER * robust_sd if robust_sd > 0.0 else deviation == 0.0
+            if not accepted.all():
+                self.counters.outlying += int(np.sum(~accepted))
+                time, value = time[accepted], value[accepted]
         n = len(value)
         self.counters.used += n
-        mean, centre = float(value.sum()) / n, float(time.sum()) / n
+        mean, mean_time = float(value.sum()) / n, float(time.sum()) / n
         if n < 3:
             return Mean(mean, n, np.nan, np.nan)
-        along = time - centre
-        slope = float(along @ value / (along @ along))
-        left = value - mean - slope * along
+        time_offset = time - mean_time
+        slope = float(time_offset @ value / (time_offset @ time_offset))
+        residual = value - mean - slope * time_offset
         # A line, because the mean of incomplete readings is biased while the torque changes.
-        mean += slope * (middle - centre)
-        return Mean(mean, n, slope, float(np.sqrt(left @ left / (n - 2))) if n > 3 else np.nan)
+        mean += slope * (middle - mean_time)
+        return Mean(
+            mean, n, slope, float(np.sqrt(residual @ residual / (n - 2))) if n > 3 else np.nan
+        )
 
 
 def _median(values: Array) -> float:
@@ -262,7 +274,7 @@ def closed_by(stamp: float, length: float) -> int:
     return slot_of(stamp - LAG, length)
 
 
-def _joined(
+def _concatenate_rows(
     first: tuple[Array, dict[str, Array]], second: tuple[Array, dict[str, Array]]
 ) -> tuple[Array, dict[str, Array]]:
     """Concatenate the rows of two tables, with NaN in columns that one of them lacks."""
@@ -275,7 +287,7 @@ def _joined(
     return np.concatenate([first[0], second[0]]), columns
 
 
-def _chosen(
+def _select_rows(
     rows: NDArray[np.bool_], time: Array, columns: dict[str, Array]
 ) -> tuple[Array, dict[str, Array]]:
     return time[rows], {name: values[rows] for name, values in columns.items()}

@@ -42,7 +42,7 @@ class Checks:
     length: float
     zero: float
     gain: float
-    _read: dict[str, list[float]] = field(default_factory=dict)
+    _readings: dict[str, list[float]] = field(default_factory=dict)
     _begin: int | None = None
     _done: bool = False
 
@@ -61,9 +61,9 @@ class Checks:
             self._begin = found.number
         for name in ("input_speed", "output_speed", "input_torque", "output_torque"):
             mean = found.means.get(name)
-            self._read.setdefault(name, []).append(math.nan if mean is None else mean.value)
+            self._readings.setdefault(name, []).append(math.nan if mean is None else mean.value)
         if "oil_temperature" in found.means:
-            self._temperature(found.means["oil_temperature"].value)
+            self._check_temperature(found.means["oil_temperature"].value)
         if (found.number - self._begin + 1) * self.length >= CHECKED:
             self.check()
 
@@ -77,7 +77,7 @@ class Checks:
         for line in self._faults():
             raise InputError(line)
 
-    def _temperature(self, value: float) -> None:
+    def _check_temperature(self, value: float) -> None:
         if value < CELSIUS:
             raise InputError(
                 f"oil_temperature = {value:.4g}: must be in kelvin; this is probably degC: name "
@@ -90,59 +90,75 @@ class Checks:
             )
 
     def _faults(self) -> Iterator[str]:
-        columns = {name: np.array(values) for name, values in self._read.items()}
+        columns = {name: np.array(values) for name, values in self._readings.items()}
         if not columns:
             return
         train = self.train
         speed_in, speed_out = columns["input_speed"], columns["output_speed"]
-        fast = np.nanmax(np.abs(speed_in), initial=0.0) if np.isfinite(speed_in).any() else 0.0
-        if fast > 1.2 * train.speed_limit:
+        peak_speed = (
+            np.nanmax(np.abs(speed_in), initial=0.0) if np.isfinite(speed_in).any() else 0.0
+        )
+        if peak_speed > 1.2 * train.speed_limit:
             yield (
-                f"input_speed = {fast:.4g}: exceeds drive.speed_limit = {train.speed_limit:.4g} "
-                f"rad/s; probably rpm: scale input_speed by {1.0 / RPM:.6g}"
+                f"input_speed = {peak_speed:.4g}: exceeds drive.speed_limit = "
+                f"{train.speed_limit:.4g} rad/s; probably rpm: scale input_speed by "
+                f"{1.0 / RPM:.6g}"
             )
         moving = (np.abs(speed_in) > MOVING * train.speed) & np.isfinite(speed_out)
         if moving.any():
             ratio = float(np.median(speed_out[moving] / speed_in[moving]))
-            yield from self._speeds(ratio)
-        first, second = columns["input_torque"], columns["output_torque"]
-        least = LOADED * train.torque
-        loaded = (np.abs(first) > least) | (np.abs(train.ratio * second) > least)
-        loaded &= np.isfinite(first) & np.isfinite(second) & (first != 0.0)
+            yield from self._speed_fault(ratio)
+        input_torque, output_torque = columns["input_torque"], columns["output_torque"]
+        least_torque = LOADED * train.torque
+        loaded = (np.abs(input_torque) > least_torque) | (
+            np.abs(train.ratio * output_torque) > least_torque
+        )
+        loaded &= np.isfinite(input_torque) & np.isfinite(output_torque) & (input_torque != 0.0)
         if loaded.any():
-            ratio = float(np.median(second[loaded] / first[loaded]))
-            yield from self._torques(ratio, float(np.median(np.abs(first[loaded]))))
-        yield from self._gained(first, second, speed_in, speed_out)
+            ratio = float(np.median(output_torque[loaded] / input_torque[loaded]))
+            yield from self._torque_fault(ratio, float(np.median(np.abs(input_torque[loaded]))))
+        yield from self._negative_loss(input_torque, output_torque, speed_in, speed_out)
 
-    def _gained(
-        self, first: np.ndarray, second: np.ndarray, speed_in: np.ndarray, speed_out: np.ndarray
+    def _negative_loss(
+        self,
+        input_torque: np.ndarray,
+        output_torque: np.ndarray,
+        speed_in: np.ndarray,
+        speed_out: np.ndarray,
     ) -> Iterator[str]:
-        """A negative loss beyond the errors of the sensors: no ratio shows two reversed signs."""
+        """Fault of a loss that is negative beyond the errors of the sensors.
+
+        Two reversed signs leave the ratios correct, so only the loss shows them.
+        """
         train = self.train
         speed = np.where(np.isfinite(speed_in), speed_in, speed_out / train.ratio)
-        there = (np.abs(speed) > MOVING * train.speed) & np.isfinite(first + second)
-        if not there.any():
+        usable = (np.abs(speed) > MOVING * train.speed) & np.isfinite(input_torque + output_torque)
+        if not usable.any():
             return
-        speed, first, second = speed[there], first[there], second[there]
+        speed, input_torque, output_torque = (
+            speed[usable],
+            input_torque[usable],
+            output_torque[usable],
+        )
         sign = np.sign(speed)
-        loss = float(np.mean(sign * (first + train.ratio * second)))
+        loss = float(np.mean(sign * (input_torque + train.ratio * output_torque)))
         stored = train.inertia * float(np.ptp(np.abs(speed))) / (len(speed) * self.length)
-        sd = math.hypot(self.zero, self.gain * float(np.mean(sign * first)), stored)
+        sd = math.hypot(self.zero, self.gain * float(np.mean(sign * input_torque)), stored)
         if loss < -GAINED * sd:
-            share = 100.0 * loss / float(np.mean(sign * first))
+            percentage = 100.0 * loss / float(np.mean(sign * input_torque))
             yield (
                 f"loss torque = {loss:.3g} N m: must be positive: the signs of both torques or of "
                 "both speeds are reversed (scale input_torque and output_torque by -1), or a "
-                f"torque sensor has a wrong zero or a gain that is wrong by {abs(share):.2g} %"
+                f"torque sensor has a wrong zero or a gain that is wrong by {abs(percentage):.2g} %"
             )
 
-    def _speeds(self, ratio: float) -> Iterator[str]:
-        """Fault of a measured speed ratio."""
+    def _speed_fault(self, ratio: float) -> Iterator[str]:
+        """Fault of a measured speed ratio, and its correction."""
         expected = self.train.ratio
         if abs(ratio / expected - 1.0) < NEAR:
             return
-        found = f"output_speed/input_speed = {ratio:.4g}: must be {expected:.4g} by the teeth"
-        for factor, why, remedy in (
+        statement = f"output_speed/input_speed = {ratio:.4g}: must be {expected:.4g} by the teeth"
+        for factor, cause, remedy in (
             (-1.0, "the sign of one speed is reversed", ("output_speed", -1.0)),
             (RPM, "output_speed is probably in rpm", ("output_speed", 1.0 / RPM)),
             (1.0 / RPM, "input_speed is probably in rpm", ("input_speed", 1.0 / RPM)),
@@ -156,23 +172,25 @@ class Checks:
             (math.pi / 180.0, "input_speed is probably in deg/s", ("input_speed", math.pi / 180)),
         ):
             if abs(ratio / (expected * factor) - 1.0) < NEAR:
-                yield f"{found}; {why}: scale {remedy[0]} by {remedy[1]:.6g}"
+                yield f"{statement}; {cause}: scale {remedy[0]} by {remedy[1]:.6g}"
                 return
         if abs(ratio * expected - 1.0) < NEAR:
-            yield f"{found}; input and output are exchanged"
+            yield f"{statement}; input and output are exchanged"
             return
-        yield f"{found}; no unit explains it: are these the shafts of this scene?"
+        yield f"{statement}; no unit explains it: are these the shafts of this scene?"
 
-    def _torques(self, ratio: float, size: float) -> Iterator[str]:
+    def _torque_fault(self, ratio: float, size: float) -> Iterator[str]:
         """Fault of a measured torque ratio; `size` is the magnitude of the input torque."""
         expected = -1.0 / self.train.ratio
         share = ratio / expected
         low, high = EFFICIENCY
         if low <= share <= 1.0 / low:
             return
-        found = f"output_torque/input_torque = {ratio:.4g}: must be near {expected:.4g} (no loss)"
+        statement = (
+            f"output_torque/input_torque = {ratio:.4g}: must be near {expected:.4g} (no loss)"
+        )
         if low <= -share <= 1.0 / low:
-            yield f"{found}; the sign of one torque is reversed: scale output_torque by -1"
+            yield f"{statement}; the sign of one torque is reversed: scale output_torque by -1"
             return
         sign = int(math.copysign(1.0, share))
         for factor, name, unit, scale in (
@@ -184,9 +202,9 @@ class Checks:
             else (1e-3, "input_torque", "N mm", 1e-3),
         ):
             if low <= abs(share) / factor <= high:
-                yield f"{found}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
+                yield f"{statement}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
                 return
         if abs(share * expected**2 - 1.0) < 0.5:
-            yield f"{found}; both torques seem to be referred to the same shaft"
+            yield f"{statement}; both torques seem to be referred to the same shaft"
             return
-        yield f"{found}; no unit explains it"
+        yield f"{statement}; no unit explains it"

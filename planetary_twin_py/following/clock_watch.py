@@ -25,34 +25,35 @@ APART = 10e-3  # [s] difference of two senders' offsets that causes a remark
 
 @dataclass
 class _Sender:
-    least: dict[int, tuple[float, float]] = field(default_factory=dict)  # stamp and difference
+    lowest: dict[int, tuple[float, float]] = field(default_factory=dict)
+    """Stamp and delay [s] of the reading with the smallest delay, by window."""
 
     def add(self, stamp: Array, arrival: Array) -> None:
         window = np.floor(stamp / WINDOW).astype(np.int64)
-        late = arrival - stamp
+        delay = arrival - stamp
         for number in np.unique(window):
             inside = np.flatnonzero(window == number)
-            best = inside[np.argmin(late[inside])]
-            found = float(stamp[best]), float(late[best])
-            known = self.least.get(int(number))
-            if known is None or found[1] < known[1]:
-                self.least[int(number)] = found
-        for number in sorted(self.least)[:-MOST]:
-            del self.least[number]
+            smallest = inside[np.argmin(delay[inside])]
+            candidate = float(stamp[smallest]), float(delay[smallest])
+            stored = self.lowest.get(int(number))
+            if stored is None or candidate[1] < stored[1]:
+                self.lowest[int(number)] = candidate
+        for number in sorted(self.lowest)[:-MOST]:
+            del self.lowest[number]
 
     @property
     def skew(self) -> float:
         """Seconds per second by which the clock lags; NaN with too few windows."""
-        if len(self.least) < FEWEST:
+        if len(self.lowest) < FEWEST:
             return math.nan
-        stamp, late = np.array([self.least[n] for n in sorted(self.least)[:-1]]).T
-        return float(np.polyfit(stamp - stamp[0], late, 1)[0])
+        stamp, delay = np.array([self.lowest[n] for n in sorted(self.lowest)[:-1]]).T
+        return float(np.polyfit(stamp - stamp[0], delay, 1)[0])
 
     @property
     def offset(self) -> float:
         """Smallest delay of arrival in the last complete window [s]; NaN without one."""
-        numbers = sorted(self.least)
-        return self.least[numbers[-2]][1] if len(numbers) > 1 else math.nan
+        numbers = sorted(self.lowest)
+        return self.lowest[numbers[-2]][1] if len(numbers) > 1 else math.nan
 
 
 @dataclass
@@ -69,9 +70,9 @@ class ClockWatch:
             stamp: times of the readings, by the clock of the sender [s], (n,).
             arrival: times of their arrival, by the clock of the receiver [s], (n,).
         """
-        there = np.isfinite(stamp) & np.isfinite(arrival)
-        if there.any():
-            self._senders.setdefault(sender, _Sender()).add(stamp[there], arrival[there])
+        finite = np.isfinite(stamp) & np.isfinite(arrival)
+        if finite.any():
+            self._senders.setdefault(sender, _Sender()).add(stamp[finite], arrival[finite])
 
     def remarks(self) -> Iterator[str]:
         """Faults of the clocks, one line each."""
@@ -86,6 +87,6 @@ class ClockWatch:
         if len(offsets) < 2:
             return
         last, first = max(offsets, key=lambda n: offsets[n]), min(offsets, key=lambda n: offsets[n])
-        apart = offsets[last] - offsets[first]
-        if apart > APART:
-            yield f"clocks of {first} and {last}: stamps differ by {1e3 * apart:.0f} ms"
+        difference = offsets[last] - offsets[first]
+        if difference > APART:
+            yield f"clocks of {first} and {last}: stamps differ by {1e3 * difference:.0f} ms"

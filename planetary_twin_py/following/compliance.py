@@ -67,17 +67,17 @@ def fit_line(torque: np.ndarray, speed: np.ndarray, error: np.ndarray) -> Line |
         return None
     centre = float(torque.mean()), float(speed.mean())
     rows = np.column_stack([np.ones(n), torque - centre[0], speed - centre[1]])
-    size = np.maximum(np.sqrt(np.mean(rows**2, axis=0)), 1e-300)
-    scaled = rows / size
-    square = scaled.T @ scaled
-    if np.linalg.cond(square[:2, :2]) > 1e12:
+    scales = np.maximum(np.sqrt(np.mean(rows**2, axis=0)), 1e-300)
+    scaled = rows / scales
+    normal_matrix = scaled.T @ scaled
+    if np.linalg.cond(normal_matrix[:2, :2]) > 1e12:
         return None
-    inverse = np.linalg.pinv(square, rcond=1e-9, hermitian=True)
-    found = inverse @ (scaled.T @ error)
-    left = error - scaled @ found
-    variance = float(left @ left) / (n - 3)
-    covariance = variance * inverse / np.outer(size, size)
-    coefficients = found / size
+    inverse = np.linalg.pinv(normal_matrix, rcond=1e-9, hermitian=True)
+    solution = inverse @ (scaled.T @ error)
+    residuals = error - scaled @ solution
+    variance = float(residuals @ residuals) / (n - 3)
+    covariance = variance * inverse / np.outer(scales, scales)
+    coefficients = solution / scales
     return Line(
         float(coefficients[1]), math.sqrt(float(covariance[1, 1])), coefficients, covariance, centre
     )
@@ -126,8 +126,8 @@ class Compliance:
     @property
     def present(self) -> Line | None:
         """Regression over the last blocks, or over all while there are few."""
-        beyond = len(self._blocks) - self.learning
-        return self._line(self.learning if beyond >= FEWEST else 0, None)
+        later = len(self._blocks) - self.learning
+        return self._line(self.learning if later >= FEWEST else 0, None)
 
     @property
     def both(self) -> tuple[Line, Line] | None:

@@ -50,7 +50,7 @@ class Cusum:
     _term: list[float] = field(default_factory=list)  # scores
     _begin: float | None = None
     _last: tuple[float, float] | None = None  # time and score
-    _known: float = 0.0
+    _observed: float = 0.0  # [s] of innovations in the correlation
 
     def add(self, time: float, value: float, sd: float) -> Step | None:
         """Add an innovation.
@@ -64,17 +64,17 @@ class Cusum:
             The step, if one is detected now; the sums then start from zero.
         """
         score = max(-CLIP, min(CLIP, value / sd))
-        self._correlate(time, score)
+        self._update_correlation(time, score)
         if self._begin is None:
             self._begin = time
-            for one in self._sums:
-                one.since = time
-        found = None
+            for one_sided in self._sums:
+                one_sided.since = time
+        step = None
         if time >= self._begin + TERM:
-            found = self._end_term(time)
+            step = self._end_term(time)
             self._begin = time
         self._term.append(score)
-        return found
+        return step
 
     @property
     def held(self) -> bool:
@@ -82,16 +82,16 @@ class Cusum:
 
         A step makes innovations correlate, too, so the correlation before the step decides.
         """
-        return self._known >= TRUSTED and self.correlation > CORRELATED
+        return self._observed >= TRUSTED and self.correlation > CORRELATED
 
     def _end_term(self, time: float) -> Step | None:
         term = sum(self._term) / math.sqrt(len(self._term))
         self._term.clear()
-        for one in self._sums:
-            one.add(term, time, self.correlation, self.held)
-        for one in self._sums:
-            if one.value > LIMIT and not one.held:
-                step = Step(one.since, time)
+        for one_sided in self._sums:
+            one_sided.add(term, time, self.correlation, self.held)
+        for one_sided in self._sums:
+            if one_sided.value > LIMIT and not one_sided.held:
+                step = Step(one_sided.since, time)
                 self.restart(time)
                 return step
         return None
@@ -102,17 +102,17 @@ class Cusum:
         Args:
             time: present time [s].
         """
-        self.correlation = max(self._sums, key=lambda one: one.value).correlation
+        self.correlation = max(self._sums, key=lambda one_sided: one_sided.value).correlation
         self._term.clear()
         self._begin = time
         self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
-        for one in self._sums:
-            one.correlation = self.correlation
+        for one_sided in self._sums:
+            one_sided.correlation = self.correlation
 
-    def _correlate(self, time: float, score: float) -> None:
+    def _update_correlation(self, time: float, score: float) -> None:
         if self._last is not None:
             step = time - self._last[0]
             share = min(step / MEMORY, 0.1)
             self.correlation += share * (score * self._last[1] - self.correlation)
-            self._known += step
+            self._observed += step
         self._last = time, score

@@ -55,31 +55,31 @@ class EncoderCheck:
             self._ratios.append(other / float(turned[k]))
             self._begin, counts = None, counts[k:]
             if len(self._ratios) == STRETCHES:
-                self._judge(float(np.median(self._ratios)))
+                self._check_ratio(float(np.median(self._ratios)))
 
-    def _judge(self, ratio: float) -> None:
+    def _check_ratio(self, ratio: float) -> None:
         expected, (first, second) = self.train.ratio, self.counts_per_turn
         factor = ratio / expected
         if abs(factor - 1.0) < NEAR:
             return
-        found = (
+        fault = (
             f"encoders: turns of the output/turns of the input = {ratio:.4g}: must be "
             f"{expected:.4g} by the teeth"
         )
         if abs(ratio * expected - 1.0) < NEAR:
-            raise InputError(f"{found}; both encoders are exchanged")
+            raise InputError(f"{fault}; both encoders are exchanged")
         if abs(factor + 1.0) < NEAR:
-            raise InputError(f"{found}; one encoder counts backwards: negate its counts")
+            raise InputError(f"{fault}; one encoder counts backwards: negate its counts")
         if ratio == 0.0:
-            raise InputError(f"{found}; the counts of the output do not change")
+            raise InputError(f"{fault}; the counts of the output do not change")
         backwards = " and one counts backwards" if factor < 0.0 else ""
         raise InputError(
-            f"{found}; the counts per turn are probably {_whole(first / abs(factor))} (input) "
-            f"or {_whole(second * abs(factor))} (output) instead of {first} and {second}{backwards}"
+            f"{fault}; the counts per turn are probably {_round(first / abs(factor))} (input) "
+            f"or {_round(second * abs(factor))} (output) instead of {first} and {second}{backwards}"
         )
 
 
-def _whole(counts: float) -> str:
+def _round(counts: float) -> str:
     """Counts per turn to the accuracy of the check: a power of two if one is near."""
     power = 2 ** round(np.log2(counts)) if counts >= 1.0 else 0
     return f"{power}" if abs(power - counts) < NEAR * counts else f"about {counts:.3g}"

@@ -21,7 +21,7 @@ class Estimate(NamedTuple):
     low: float
     """Lower end of the 95 % interval, in SI; NaN unless the status is ESTIMATED."""
     high: float
-    """Upper end, likewise."""
+    """Upper end of the interval, in SI; NaN unless the status is ESTIMATED."""
     unit: str
     """SI unit; empty for a dimensionless number."""
     status: Status

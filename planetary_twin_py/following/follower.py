@@ -95,7 +95,7 @@ class Following:
 
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of the quantity `name`."""
-        return next(one for one in self.estimates if one.name == name)
+        return next(estimate for estimate in self.estimates if estimate.name == name)
 
 
 @dataclass
@@ -133,7 +133,7 @@ class Follower:
                 raise ValueError(f"scale: {name} = {factor!r}: its magnitude must be 1e-9 to 1e9")
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
-        self._saved = SavedBaseline(None, None)  # for samples that have not come
+        self._loaded = SavedBaseline(None, None)  # for samples that have not arrived yet
         self._balance = BalanceFollower(self.scene, self.sensors, self.period)
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
@@ -162,11 +162,11 @@ class Follower:
             ValueError: a channel is unknown, or samples have no format.
         """
         if isinstance(block, EncoderSamples):
-            self._teeth_of(block).add(block.sample, block.counts)
+            self._teeth_follower(block).add(block.sample, block.counts)
         elif isinstance(block, VibrationSamples):
-            self._vibration_of(block).add(block.time, block.values)
+            self._vibration_follower(block).add(block.time, block.values)
         else:
-            self._read(block)
+            self._add_readings(block)
         if math.isfinite(self._balance.time):
             self._judge(self._balance.time)
 
@@ -177,27 +177,27 @@ class Follower:
         if self._vibration is not None:
             self._vibration.judge(until, self._balance.turning_between)
 
-    def _vibration_of(self, block: VibrationSamples) -> VibrationFollower:
+    def _vibration_follower(self, block: VibrationSamples) -> VibrationFollower:
         """The follower of the vibration, with the channels of the first samples."""
         if self._vibration is None:
             self._vibration = VibrationFollower(
                 self._balance.train, block.names, block.period, self.sensors.learning
             )
-            if self._saved.vibration is not None:
-                self._vibration.restore(self._saved.vibration)
+            if self._loaded.vibration is not None:
+                self._vibration.restore(self._loaded.vibration)
         if (block.names, block.period) != (self._vibration.names, self._vibration.period):
             raise InputError("vibration: channels and sample period must be as before")
         return self._vibration
 
-    def _teeth_of(self, block: EncoderSamples) -> TeethFollower:
+    def _teeth_follower(self, block: EncoderSamples) -> TeethFollower:
         """Return the follower of the teeth, with the format that the first samples state."""
         if self._teeth is None:
             if block.format is None:
                 raise ValueError("encoders: their counts per turn and their period are missing")
             self.encoders = block.format
             self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
-            if self._saved.teeth is not None:
-                self._teeth.restore(self._saved.teeth)
+            if self._loaded.teeth is not None:
+                self._teeth.restore(self._loaded.teeth)
         if block.format not in (None, self.encoders):
             raise InputError(f"encoders: {block.format}: must be {self.encoders} as before")
         return self._teeth
@@ -207,7 +207,7 @@ class Follower:
 
         Events and the torque balance remain.
         """
-        self._saved = SavedBaseline(None, None)
+        self._loaded = SavedBaseline(None, None)
         for part in (self._teeth, self._vibration):
             if part is not None:
                 part.learn()
@@ -243,11 +243,11 @@ class Follower:
             ValueError: the file is no baseline of this scene and of these sensors.
             OSError: the file cannot be read.
         """
-        self._saved = read_baseline(path, self.scene)
-        if self._teeth is not None and self._saved.teeth is not None:
-            self._teeth.restore(self._saved.teeth)
-        if self._vibration is not None and self._saved.vibration is not None:
-            self._vibration.restore(self._saved.vibration)
+        self._loaded = read_baseline(path, self.scene)
+        if self._teeth is not None and self._loaded.teeth is not None:
+            self._teeth.restore(self._loaded.teeth)
+        if self._vibration is not None and self._loaded.vibration is not None:
+            self._vibration.restore(self._loaded.vibration)
 
     def finish(self) -> None:
         """Process the readings and samples that are held back, at the end of a recording.
@@ -284,19 +284,19 @@ class Follower:
             counters |= {f"vibration_{n}": c for n, c in vars(self._vibration.counters).items()}
         if now is not None and not now - balance.time <= TIMEOUT:
             estimates = tuple(
-                one._replace(status="STALE") if one.status == "ESTIMATED" else one
-                for one in estimates
+                quantity._replace(status="STALE") if quantity.status == "ESTIMATED" else quantity
+                for quantity in estimates
             )
         return Following(
             balance.time, estimates, () if teeth is None else teeth.teeth,
             tuple(sorted(events, key=lambda event: event.found)), counters,
-            (*balance.remarks(), *self._clocks.remarks(), *self._of_teeth(),
-             *self._of_vibration()),
+            (*balance.remarks(), *self._clocks.remarks(), *self._teeth_remarks(),
+             *self._vibration_remarks()),
             balance.operating, balance.innovation, balance.scatter,
             () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
         )  # fmt: skip
 
-    def _read(self, block: Readings) -> None:
+    def _add_readings(self, block: Readings) -> None:
         columns = {}
         for name, values in block.columns.items():
             if name not in CHANNELS:
@@ -307,11 +307,11 @@ class Follower:
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
         self._balance.add(time, columns, block.sender)
 
-    def _of_vibration(self) -> Iterator[str]:
+    def _vibration_remarks(self) -> Iterator[str]:
         if self._vibration is not None:
             yield from self._vibration.remarks()
 
-    def _of_teeth(self) -> Iterator[str]:
+    def _teeth_remarks(self) -> Iterator[str]:
         if self._teeth is None:
             return
         counters = self._teeth.counters
@@ -325,6 +325,6 @@ class Follower:
 
 def _plausible(values: Array) -> Array:
     """Copy of `values` with NaN, a missing reading, where the magnitude exceeds `LARGEST`."""
-    found = np.array(values, dtype=float)
-    found[~(np.abs(found) <= LARGEST)] = np.nan
-    return found
+    cleaned = np.array(values, dtype=float)
+    cleaned[~(np.abs(cleaned) <= LARGEST)] = np.nan
+    return cleaned

@@ -17,7 +17,7 @@ class History:
     """
 
     def __init__(self, length: int, columns: int) -> None:
-        # Filled, so that the pages are taken now and not one by one over hours.
+        # Filled, so that the memory is allocated now and not page by page over hours.
         self._rows = np.full((length, columns), np.nan)
         self._added = 0
 
@@ -41,5 +41,5 @@ class History:
             The rows, (n, columns).
         """
         time = self._rows[:, 0]
-        found = self._rows[(begin < time) & (time <= end)]
-        return found[np.argsort(found[:, 0])]
+        rows = self._rows[(begin < time) & (time <= end)]
+        return rows[np.argsort(rows[:, 0])]

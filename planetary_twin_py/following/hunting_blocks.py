@@ -57,7 +57,8 @@ class HuntingBlock(NamedTuple):
     mean: float
     """Mean transmission error [m]; NaN if much of the block is missing."""
     segment: int
-    """Number of times that the count of turns was lost; encoder zeros are valid in one segment."""
+    """Number of the segment, from 1. The count of turns was lost between two segments, and encoder
+    zeros are valid in one of them."""
 
 
 class EncoderCounters:
@@ -74,7 +75,7 @@ class EncoderCounters:
         """Hunting periods with too many gaps, in which the train reversed, or too long before the
         readings of the torque."""
         self.segments = 1
-        """Number of times that the count of turns restarted."""
+        """Number of segments: one more than the times that the count of turns was lost."""
 
 
 class HuntingBlocks:
@@ -92,15 +93,15 @@ class HuntingBlocks:
         self.period, self.counters = period, EncoderCounters()
         self._cycles = train.hunting_cycles
         self._convert = ErrorOfCounts(train, counts_per_turn)
-        self._slip = SLIP * 2.0 * np.pi * train.lever / abs(float(train.cycles))
+        self._largest_step = SLIP * 2.0 * np.pi * train.lever / abs(float(train.cycles))
         self._waiting: list[tuple[Counts, Counts]] = []  # numbers and counts
         self._latest = -1
         self._released = 0  # number of the first sample that may still come
         self._zero: tuple[int, int] | None = None
         self._samples: list[tuple[Counts, ErrorSamples]] = []
-        self._most = MOST * BINS * (self._cycles + 2 * MARGIN)
+        self._most_samples = MOST * BINS * (self._cycles + 2 * MARGIN)
         self._stride = 1  # of the numbers of the samples that a block keeps
-        self._range: tuple[int, int] | None = None  # of the cycles of the block and its margins
+        self._cycle_range: tuple[int, int] | None = None  # of a block with its margins
         self._last_error = np.nan
         self._waveform: Array | None = None
         self._sums: Array | None = None  # of the waveform and of the samples, by fine bin
@@ -143,11 +144,11 @@ class HuntingBlocks:
         counts = np.concatenate([values for _, values in self._waiting])
         order = np.argsort(sample, kind="stable")
         sample, counts = sample[order], counts[order]
-        single = np.diff(sample, prepend=self._released - 1) > 0
-        self.counters.doubled += int(np.sum(~single))
-        ready = single & (sample < until)
-        rest = single & (sample >= until)
-        self._waiting = [(sample[rest], counts[rest])]
+        distinct = np.diff(sample, prepend=self._released - 1) > 0
+        self.counters.doubled += int(np.sum(~distinct))
+        ready = distinct & (sample < until)
+        pending = distinct & (sample >= until)
+        self._waiting = [(sample[pending], counts[pending])]
         sample, counts = sample[ready], counts[ready]
         if len(sample):
             expected = int(sample[0]) if self._zero is None else self._released
@@ -160,12 +161,12 @@ class HuntingBlocks:
         """Split samples where the count of turns was lost."""
         if self._zero is None:
             self._zero = int(counts[0, 0]), int(counts[0, 1])
-        found = self._convert(counts, self._zero)
-        steps = np.abs(np.diff(found.error, prepend=self._last_error))
-        slipped = np.flatnonzero(steps > self._slip)  # false where the last error is NaN
+        errors = self._convert(counts, self._zero)
+        steps = np.abs(np.diff(errors.error, prepend=self._last_error))
+        slipped = np.flatnonzero(steps > self._largest_step)  # false where the last error is NaN
         if not len(slipped):
-            self._last_error = float(found.error[-1])
-            self._samples.append((sample, found))
+            self._last_error = float(errors.error[-1])
+            self._samples.append((sample, errors))
             yield from self._blocks()
             return
         cut = int(slipped[0])
@@ -180,146 +181,162 @@ class HuntingBlocks:
     def _blocks(self, last: bool = False) -> Iterator[HuntingBlock]:
         """Blocks whose samples and margins are complete."""
         while self._samples:
-            if not last and self._range is not None:
+            if not last and self._cycle_range is not None:
                 newest = self._samples[-1][1].cycle
-                if newest.min() >= self._range[0] and newest.max() < self._range[1]:
-                    self._thin()
+                if newest.min() >= self._cycle_range[0] and newest.max() < self._cycle_range[1]:
+                    self._thin_samples()
                     return
-            self._join()
-            sample, found = self._samples[0]
-            number = _number(found.cycle, self._cycles)
+            self._join_samples()
+            sample, errors = self._samples[0]
+            number = _block_number(errors.cycle, self._cycles)
             if number is None:
-                self._thin()
+                self._thin_samples()
                 break
             low = number * self._cycles - MARGIN
             high = low + self._cycles + 2 * MARGIN
-            self._range = low, high
-            outside = (found.cycle < low) | (found.cycle >= high)
+            self._cycle_range = low, high
+            outside = (errors.cycle < low) | (errors.cycle >= high)
             if not outside.any() and not last:
-                self._thin()
+                self._thin_samples()
                 return
             end = int(np.argmax(outside)) if outside.any() else len(sample)
-            chosen = np.append(self._chosen(sample[:end]), np.ones(len(sample) - end, dtype=bool))
-            sample, found, outside = sample[chosen], _rows(found, chosen), outside[chosen]
-            end = int(chosen[:end].sum())
-            block = self._block(number, sample[:end], _rows(found, slice(0, end)))
+            selected = np.append(
+                self._thinning_mask(sample[:end]), np.ones(len(sample) - end, dtype=bool)
+            )
+            sample, errors, outside = (
+                sample[selected],
+                _select_rows(errors, selected),
+                outside[selected],
+            )
+            end = int(selected[:end].sum())
+            block = self._make_block(number, sample[:end], _select_rows(errors, slice(0, end)))
             if block is not None:
                 yield block
             if not outside.any():
                 break
-            ahead = found.cycle[end] >= high
-            kept = found.cycle >= high - 2 * MARGIN if ahead else found.cycle < low + 2 * MARGIN
-            kept[: end // 2] = False
-            kept[end:] = True
-            self._samples = [(sample[kept], _rows(found, kept))]
-            self._range, self._stride = None, 1
+            forwards = errors.cycle[end] >= high
+            carried_over = (
+                errors.cycle >= high - 2 * MARGIN if forwards else errors.cycle < low + 2 * MARGIN
+            )
+            carried_over[: end // 2] = False
+            carried_over[end:] = True
+            self._samples = [(sample[carried_over], _select_rows(errors, carried_over))]
+            self._cycle_range, self._stride = None, 1
         if last:
             self._samples.clear()
-            self._range, self._stride = None, 1
+            self._cycle_range, self._stride = None, 1
 
-    def _thin(self) -> None:
-        """Hold fewer samples of a slow block: a train at rest must not fill the memory."""
-        if sum(len(numbers) for numbers, _ in self._samples) > 2 * self._most:
-            self._join()
-            sample, found = self._samples[0]
-            rows = self._chosen(sample)
-            self._samples = [(sample[rows], _rows(found, rows))]
+    def _thin_samples(self) -> None:
+        """Thin the samples of a slow block: a train at rest must not fill the memory."""
+        if sum(len(numbers) for numbers, _ in self._samples) > 2 * self._most_samples:
+            self._join_samples()
+            sample, errors = self._samples[0]
+            rows = self._thinning_mask(sample)
+            self._samples = [(sample[rows], _select_rows(errors, rows))]
 
-    def _chosen(self, sample: Counts) -> NDArray[np.bool_]:
+    def _thinning_mask(self, sample: Counts) -> NDArray[np.bool_]:
         """Which samples a block keeps: with equal steps, and at most `MOST` in a bin on average."""
-        while np.sum(rows := sample % self._stride == 0) > self._most:
+        while np.sum(rows := sample % self._stride == 0) > self._most_samples:
             self._stride *= 2
         return rows
 
-    def _join(self) -> None:
+    def _join_samples(self) -> None:
         """Concatenate the samples."""
         sample = np.concatenate([numbers for numbers, _ in self._samples])
-        columns = zip(*(found for _, found in self._samples), strict=True)
-        self._samples = [(sample, ErrorSamples(*(np.concatenate(one) for one in columns)))]
+        columns = zip(*(errors for _, errors in self._samples), strict=True)
+        self._samples = [(sample, ErrorSamples(*(np.concatenate(parts) for parts in columns)))]
 
-    def _block(self, number: int, sample: Counts, found: ErrorSamples) -> HuntingBlock | None:
+    def _make_block(self, number: int, sample: Counts, errors: ErrorSamples) -> HuntingBlock | None:
         """The block of these samples; None if it has too many gaps or starts a waveform."""
         begin = number * self._cycles
-        cycle = found.cycle - begin + MARGIN
-        many = self._cycles + 2 * MARGIN
-        per_cycle = np.bincount(cycle, minlength=many)
-        inside = per_cycle[MARGIN:-MARGIN]
-        usual = float(np.median(inside))
+        cycle = errors.cycle - begin + MARGIN
+        all_cycles = self._cycles + 2 * MARGIN
+        per_cycle = np.bincount(cycle, minlength=all_cycles)
+        block_counts = per_cycle[MARGIN:-MARGIN]
+        usual_count = float(np.median(block_counts))
         backwards = np.diff(cycle) * (1 if cycle[-1] >= cycle[0] else -1) < -1
-        if np.mean(inside > 0.5 * usual) < COMPLETE or usual == 0.0 or backwards.any():
+        if (
+            np.mean(block_counts > 0.5 * usual_count) < COMPLETE
+            or usual_count == 0.0
+            or backwards.any()
+        ):
             self.counters.dropped_blocks += 1
             return None
-        waveform, self._waveform = self._waveform, self._learned(found, cycle, per_cycle)
+        waveform, self._waveform = self._waveform, self._update_waveform(errors, cycle, per_cycle)
         if waveform is None:
             return None
-        fine = found.part * FINE - 0.5
-        shown = found.error - np.interp(fine, np.arange(-1, FINE + 1), np.pad(waveform, 1, "wrap"))
-        cell = cycle * BINS + (found.part * BINS).astype(np.int64)
-        count = np.bincount(cell, minlength=many * BINS)
-        total = np.bincount(cell, shown, minlength=many * BINS).astype(float)
+        fine = errors.part * FINE - 0.5
+        residual = errors.error - np.interp(
+            fine, np.arange(-1, FINE + 1), np.pad(waveform, 1, "wrap")
+        )
+        cell = cycle * BINS + (errors.part * BINS).astype(np.int64)
+        bin_counts = np.bincount(cell, minlength=all_cycles * BINS)
+        bin_sums = np.bincount(cell, residual, minlength=all_cycles * BINS).astype(float)
         rows, shape = slice(MARGIN * BINS, -MARGIN * BINS), (self._cycles, BINS)
-        smooth, present = _smoothed(total, count)
-        deviation, measured = smooth[rows].reshape(shape), present[rows].reshape(shape)
-        own = (cycle >= MARGIN) & (cycle < many - MARGIN)
-        times = sample[own][[0, -1]] * self.period
-        place = (found.cycle + found.part)[own][[0, -1]]
-        there = inside > 0.5 * usual
-        means = np.bincount(cycle, found.error, minlength=many)[MARGIN:-MARGIN][there]
-        whole = float(np.mean(there)) >= WHOLE
+        bin_deviation, bin_measured = _subtract_running_mean(bin_sums, bin_counts)
+        deviation, measured = bin_deviation[rows].reshape(shape), bin_measured[rows].reshape(shape)
+        in_block = (cycle >= MARGIN) & (cycle < all_cycles - MARGIN)
+        times = sample[in_block][[0, -1]] * self.period
+        position = (errors.cycle + errors.part)[in_block][[0, -1]]
+        covered = block_counts > 0.5 * usual_count
+        means = np.bincount(cycle, errors.error, minlength=all_cycles)[MARGIN:-MARGIN][covered]
+        complete = float(np.mean(covered)) >= WHOLE
         return HuntingBlock(
             number=number,
             begin=float(times[0]),
             end=float(times[1]),
-            rate=float(abs(place[1] - place[0]) / (times[1] - times[0])),
+            rate=float(abs(position[1] - position[0]) / (times[1] - times[0])),
             deviation=without_common(deviation, measured),
             measured=measured,
-            mean=float(np.mean(means / inside[there])) if whole else float("nan"),
+            mean=float(np.mean(means / block_counts[covered])) if complete else float("nan"),
             segment=self.counters.segments,
         )
 
-    def _learned(self, found: ErrorSamples, cycle: Counts, per_cycle: Counts) -> Array:
+    def _update_waveform(self, errors: ErrorSamples, cycle: Counts, per_cycle: Counts) -> Array:
         """The waveform common to all cycles, updated with that of this block.
 
         If the sample rate is a multiple of the mesh frequency, a block has the waveform at few
         angles only. The others are kept from earlier blocks, unless the waveform has changed.
         """
-        there = np.flatnonzero(per_cycle)
-        means = np.bincount(cycle, found.error)[there] / per_cycle[there]
-        slow = np.interp(cycle + found.part, there + 0.5, means)
-        fine = (found.part * FINE).astype(np.int64)
-        own = np.stack([
-            np.bincount(fine, found.error - slow, minlength=FINE),
+        measured_cycles = np.flatnonzero(per_cycle)
+        means = np.bincount(cycle, errors.error)[measured_cycles] / per_cycle[measured_cycles]
+        trend = np.interp(cycle + errors.part, measured_cycles + 0.5, means)
+        fine = (errors.part * FINE).astype(np.int64)
+        sums = np.stack([
+            np.bincount(fine, errors.error - trend, minlength=FINE),
             np.bincount(fine, minlength=FINE).astype(float),
         ])  # fmt: skip
-        if self._sums is not None and _agree(own, self._sums):
-            own += KEPT * self._sums
-        self._sums = own
-        places = np.flatnonzero(own[1])
-        waveform = np.interp(np.arange(FINE), places, own[0, places] / own[1, places], period=FINE)
+        if self._sums is not None and _same_waveform(sums, self._sums):
+            sums += KEPT * self._sums
+        self._sums = sums
+        known = np.flatnonzero(sums[1])
+        waveform = np.interp(np.arange(FINE), known, sums[0, known] / sums[1, known], period=FINE)
         return np.asarray(waveform - waveform.mean())
 
 
-def _agree(own: Array, before: Array) -> bool:
+def _same_waveform(new_sums: Array, old_sums: Array) -> bool:
     """Whether two waveforms, as sums and counts by fine bin, agree where both are known."""
-    both = (own[1] > 0.0) & (before[1] > 0.0)
-    one, other = (sums[0, both] / sums[1, both] for sums in (own, before))
-    return bool(np.mean((one - other) ** 2) < CHANGED**2 * np.mean(other**2))
+    both = (new_sums[1] > 0.0) & (old_sums[1] > 0.0)
+    new, old = (waveform[0, both] / waveform[1, both] for waveform in (new_sums, old_sums))
+    return bool(np.mean((new - old) ** 2) < CHANGED**2 * np.mean(old**2))
 
 
-def _number(cycle: Counts, cycles: int) -> int | None:
+def _block_number(cycle: Counts, cycles: int) -> int | None:
     """Number of the block in which samples begin; None while their direction is unknown."""
     moved = np.flatnonzero(cycle != cycle[0])
     if not len(moved):
         return None
-    ahead = cycle[moved[0]] > cycle[0]
-    return int(cycle[0] + MARGIN if ahead else cycle[0] - MARGIN) // cycles
+    forwards = cycle[moved[0]] > cycle[0]
+    return int(cycle[0] + MARGIN if forwards else cycle[0] - MARGIN) // cycles
 
 
-def _rows(found: ErrorSamples, rows: slice | NDArray[np.bool_]) -> ErrorSamples:
-    return ErrorSamples(found.cycle[rows], found.part[rows], found.error[rows])
+def _select_rows(errors: ErrorSamples, rows: slice | NDArray[np.bool_]) -> ErrorSamples:
+    return ErrorSamples(errors.cycle[rows], errors.part[rows], errors.error[rows])
 
 
-def _smoothed(total: Array, count: NDArray[np.intp]) -> tuple[Array, NDArray[np.bool_]]:
+def _subtract_running_mean(
+    total: Array, count: NDArray[np.intp]
+) -> tuple[Array, NDArray[np.bool_]]:
     """Means of bins minus their running mean, and where both are measured."""
     present = count > 0
     mean = np.asarray(np.where(present, total / np.maximum(count, 1), 0.0))
@@ -328,10 +345,10 @@ def _smoothed(total: Array, count: NDArray[np.intp]) -> tuple[Array, NDArray[np.
     window = np.ones(SMOOTHED * BINS + 1)
     window[[0, -1]] = 0.5  # as many bins before as after
     sums = np.convolve(mean, window, "same")
-    share = np.convolve(present.astype(float), window, "same") / (SMOOTHED * BINS)
-    measured = present & (share >= PRESENT * np.median(share))
-    slow = sums / np.maximum(share * SMOOTHED * BINS, 1.0)
-    return np.where(measured, mean - slow, 0.0), measured
+    coverage = np.convolve(present.astype(float), window, "same") / (SMOOTHED * BINS)
+    measured = present & (coverage >= PRESENT * np.median(coverage))
+    running_mean = sums / np.maximum(coverage * SMOOTHED * BINS, 1.0)
+    return np.where(measured, mean - running_mean, 0.0), measured
 
 
 def without_common(deviation: Array, measured: NDArray[np.bool_]) -> Array:

@@ -51,7 +51,7 @@ class LossMap:
 
     def __init__(self, scene: Scene) -> None:
         train = followed_train(scene)
-        self._scene, self._cycles = _plain(scene), abs(float(train.cycles))
+        self._scene, self._cycles = _quasi_static(scene), abs(float(train.cycles))
         torques = np.minimum(train.torque * np.array(TORQUES), scene.drive.torque_limit)
         speeds = np.minimum(train.speed * np.array(SPEEDS), train.speed_limit)
         heat = np.clip(train.oil_temperature + np.array(HEATING), COLDEST, HOTTEST)
@@ -73,13 +73,18 @@ class LossMap:
         Raises:
             RunawayError: a point of the table that is needed has no equilibrium.
         """
-        k, h = _place(self._heat, temperature)
+        heat_index, heat_fraction = _interval_of(self._heat, temperature)
         drives = torque * speed >= 0.0
-        cold = self._at(drives, k, torque, speed)
-        if h == 0.0:
+        cold = self._loss_at(drives, heat_index, torque, speed)
+        if heat_fraction == 0.0:
             return cold
-        warm = self._at(drives, k + 1, torque, speed)
-        return Loss(*(one + h * (other - one) for one, other in zip(cold, warm, strict=True)))
+        warm = self._loss_at(drives, heat_index + 1, torque, speed)
+        return Loss(
+            *(
+                at_cold + heat_fraction * (at_warm - at_cold)
+                for at_cold, at_warm in zip(cold, warm, strict=True)
+            )
+        )
 
     @property
     def knots(self) -> tuple[Array, Array, Array]:
@@ -99,39 +104,57 @@ class LossMap:
         Raises:
             RunawayError: a point has no equilibrium.
         """
-        whole = slice(None)
-        parts = [self._part(drives, k, whole, whole) for k in range(len(self._heat))]
+        every_knot = slice(None)
+        parts = [
+            self._table_part(drives, k, every_knot, every_knot) for k in range(len(self._heat))
+        ]
         return np.stack([teeth for teeth, _ in parts]), np.stack([rest for _, rest in parts])
 
-    def _at(self, drives: bool, k: int, torque: float, speed: float) -> Loss:
-        """Loss at a temperature of the table."""
-        size, rate = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
-        m, v = _place(self._logarithms[1], math.log(rate))
-        n, u = _place(self._logarithms[0], math.log(size))
-        teeth, rest = self._part(drives, k, slice(m, m + 2), slice(n, n + 2))
+    def _loss_at(self, drives: bool, heat_index: int, torque: float, speed: float) -> Loss:
+        """Loss at the temperature `heat_index` of the table."""
+        torque_size, speed_size = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
+        speed_index, speed_fraction = _interval_of(self._logarithms[1], math.log(speed_size))
+        torque_index, torque_fraction = _interval_of(self._logarithms[0], math.log(torque_size))
+        teeth, rest = self._table_part(
+            drives,
+            heat_index,
+            slice(speed_index, speed_index + 2),
+            slice(torque_index, torque_index + 2),
+        )
         (a, b), (c, d) = teeth.tolist()
-        low, high = a + v * (c - a), b + v * (d - b)
-        part = low + u * (high - low)
-        bend = (high - low) / float(self._logarithms[0][n + 1] - self._logarithms[0][n])
+        low, high = a + speed_fraction * (c - a), b + speed_fraction * (d - b)
+        coefficient = low + torque_fraction * (high - low)
+        log_slope = (high - low) / float(
+            self._logarithms[0][torque_index + 1] - self._logarithms[0][torque_index]
+        )
         (a, b), (c, d) = rest.tolist()
-        v = _share(self._speeds, m, rate)
-        low, high = a + v * (c - a), b + v * (d - b)
-        lost = low + _share(self._torques, n, size) * (high - low)
-        return Loss(part * size, part + (bend if 0.0 < u < 1.0 else 0.0), lost)
+        speed_fraction = _fraction(self._speeds, speed_index, speed_size)
+        low, high = a + speed_fraction * (c - a), b + speed_fraction * (d - b)
+        other_loss = low + _fraction(self._torques, torque_index, torque_size) * (high - low)
+        return Loss(
+            coefficient * torque_size,
+            coefficient + (log_slope if 0.0 < torque_fraction < 1.0 else 0.0),
+            other_loss,
+        )
 
-    def _part(self, drives: bool, k: int, speeds: slice, torques: slice) -> tuple[Array, Array]:
+    def _table_part(
+        self, drives: bool, heat_index: int, speeds: slice, torques: slice
+    ) -> tuple[Array, Array]:
         """Part of the table: loss torque of tooth friction over torque, and of the rest,
         (speeds, torques) each."""
         shape = len(self._speeds), len(self._torques)
         teeth, rest = self._tables.setdefault(
-            (drives, k), (np.full(shape, np.nan), np.full(shape, np.nan))
+            (drives, heat_index), (np.full(shape, np.nan), np.full(shape, np.nan))
         )
         unknown = np.argwhere(np.isnan(teeth[speeds, torques]))
-        for m, n in np.add(unknown, [speeds.start or 0, torques.start or 0]):
-            torque = float(self._torques[n])
-            at = float(self._speeds[m]), float(self._heat[k])
-            found = self.run(torque if drives else -torque, *at)
-            teeth[m, n], rest[m, n] = found[0] / torque, found[1]
+        for speed_index, torque_index in np.add(unknown, [speeds.start or 0, torques.start or 0]):
+            torque = float(self._torques[torque_index])
+            point = float(self._speeds[speed_index]), float(self._heat[heat_index])
+            losses = self.run(torque if drives else -torque, *point)
+            teeth[speed_index, torque_index], rest[speed_index, torque_index] = (
+                losses[0] / torque,
+                losses[1],
+            )
         return teeth[speeds, torques], rest[speeds, torques]
 
     def run(self, torque: float, speed: float, temperature: float) -> tuple[float, float]:
@@ -148,23 +171,23 @@ class LossMap:
         Raises:
             RunawayError: there is no equilibrium.
         """
-        there = self._scene.replace(
+        scene = self._scene.replace(
             input_torque=torque, input_speed=speed, oil_temperature=temperature
         )
         duration = CYCLES * 2.0 * math.pi / (self._cycles * speed)
-        run = simulate(there, duration, 4.0 / duration, tolerance=TOLERANCE)
-        turned = run.duration * speed
+        run = simulate(scene, duration, 4.0 / duration, tolerance=TOLERANCE)
+        angle = run.duration * speed
         energy = run.energy
-        return energy.friction / turned, (energy.bearing + energy.churning) / turned
+        return energy.friction / angle, (energy.bearing + energy.churning) / angle
 
 
-def _place(knots: Array, value: float) -> tuple[int, float]:
-    """Index of the interval of a value, and its place within it from 0 to 1."""
+def _interval_of(knots: Array, value: float) -> tuple[int, float]:
+    """Index of the interval of a value, and the fraction of that interval from 0 to 1."""
     n = min(max(int(np.searchsorted(knots, value, "right")) - 1, 0), len(knots) - 2)
-    return n, min(max(_share(knots, n, value), 0.0), 1.0)
+    return n, min(max(_fraction(knots, n, value), 0.0), 1.0)
 
 
-def _share(knots: Array, n: int, value: float) -> float:
+def _fraction(knots: Array, n: int, value: float) -> float:
     low = float(knots[n])
     return (value - low) / (float(knots[n + 1]) - low)
 
@@ -189,7 +212,7 @@ def _map_of(text: str) -> LossMap:
     return LossMap(Scene.model_validate_json(text))
 
 
-def _plain(scene: Scene) -> Scene:
+def _quasi_static(scene: Scene) -> Scene:
     """The scene as a steady quasi-static train whose mesh cycles are all equal."""
     return scene.replace(
         **{

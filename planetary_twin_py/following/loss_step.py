@@ -55,10 +55,10 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     Returns:
         The step.
     """
-    sd = np.array([one.sd for one in balances])
-    value = np.array([one.value for one in balances]) / sd
-    slopes = np.array([one.slope for one in balances]) / sd[:, None]
-    added = np.array([one.added for one in balances])
+    sd = np.array([balance.sd for balance in balances])
+    value = np.array([balance.value for balance in balances]) / sd
+    slopes = np.array([balance.slope for balance in balances]) / sd[:, None]
+    added = np.array([balance.added for balance in balances])
     added = added / np.maximum(np.sqrt(np.mean(added**2, axis=0)), 1e-300)
     shapes = added / sd[:, None]
     # Whitened readings have the covariance 1 + S P S'; its inverse is 1 - S inner S' (Woodbury).
@@ -95,13 +95,13 @@ class StepCause:
     def __init__(self, begin: float, covariance: Array) -> None:
         self.begin = begin
         self._count, self._square = 0, 0.0
-        many = len(covariance) + len(CAUSES)
-        self._matrix, self._vector = np.zeros((many, many)), np.zeros(many)
-        self._prior = np.zeros((many, many))
-        known = len(covariance)
-        self._prior[:known, :known] = np.linalg.pinv(covariance, hermitian=True)
-        self._prior[known:, known:] = FLAT * np.eye(len(CAUSES))
-        self._known = known
+        unknowns = len(covariance) + len(CAUSES)
+        self._matrix, self._vector = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
+        self._prior = np.zeros((unknowns, unknowns))
+        parameters = len(covariance)
+        self._prior[:parameters, :parameters] = np.linalg.pinv(covariance, hermitian=True)
+        self._prior[parameters:, parameters:] = FLAT * np.eye(len(CAUSES))
+        self._known = parameters
 
     def add(self, found: Balance) -> None:
         """Add a balance since the step.
@@ -123,9 +123,9 @@ class StepCause:
             return CAUSES
         gain = np.array([self._gain(n) for n in range(len(CAUSES))])
         order = np.argsort(-gain, kind="stable")
-        left = 2.0 * (0.5 * self._square - float(gain.max())) / self._count
-        near = gain > gain.max() - BETTER * max(left, 1.0)
-        return tuple(CAUSES[n] for n in order if near[n])
+        misfit = 2.0 * (0.5 * self._square - float(gain.max())) / self._count
+        plausible = gain > gain.max() - BETTER * max(misfit, 1.0)
+        return tuple(CAUSES[n] for n in order if plausible[n])
 
     def _gain(self, cause: int) -> float:
         """Gain of log-likelihood of one cause together with errors of the parameters."""

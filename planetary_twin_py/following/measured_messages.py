@@ -72,7 +72,7 @@ class MessageReader:
             side: PositionCheck(f"{side}_speed", factors.get(f"{side}_speed", 1.0))
             for side in SIDES
         }
-        self._number: int | None = None  # of a device's sample 0, in periods since time 0
+        self._first_number: int | None = None  # of a device's sample 0, in periods since time 0
         self._format: EncoderFormat | None = None
         self._channels: tuple[tuple[str, ...], float] | None = None  # of vibration, and period
 
@@ -94,95 +94,101 @@ class MessageReader:
         rows: list[_Row] = []
         samples: list[EncoderSamples] = []
         vibration: list[VibrationSamples] = []
-        for one in arrived:
-            if one.kind == ENCODERS:
-                samples.append(self._samples(one))
+        for received in arrived:
+            if received.kind == ENCODERS:
+                samples.append(self._encoder_samples(received))
                 continue
-            if one.kind == VIBRATION:
-                vibration.append(self._vibration(one))
+            if received.kind == VIBRATION:
+                vibration.append(self._vibration_samples(received))
                 continue
-            values = self._values(one)
+            values = self._shaft_readings(received)
             if values:
-                row = _Row(one.sender, stamp_of(one.message), one.time, values)
+                row = _Row(received.sender, stamp_of(received.message), received.time, values)
                 if rows and not _same_channels(rows[-1], row):
-                    yield _together(rows)
+                    yield _join_rows(rows)
                     rows = []
                 rows.append(row)
         if rows:
-            yield _together(rows)
+            yield _join_rows(rows)
         if samples:
-            yield _joined(samples)
+            yield _join_samples(samples)
         if vibration:
             yield vibration[0]._replace(
-                time=np.concatenate([one.time for one in vibration]),
-                values=np.concatenate([one.values for one in vibration]),
+                time=np.concatenate([block.time for block in vibration]),
+                values=np.concatenate([block.values for block in vibration]),
             )
 
-    def _values(self, one: Arrived) -> dict[str, float]:
-        if one.kind == TEMPERATURE:
-            return {"oil_temperature": float(one.message.temperature) + ZERO_CELSIUS}
+    def _shaft_readings(self, received: Arrived) -> dict[str, float]:
+        if received.kind == TEMPERATURE:
+            return {"oil_temperature": float(received.message.temperature) + ZERO_CELSIUS}
         values: dict[str, float] = {}
         for side, joint in zip(SIDES, (self._joints.input, self._joints.output), strict=True):
-            found = _shaft(one.message, joint)
+            joint_values = _joint_values(received.message, joint)
             values |= {
-                f"{side}_{INTERFACES[name]}": found[name] for name in INTERFACES if name in found
+                f"{side}_{INTERFACES[name]}": joint_values[name]
+                for name in INTERFACES
+                if name in joint_values
             }
-            if "position" in found and "velocity" in found:
-                stamp = stamp_of(one.message)
-                self._positions[side].add(stamp, found["position"], found["velocity"])
+            if "position" in joint_values and "velocity" in joint_values:
+                stamp = stamp_of(received.message)
+                self._positions[side].add(stamp, joint_values["position"], joint_values["velocity"])
         return values
 
-    def _samples(self, one: Arrived) -> EncoderSamples:
+    def _encoder_samples(self, received: Arrived) -> EncoderSamples:
         """Return the samples of a block, numbered from time 0 of the stamps."""
-        block = one.message
+        block = received.message
         counts = np.array([block.input_counts, block.output_counts], dtype=np.int64)
-        found = EncoderFormat(
+        encoder_format = EncoderFormat(
             (int(block.input_counts_per_turn), int(block.output_counts_per_turn)),
             float(block.sample_period),
         )
         if self._format is None:
-            _check(one.sender, found)
-            self._format = found
-        if found != self._format:
+            _check_format(received.sender, encoder_format)
+            self._format = encoder_format
+        if encoder_format != self._format:
             raise InputError(
-                f"{one.sender}: counts per turn and period are {_words(found)}: must be "
-                f"{_words(self._format)} as in the blocks before"
+                f"{received.sender}: counts per turn and period are "
+                f"{_format_text(encoder_format)}: must be {_format_text(self._format)} as in the "
+                "blocks before"
             )
-        begin = round(stamp_of(block) / found.period)
+        begin = round(stamp_of(block) / encoder_format.period)
         first = int(block.first_sample)
-        apart = 0 if self._number is None else abs(self._number + first - begin)
-        if self._number is None or apart * found.period > SET:
-            self._number = begin - first
+        deviation = 0 if self._first_number is None else abs(self._first_number + first - begin)
+        if self._first_number is None or deviation * encoder_format.period > SET:
+            self._first_number = begin - first
         return EncoderSamples(
-            self._number + first + np.arange(counts.shape[1], dtype=np.int64), counts.T, found
+            self._first_number + first + np.arange(counts.shape[1], dtype=np.int64),
+            counts.T,
+            encoder_format,
         )
 
-    def _vibration(self, one: Arrived) -> VibrationSamples:
+    def _vibration_samples(self, received: Arrived) -> VibrationSamples:
         """Samples of a block, by channel."""
-        block, names = one.message, tuple(one.message.names)
-        found = names, float(block.sample_period)
+        block, names = received.message, tuple(received.message.names)
+        channels = names, float(block.sample_period)
         if self._channels is None:
-            if not names or not 0.0 < found[1] < 1.0:
+            if not names or not 0.0 < channels[1] < 1.0:
                 raise InputError(
-                    f"{one.sender}: {len(names)} names and a sample_period of {found[1]:g} s: must "
-                    "be at least 1 and within 0 and 1 s"
+                    f"{received.sender}: {len(names)} names and a sample_period of "
+                    f"{channels[1]:g} s: must be at least 1 and within 0 and 1 s"
                 )
-            self._channels = found
-        if found != self._channels:
-            known = self._channels
+            self._channels = channels
+        if channels != self._channels:
+            expected = self._channels
             raise InputError(
-                f"{one.sender}: names and sample_period are {', '.join(names)}, {found[1]:g} s: "
-                f"must be {', '.join(known[0])}, {known[1]:g} s as in the blocks before"
+                f"{received.sender}: names and sample_period are {', '.join(names)}, "
+                f"{channels[1]:g} s: must be {', '.join(expected[0])}, {expected[1]:g} s as in the "
+                "blocks before"
             )
         samples = np.asarray(block.samples, dtype=np.float64)
         if len(samples) % len(names):
             raise InputError(
-                f"{one.sender}: {len(samples)} samples: must be the same number of each of the "
-                f"{len(names)} channels"
+                f"{received.sender}: {len(samples)} samples: must be the same number of each of "
+                f"the {len(names)} channels"
             )
         values = samples.reshape(len(names), -1).T
-        time = stamp_of(block) + found[1] * np.arange(len(values), dtype=np.float64)
-        return VibrationSamples(time, values, *found)
+        time = stamp_of(block) + channels[1] * np.arange(len(values), dtype=np.float64)
+        return VibrationSamples(time, values, *channels)
 
 
 def stamp_of(message: Any) -> float:
@@ -191,54 +197,56 @@ def stamp_of(message: Any) -> float:
     return float(stamp.sec + 1e-9 * stamp.nanosec)
 
 
-def _check(sender: str, found: EncoderFormat) -> None:
-    if min(found.counts_per_turn) < 1 or not 0.0 < found.period < 1.0:
+def _check_format(sender: str, encoder_format: EncoderFormat) -> None:
+    if min(encoder_format.counts_per_turn) < 1 or not 0.0 < encoder_format.period < 1.0:
         raise InputError(
-            f"{sender}: counts per turn and period are {_words(found)}: must be at least 1 and "
-            "within 0 and 1 s"
+            f"{sender}: counts per turn and period are {_format_text(encoder_format)}: must be at "
+            "least 1 and within 0 and 1 s"
         )
 
 
-def _words(found: EncoderFormat) -> str:
-    first, second = found.counts_per_turn
-    return f"{first}, {second}, {found.period:g} s"
+def _format_text(encoder_format: EncoderFormat) -> str:
+    first, second = encoder_format.counts_per_turn
+    return f"{first}, {second}, {encoder_format.period:g} s"
 
 
-def _shaft(message: Any, joint: str) -> dict[str, float]:
+def _joint_values(message: Any, joint: str) -> dict[str, float]:
     """Values of a joint in a message, by interface."""
     names = list(message.joint_names if hasattr(message, "joint_names") else message.name)
     if joint not in names:
         return {}
-    place = names.index(joint)
-    found = {name: _interface(message, place, name) for name in ("position", *INTERFACES)}
-    return {name: value for name, value in found.items() if value is not None}
+    joint_index = names.index(joint)
+    values = {
+        name: _interface_value(message, joint_index, name) for name in ("position", *INTERFACES)
+    }
+    return {name: value for name, value in values.items() if value is not None}
 
 
-def _interface(message: Any, place: int, interface: str) -> float | None:
+def _interface_value(message: Any, joint_index: int, interface: str) -> float | None:
     """Value of an interface of a joint; None if the message does not have it."""
     if hasattr(message, "interface_values"):
-        found = message.interface_values[place]
-        pairs = zip(found.interface_names, found.values, strict=False)
+        interfaces = message.interface_values[joint_index]
+        pairs = zip(interfaces.interface_names, interfaces.values, strict=False)
         return next((float(value) for name, value in pairs if name == interface), None)
     values = getattr(message, interface)
-    return float(values[place]) if len(values) > place else None
+    return float(values[joint_index]) if len(values) > joint_index else None
 
 
-def _same_channels(one: _Row, other: _Row) -> bool:
-    return one.sender == other.sender and [*one.values] == [*other.values]
+def _same_channels(first: _Row, second: _Row) -> bool:
+    return first.sender == second.sender and [*first.values] == [*second.values]
 
 
-def _together(rows: list[_Row]) -> Readings:
+def _join_rows(rows: list[_Row]) -> Readings:
     """Join rows to one block."""
     columns = {name: np.array([row.values[name] for row in rows]) for name in rows[0].values}
     stamp, arrival = (np.array([row[k] for row in rows]) for k in (1, 2))
     return Readings(stamp, columns, arrival, rows[0].sender)
 
 
-def _joined(samples: list[EncoderSamples]) -> EncoderSamples:
+def _join_samples(samples: list[EncoderSamples]) -> EncoderSamples:
     """Join samples to one block."""
     return EncoderSamples(
-        np.concatenate([one.sample for one in samples]),
-        np.concatenate([one.counts for one in samples]),
+        np.concatenate([block.sample for block in samples]),
+        np.concatenate([block.counts for block in samples]),
         samples[0].format,
     )

@@ -43,36 +43,36 @@ def read_recording(
             that a speed has another unit.
         OSError: the file cannot be read.
     """
-    lines = [] if remarks is None else remarks
+    collected = [] if remarks is None else remarks
     reader = MessageReader(joints, scale)
-    found = [
+    blocks = [
         block
         for file in files_of(path)
-        for part in _in_parts(_arrived(file, joints, lines))
+        for part in _split_by_time(_received(file, joints, collected))
         for block in reader.read(part)
     ]
-    named = (block.columns for block in found if isinstance(block, Readings))
+    columns_of_blocks = (block.columns for block in blocks if isinstance(block, Readings))
     shafts = set(CHANNELS) - {"oil_temperature"}
-    if not any(shafts & set(columns) for columns in named):
+    if not any(shafts & set(columns) for columns in columns_of_blocks):
         raise ValueError(
             f"{path}: no JointState or DynamicJointState with the joints {joints.input!r} and "
             f"{joints.output!r} on a topic that ends in {joints.topics!r}"
         )
-    return found
+    return blocks
 
 
-def _in_parts(arrived: Iterator[Arrived]) -> Iterator[list[Arrived]]:
+def _split_by_time(arrived: Iterator[Arrived]) -> Iterator[list[Arrived]]:
     """Split messages into intervals of `PART`."""
     part: list[Arrived] = []
-    for one in arrived:
-        if part and not abs(one.time - part[0].time) < PART:
+    for message in arrived:
+        if part and not abs(message.time - part[0].time) < PART:
             yield part
             part = []
-        part.append(one)
+        part.append(message)
     yield part
 
 
-def _arrived(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Arrived]:
+def _received(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Arrived]:
     """Measured messages of a file."""
     schemas: dict[int, Schema] = {}
     types: dict[int, tuple[str, str, Typestore]] = {}  # topic and type of a channel
@@ -81,14 +81,14 @@ def _arrived(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Arr
             schemas[record.id] = record
         elif isinstance(record, Channel):
             schema = schemas[record.schema_id]
-            other = schema.name in JOINTS and not record.topic.endswith(joints.topics)
-            if schema.name in KINDS and not other:
-                found = _types(file, record.topic, schema)
-                types[record.id] = record.topic, schema.name, found
+            unwanted = schema.name in JOINTS and not record.topic.endswith(joints.topics)
+            if schema.name in KINDS and not unwanted:
+                typestore = _typestore(file, record.topic, schema)
+                types[record.id] = record.topic, schema.name, typestore
         elif isinstance(record, Message) and record.channel_id in types:
-            topic, kind, found = types[record.channel_id]
+            topic, kind, typestore = types[record.channel_id]
             try:
-                message = found.deserialize_cdr(record.data, kind)
+                message = typestore.deserialize_cdr(record.data, kind)
             except Exception as reason:  # of many kinds: rosbags runs generated code
                 why = str(reason) or type(reason).__name__
                 text = f"{file}: {topic}: a message does not match its definition: {why}"
@@ -96,7 +96,7 @@ def _arrived(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Arr
             yield Arrived(topic, kind, 1e-9 * record.log_time, message)
 
 
-def _types(file: Path, topic: str, schema: Schema) -> Typestore:
+def _typestore(file: Path, topic: str, schema: Schema) -> Typestore:
     try:
         return types_of(schema.data, schema.name)
     except DefinitionError as error:

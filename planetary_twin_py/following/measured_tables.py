@@ -46,13 +46,13 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
             channel is missing, or a heading of `names` does not exist.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
-    channel = {heading: name for name, heading in _headings(path, names, found).items()}
+    table = read_columns(path)
+    channel_of = {heading: name for name, heading in _chosen_headings(path, names, table).items()}
     units = CHANNELS | {ARRIVAL: "s"}
     columns: dict[str, np.ndarray] = {}
     ignored, stamps, begin = [], None, None
-    for own, column in found.items():
-        name = channel.get(column.heading, own)
+    for default_name, column in table.items():
+        name = channel_of.get(column.heading, default_name)
         if name == TIME[0]:
             stamps, begin = column.in_si(name, "s"), column.begin
         elif name in columns:
@@ -92,20 +92,22 @@ def read_encoders(path: Path, period: float, begin: np.datetime64 | None = None)
             not multiples of the period, or they are dates and those of the readings are not.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
+    columns = read_columns(path)
     for name in COUNTS:
-        if name not in found:
+        if name not in columns:
             raise ValueError(f"{path}: column {name!r}: missing")
-    counts = np.stack([_whole(path, name, found[name].in_si(name, "")) for name in COUNTS], axis=1)
-    if SAMPLE in found:
-        sample = _whole(path, SAMPLE, found[SAMPLE].in_si(SAMPLE, ""))
-    elif TIME[0] in found:
-        number = found[TIME[0]].in_si(TIME[0], "s") / period
+    counts = np.stack(
+        [_whole_numbers(path, name, columns[name].in_si(name, "")) for name in COUNTS], axis=1
+    )
+    if SAMPLE in columns:
+        sample = _whole_numbers(path, SAMPLE, columns[SAMPLE].in_si(SAMPLE, ""))
+    elif TIME[0] in columns:
+        number = columns[TIME[0]].in_si(TIME[0], "s") / period
         if not np.all((np.abs(number - np.round(number)) < 0.2) & (np.abs(number) <= LARGEST)):
             raise ValueError(
                 f"{path}: time: must be multiples of {period:g} s; is the sample rate right?"
             )
-        shift = round(_later(path, found[TIME[0]], begin) / period)
+        shift = round(_time_shift(path, columns[TIME[0]], begin) / period)
         sample = np.round(number).astype(np.int64) + shift
     else:
         raise ValueError(f"{path}: column {SAMPLE!r} or {TIME[0]!r}: missing")
@@ -134,29 +136,29 @@ def read_vibration(
             of the readings are not.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
-    if TIME[0] not in found:
+    columns = read_columns(path)
+    if TIME[0] not in columns:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
-    others = {*TIME, ARRIVAL, SAMPLE, *COUNTS, *CHANNELS, *names.values()}
+    excluded = {*TIME, ARRIVAL, SAMPLE, *COUNTS, *CHANNELS, *names.values()}
     sensors = {
         column.heading: in_si(column.heading, column.values, None, "")
-        for name, column in found.items()
-        if not others & {name, column.heading}
+        for name, column in columns.items()
+        if not excluded & {name, column.heading}
     }
     if not sensors:
         raise ValueError(f"{path}: has no column of vibration besides the time and the readings")
-    time = found[TIME[0]].in_si(TIME[0], "s")
+    time = columns[TIME[0]].in_si(TIME[0], "s")
     steps = np.diff(time[np.isfinite(time)])
     period = float(np.median(steps)) if len(steps) else 0.0
     if not 0.0 < period < 1.0:
         raise ValueError(f"{path}: time: its median step is {period:g} s: must be within 0 and 1 s")
-    shift = _later(path, found[TIME[0]], begin)
+    shift = _time_shift(path, columns[TIME[0]], begin)
     return VibrationSamples(
         time + shift, np.stack([*sensors.values()], axis=1), tuple(sensors), period
     )
 
 
-def _later(path: Path, time: Column, begin: np.datetime64 | None) -> float:
+def _time_shift(path: Path, time: Column, begin: np.datetime64 | None) -> float:
     """Seconds from the second 0 of the readings to that of another table."""
     if time.begin is None:
         return 0.0
@@ -167,21 +169,27 @@ def _later(path: Path, time: Column, begin: np.datetime64 | None) -> float:
     return float((time.begin - begin) / np.timedelta64(1, "s"))
 
 
-def _headings(path: Path, names: Mapping[str, str], found: Mapping[str, Column]) -> dict[str, str]:
+def _chosen_headings(
+    path: Path, names: Mapping[str, str], columns: Mapping[str, Column]
+) -> dict[str, str]:
     """Headings of the channels that have other names."""
     chosen = {}
     for name, wanted in names.items():
         if name not in (*CHANNELS, *TIME, ARRIVAL):
             raise ValueError(f"columns.{name}: must be one of {', '.join((*CHANNELS, ARRIVAL))}")
-        headings = [c.heading for own, c in found.items() if wanted in (c.heading, own)]
+        headings = [
+            column.heading
+            for column_name, column in columns.items()
+            if wanted in (column.heading, column_name)
+        ]
         if len(headings) != 1:
-            listed = one_line(", ".join(column.heading for column in found.values()), 400)
+            listed = one_line(", ".join(column.heading for column in columns.values()), 400)
             raise ValueError(f"{path}: column {wanted!r}: no such column; has {listed}")
         chosen[TIME[0] if name in TIME else name] = headings[0]
     return chosen
 
 
-def _whole(path: Path, name: str, values: np.ndarray) -> np.ndarray:
+def _whole_numbers(path: Path, name: str, values: np.ndarray) -> np.ndarray:
     for row in np.flatnonzero(~(np.isfinite(values) & (values == np.round(values))))[:1]:
         raise ValueError(f"{path}: row {row + 1}: {name} = {values[row]:g}: must be a whole number")
     return values.astype(np.int64)

@@ -50,9 +50,9 @@ class _Oil:
 
     def at(self, time: float, first: float) -> float | None:
         """Last reading up to a time; if there is none, the earliest one up to `first`."""
-        place = bisect.bisect_right(self.read, (time, math.inf))
-        if place:
-            del self.read[: place - 1]  # times only grow
+        count = bisect.bisect_right(self.read, (time, math.inf))
+        if count:
+            del self.read[: count - 1]  # times only grow
             return self.read[0][1]
         return self.read[0][1] if self.read and self.read[0][0] <= first else None
 
@@ -70,8 +70,8 @@ class Merge:
         self._noise = noise
         self._shafts: dict[str, _Shafts] = {}
         self._oil: dict[str, _Oil] = {}
-        self._first = 0.0  # [s] start of the first bin that is used
-        self._used: int | None = None  # number below which all bins are used
+        self._start = 0.0  # [s] start of the first bin that is used
+        self._used_until: int | None = None  # number below which all bins are used
 
     def add(self, time: Array, columns: Mapping[str, Array], sender: str) -> Iterator[Bin]:
         """Add readings of a sender in the order of their arrival.
@@ -85,12 +85,14 @@ class Merge:
             The bins that are complete, in order. Bins without torques and speeds are omitted.
         """
         if sender not in self._shafts and set(columns) == {OIL}:
-            self._warm(np.asarray(time, float), np.asarray(columns[OIL], float), sender)
+            self._add_temperatures(np.asarray(time, float), np.asarray(columns[OIL], float), sender)
             return
-        own = self._shafts.get(sender)
-        if own is None:
-            own = self._shafts[sender] = _Shafts(Bins(self.length, self._noise, self.counters))
-        own.closed |= {one.number: one.means for one in own.bins.add(time, columns)}
+        shafts = self._shafts.get(sender)
+        if shafts is None:
+            shafts = self._shafts[sender] = _Shafts(Bins(self.length, self._noise, self.counters))
+        shafts.closed |= {
+            time_bin.number: time_bin.means for time_bin in shafts.bins.add(time, columns)
+        }
         yield from self._release(self._complete())
 
     def finish(self) -> Iterator[Bin]:
@@ -99,65 +101,67 @@ class Merge:
         Returns:
             The last bins.
         """
-        for own in self._shafts.values():
-            own.closed |= {one.number: one.means for one in own.bins.finish()}
-        last = max((number for own in self._shafts.values() for number in own.closed), default=None)
+        for shafts in self._shafts.values():
+            shafts.closed |= {time_bin.number: time_bin.means for time_bin in shafts.bins.finish()}
+        last = max(
+            (number for shafts in self._shafts.values() for number in shafts.closed), default=None
+        )
         yield from self._release(None if last is None else last + 1)
 
-    def _warm(self, time: Array, values: Array, sender: str) -> None:
-        there = np.isfinite(time) & np.isfinite(values)
-        self.counters.missing += int(np.sum(~there))
-        self.counters.used += int(np.sum(there))
-        self._oil.setdefault(sender, _Oil()).add(time[there], values[there])
+    def _add_temperatures(self, time: Array, values: Array, sender: str) -> None:
+        finite = np.isfinite(time) & np.isfinite(values)
+        self.counters.missing += int(np.sum(~finite))
+        self.counters.used += int(np.sum(finite))
+        self._oil.setdefault(sender, _Oil()).add(time[finite], values[finite])
 
     def _complete(self) -> int | None:
         """Number below which every sender that is waited for has closed its bins."""
-        opened = [own.bins.opened for own in self._shafts.values()]
-        known = [number for number in opened if number is not None]
-        if not known:
+        opened = [shafts.bins.opened for shafts in self._shafts.values()]
+        open_numbers = [number for number in opened if number is not None]
+        if not open_numbers:
             return None
-        awaited = max(known) - math.ceil(WAIT / self.length)
-        until = min(number for number in known if number >= awaited)
-        if self._used is not None:
+        awaited = max(open_numbers) - math.ceil(WAIT / self.length)
+        until = min(number for number in open_numbers if number >= awaited)
+        if self._used_until is not None:
             return until
-        waiting = [number for own in self._shafts.values() for number in own.closed]
-        first = min([*known, *waiting])
+        waiting = [number for shafts in self._shafts.values() for number in shafts.closed]
+        first = min([*open_numbers, *waiting])
         return until if until >= first + math.ceil(START / self.length) else None
 
     def _release(self, until: int | None) -> Iterator[Bin]:
         """Bins below a number."""
         if until is None:
             return
-        found = self._united(until)
-        if self._used is None and found:
-            self._first = min(found) * self.length
-        self._used = until if self._used is None else max(until, self._used)
-        for number in sorted(found):
-            means = found[number]
+        bins = self._take_bins(until)
+        if self._used_until is None and bins:
+            self._start = min(bins) * self.length
+        self._used_until = until if self._used_until is None else max(until, self._used_until)
+        for number in sorted(bins):
+            means = bins[number]
             oil = self._oil_at(number * self.length)
             yield Bin(number, means if oil is None or OIL in means else means | {OIL: oil})
 
-    def _united(self, until: int) -> dict[int, dict[str, Mean]]:
+    def _take_bins(self, until: int) -> dict[int, dict[str, Mean]]:
         """Means of the bins below a number; for a channel of two senders, those of the first."""
-        found: dict[int, dict[str, Mean]] = {}
+        bins: dict[int, dict[str, Mean]] = {}
         for name in sorted(self._shafts):
             closed = self._shafts[name].closed
             for number in [number for number in closed if number < until]:
                 for channel, mean in closed.pop(number).items():
-                    if self._used is not None and number < self._used:
+                    if self._used_until is not None and number < self._used_until:
                         self.counters.late += mean.readings
-                    elif channel in found.setdefault(number, {}):
+                    elif channel in bins.setdefault(number, {}):
                         self.counters.doubled += mean.readings
                     else:
-                        found[number][channel] = mean
+                        bins[number][channel] = mean
                         continue
                     self.counters.used -= mean.readings
-        return found
+        return bins
 
     def _oil_at(self, time: float) -> Mean | None:
         """Temperature of a separate sender for a bin that begins at `time`."""
         for name in sorted(self._oil):
-            value = self._oil[name].at(time - OIL_DELAY, self._first + FIRST_OIL)
+            value = self._oil[name].at(time - OIL_DELAY, self._start + FIRST_OIL)
             if value is not None:
                 return Mean(value, 1, math.nan, math.nan)
         return None

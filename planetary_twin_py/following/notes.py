@@ -26,15 +26,15 @@ def write_notes(path: Path, states: Sequence[Following]) -> None:
     kind = path.suffix.removeprefix(".")
     if kind not in FORMATS:
         raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
-    rows = [one for one in states if np.isfinite(one.time)]
-    batch = {"time": np.array([one.time for one in rows])}
+    rows = [state for state in states if np.isfinite(state.time)]
+    batch = {"time": np.array([state.time for state in rows])}
     units = {"time": "s", "events": ""}
-    for name, unit in ((one.name, one.unit) for one in states[-1].estimates):
+    for name, unit in ((estimate.name, estimate.unit) for estimate in states[-1].estimates):
         for part in ("value", "low", "high"):
             column = name if part == "value" else f"{name}_{part}"
-            batch[column] = np.array([getattr(one[name], part) for one in rows])
+            batch[column] = np.array([getattr(state[name], part) for state in rows])
             units[column] = unit
-    batch["events"] = np.array([len(one.events) for one in rows])
+    batch["events"] = np.array([len(state.events) for state in rows])
     columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
     table = FORMATS[kind](path, columns)
     table.write(batch)

@@ -34,8 +34,10 @@ def play_back(
     Raises:
         InputError: readings contradict the scene.
     """
-    sources = [_Source(one, _stamps_of(one, follower)) for one in samples]
-    noted = -math.inf
+    sources = [
+        _Source(file_samples, _stamps_of(file_samples, follower)) for file_samples in samples
+    ]
+    last_time = -math.inf
     for block in blocks:
         if not isinstance(block, Readings):
             follower.add(block)
@@ -46,8 +48,8 @@ def play_back(
             follower.add(Readings(block.time[rows], columns, arrival, block.sender))
             for source in sources:
                 source.add_until(follower, until)
-            if follower.time > noted + EVERY - 0.5 * follower.period:
-                noted = follower.time
+            if follower.time > last_time + EVERY - 0.5 * follower.period:
+                last_time = follower.time
                 yield follower.estimate()
     for source in sources:
         source.add_until(follower, math.inf)
@@ -67,21 +69,21 @@ class _Source:
         """Pass the samples on up to a time [s]."""
         end = self.place + int(np.searchsorted(self.time[self.place :], until))
         rows, self.place = slice(self.place, end), end
-        one = self.samples
-        if isinstance(one, EncoderSamples):
-            follower.add(one._replace(sample=one.sample[rows], counts=one.counts[rows]))
+        samples = self.samples
+        if isinstance(samples, EncoderSamples):
+            follower.add(samples._replace(sample=samples.sample[rows], counts=samples.counts[rows]))
         else:
-            follower.add(one._replace(time=one.time[rows], values=one.values[rows]))
+            follower.add(samples._replace(time=samples.time[rows], values=samples.values[rows]))
 
 
 def _stamps_of(
     samples: EncoderSamples | VibrationSamples, follower: Follower
 ) -> NDArray[np.float64]:
     if isinstance(samples, EncoderSamples):
-        shape = samples.format or follower.encoders
-        if shape is None:
+        encoder_format = samples.format or follower.encoders
+        if encoder_format is None:
             raise ValueError("encoders: their counts per turn and their period are missing")
-        stamps = samples.sample * shape.period
+        stamps = samples.sample * encoder_format.period
     else:
         stamps = np.where(np.isfinite(samples.time), samples.time, -np.inf)
     return np.asarray(np.maximum.accumulate(stamps), dtype=float)

@@ -72,5 +72,5 @@ class PositionCheck:
 
 def _deviation(turned: np.ndarray, moved: np.ndarray) -> float:
     """Median deviation from whole turns."""
-    apart = turned - moved
-    return float(np.median(np.abs(apart - np.round(apart))))
+    difference = turned - moved
+    return float(np.median(np.abs(difference - np.round(difference))))

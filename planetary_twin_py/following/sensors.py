@@ -101,10 +101,10 @@ def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
     Returns:
         Standard deviations at the input and at the output [N m].
     """
-    first, second = _full_scales(train)
+    input_scale, output_scale = _full_scales(train)
     return (
-        sensors.input_torque.noise or CLASS * first,
-        sensors.output_torque.noise or CLASS * second,
+        sensors.input_torque.noise or CLASS * input_scale,
+        sensors.output_torque.noise or CLASS * output_scale,
     )
 
 
@@ -118,10 +118,10 @@ def torque_zero(sensors: Sensors, train: FollowedTrain) -> float:
     Returns:
         The standard deviation [N m].
     """
-    first, second = _full_scales(train)
-    here = sensors.input_torque.zero or 0.5 * CLASS * first
-    there = sensors.output_torque.zero or 0.5 * CLASS * second
-    return float((here**2 + (train.ratio * there) ** 2) ** 0.5)
+    input_scale, output_scale = _full_scales(train)
+    input_zero = sensors.input_torque.zero or 0.5 * CLASS * input_scale
+    output_zero = sensors.output_torque.zero or 0.5 * CLASS * output_scale
+    return float((input_zero**2 + (train.ratio * output_zero) ** 2) ** 0.5)
 
 
 def torque_gain(sensors: Sensors) -> float:
@@ -137,5 +137,5 @@ def torque_gain(sensors: Sensors) -> float:
 
 
 def _full_scales(train: FollowedTrain) -> tuple[float, float]:
-    full = FULL_SCALE * train.torque
-    return full, full / abs(train.ratio)
+    full_scale = FULL_SCALE * train.torque
+    return full_scale, full_scale / abs(train.ratio)

@@ -64,12 +64,12 @@ def _signatures(text: str, torque: float, speed: float) -> Signatures:
         faults=(), input_torque=torque, input_speed=speed, torque_ripple=0.0,
         **{"drive.speed_control.start_speed": None},
     )  # fmt: skip
-    found = {gear: _signature(plain, train, gear) for gear in train.teeth}
-    mean = [
+    by_gear = {gear: _signature(plain, train, gear) for gear in train.teeth}
+    mean_errors = [
         float(np.mean(_error(plain.replace(input_torque=t), 2 * SMOOTHED)[1]))
         for t in (torque, torque * (1.0 + STEP))
     ]
-    return Signatures(torque, found, (mean[1] - mean[0]) / (STEP * torque))
+    return Signatures(torque, by_gear, (mean_errors[1] - mean_errors[0]) / (STEP * torque))
 
 
 def _signature(scene: Scene, train: FollowedTrain, gear: str) -> Array:
@@ -84,15 +84,17 @@ def _signature(scene: Scene, train: FollowedTrain, gear: str) -> Array:
 def _deviation(scene: Scene, teeth: int) -> Array:
     """Mean deviation over the turns of a gear [m], (teeth, BINS)."""
     first, error = _error(scene, teeth * -(-CYCLES // teeth))
-    turns = error.reshape(-1, teeth * POINTS).mean(axis=0)
-    turn = np.roll(turns, first % (teeth * POINTS))
-    mean = (turn - turn.mean()).reshape(teeth * BINS, -1).mean(axis=1)
+    mean_turn = error.reshape(-1, teeth * POINTS).mean(axis=0)
+    turn = np.roll(mean_turn, first % (teeth * POINTS))
+    bin_means = (turn - turn.mean()).reshape(teeth * BINS, -1).mean(axis=1)
     window = np.zeros(teeth * BINS)
     reach = SMOOTHED * BINS // 2
     for step in range(-reach, reach + 1):
         window[step % len(window)] += 0.5 if abs(step) == reach else 1.0
-    slow = np.fft.irfft(np.fft.rfft(mean) * np.fft.rfft(window), len(mean)) / window.sum()
-    deviation = (mean - slow).reshape(teeth, BINS)
+    running_mean = (
+        np.fft.irfft(np.fft.rfft(bin_means) * np.fft.rfft(window), len(bin_means)) / window.sum()
+    )
+    deviation = (bin_means - running_mean).reshape(teeth, BINS)
     return without_common(deviation, np.ones(deviation.shape, dtype=bool))
 
 

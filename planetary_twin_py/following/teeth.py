@@ -35,8 +35,8 @@ MISPLACED = (
 )
 WINDOWS = 1, 4, 16, 64  # numbers of blocks that are judged together
 UNCERTAIN = 0.15  # relative standard deviation of a size: runout shifts load between teeth
-UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a changed tooth
-WAITING = 64  # hunting periods that wait for readings of the torque at most
+UNSCALED = 0.35  # the same without a compliance, or at a load learned with a changed tooth
+WAITING = 64  # largest number of hunting periods that wait for readings of the torque
 SPEED_STEP = 0.3  # relative difference of the speeds for which signatures are computed
 
 
@@ -108,20 +108,20 @@ class TeethFollower:
         self._hunting = HuntingBlocks(self.train, self.counts_per_turn, self.period)
         self._pending: deque[HuntingBlock] = deque()
         self._banks: dict[tuple[float, float], Bank] = {}  # by torque and speed
-        self._unmeasured = False
+        self._torque_assumed = False
         self.learn()
 
     def learn(self) -> None:
         """Forget baselines and changed teeth; events remain. The next blocks are learned."""
         self._cells: list[Baseline] = []
-        self._restored: str | None = None  # remark if the baseline does not fit
-        self._unproven = False  # a restored baseline has not been compared with a block
+        self._restore_remark: str | None = None  # if the baseline does not fit
+        self._unverified = False  # restored and not yet compared with a block
         self.teeth, self.every_z, self.outstanding = (), (), -math.inf
         self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: int | None = None
         self._kinds: dict[int, ToothKind] = {}
         self._amounts: dict[int, float] = {}
-        self._place: dict[int, int] = {}  # of the event of a tooth
+        self._event_index: dict[int, int] = {}  # in `events`, by tooth
         self._changed_by: dict[int, float] = {}  # time before which a tooth has changed [s]
         self.compliance = Compliance(self.learning)
         self._estimates: tuple[Estimate, ...] | None = None  # since the last hunting period
@@ -130,10 +130,10 @@ class TeethFollower:
     def saved(self) -> TeethBaseline | None:
         """Learned baselines with valid positions; None if there are none."""
         segment = self.counters.segments
-        cells = [one for one in self._cells if one.learned and one.segment == segment]
+        cells = [cell for cell in self._cells if cell.learned and cell.segment == segment]
         if not cells:
             return None
-        fields = tuple(one.fields() for one in cells)
+        fields = tuple(cell.fields() for cell in cells)
         return TeethBaseline(self.counts_per_turn, self.period, fields, self.compliance.first)
 
     def restore(self, saved: TeethBaseline) -> None:
@@ -145,17 +145,19 @@ class TeethFollower:
         Raises:
             InputError: they are of other encoders.
         """
-        own = self.counts_per_turn, self.period
-        if (saved.counts_per_turn, saved.period) != own:
+        expected = self.counts_per_turn, self.period
+        if (saved.counts_per_turn, saved.period) != expected:
             raise InputError(
                 f"baseline: counts per turn {saved.counts_per_turn} and period {saved.period:g} s: "
-                f"must be {own[0]} and {own[1]:g} s as of the encoders"
+                f"must be {expected[0]} and {expected[1]:g} s as of the encoders"
             )
         self.learn()
         segment = self.counters.segments
-        self._cells = [Baseline.of_fields(one, segment) for one in saved.cells]
-        self.compliance = Compliance(self.learning, segment, [tuple(b) for b in saved.blocks])
-        self._unproven = True
+        self._cells = [Baseline.of_fields(fields, segment) for fields in saved.cells]
+        self.compliance = Compliance(
+            self.learning, segment, [tuple(block) for block in saved.blocks]
+        )
+        self._unverified = True
 
     @property
     def counters(self) -> EncoderCounters:
@@ -207,18 +209,18 @@ class TeethFollower:
         self._estimates = None
         self.compliance.add(block.segment, torque, speed, block.mean)
         if not math.isfinite(torque):
-            torque, self._unmeasured = self.scene.operating_point.input_torque, True
-        place = self._cell_of(block, torque, speed)
-        cell = self._cells[place]
-        if place != self._cell:
-            self._cell = place
+            torque, self._torque_assumed = self.scene.operating_point.input_torque, True
+        cell_index = self._find_cell(block, torque, speed)
+        cell = self._cells[cell_index]
+        if cell_index != self._cell:
+            self._cell = cell_index
             self._recent.clear()
         if not cell.learned:
             self.every_z = ()
-            self._follow_known(block, torque, place)
+            self._follow_known_teeth(block, torque, cell_index)
             cell.learn(block, torque)
             if cell.learned:
-                self._take_off_known(cell, place)
+                self._subtract_known_teeth(cell, cell_index)
             return
         assert cell.bank is not None  # set with the cell
         residual, measured = cell.residual(block, torque)
@@ -226,21 +228,21 @@ class TeethFollower:
         self._recent.append(
             _Judged(residual, measured, products, squares, torque, block.begin, block.end)
         )
-        self._note_amounts(residual, measured, (cell, place), torque)
-        self._decide(block, cell)
+        self._add_known_amounts(residual, measured, (cell, cell_index), torque)
+        self._search_windows(block, cell)
 
-    def _cell_of(self, block: HuntingBlock, torque: float, speed: float) -> int:
+    def _find_cell(self, block: HuntingBlock, torque: float, speed: float) -> int:
         """Index of the operating cell of a block; a new one if there is none."""
-        for place, cell in enumerate(self._cells):
+        for cell_index, cell in enumerate(self._cells):
             if cell.covers(torque, speed, block.segment):
                 if cell.bank is None:  # restored
                     cell.bank = self._bank(torque, speed)
-                if self._unproven and cell.learned and cell.moved(block):
+                if self._unverified and cell.learned and cell.moved(block):
                     self.learn()
-                    self._restored = MISPLACED
+                    self._restore_remark = MISPLACED
                     break
-                self._unproven = False
-                return place
+                self._unverified = False
+                return cell_index
         bank = self._bank(torque, speed)
         self._cells.append(Baseline(torque, speed, block.segment, self.learning, bank))
         return len(self._cells) - 1
@@ -248,86 +250,98 @@ class TeethFollower:
     def _bank(self, torque: float, speed: float) -> Bank:
         """Signatures at a similar speed; they scale with the torque, whose sign selects flanks."""
         train, point = self.train, self.scene.operating_point
-        step = round(math.log(speed / train.speed) / math.log1p(SPEED_STEP))
-        near = min(train.speed * (1.0 + SPEED_STEP) ** step, train.speed_limit)
-        key = math.copysign(train.torque, torque), math.copysign(near, point.input_speed or 1.0)
+        speed_step = round(math.log(speed / train.speed) / math.log1p(SPEED_STEP))
+        similar_speed = min(train.speed * (1.0 + SPEED_STEP) ** speed_step, train.speed_limit)
+        key = (
+            math.copysign(train.torque, torque),
+            math.copysign(similar_speed, point.input_speed or 1.0),
+        )
         if key not in self._banks:
             self._banks[key] = Bank(signatures(self.scene, *key))
         return self._banks[key]
 
-    def _decide(self, block: HuntingBlock, cell: Baseline) -> None:
+    def _search_windows(self, block: HuntingBlock, cell: Baseline) -> None:
         """Search for changed teeth in any window."""
         assert cell.bank is not None  # set with the cell
-        own = cell.sd[cell.bank.gear_of]
-        products = np.array([one.products for one in self._recent])[::-1].cumsum(axis=0)
-        squares = np.array([one.squares for one in self._recent])[::-1].cumsum(axis=0)
-        torques = np.array([one.torque for one in self._recent])
+        block_sd = cell.sd[cell.bank.gear_of]
+        products = np.array([judged.products for judged in self._recent])[::-1].cumsum(axis=0)
+        squares = np.array([judged.squares for judged in self._recent])[::-1].cumsum(axis=0)
+        torques = np.array([judged.torque for judged in self._recent])
         best, window = -math.inf, 1
-        for count in WINDOWS:
-            if count > len(self._recent):
+        for length in WINDOWS:
+            if length > len(self._recent):
                 break
-            sd = own * cell.noise(torques[-count:])
-            every = products[count - 1] / squares[count - 1] / sd
-            if count == 1:
-                self.every_z = tuple(every.tolist())
-            z = float(np.max(every))
+            sd = block_sd * cell.noise(torques[-length:])
+            tooth_z = products[length - 1] / squares[length - 1] / sd
+            if length == 1:
+                self.every_z = tuple(tooth_z.tolist())
+            z = float(np.max(tooth_z))
             if z > best:
-                best, window = z, count
+                best, window = z, length
         self.outstanding = best
         if best < ALARM:
             self._clear_teeth()
             return
         recent = list(self._recent)[-window:]
-        total = np.sum([one.residual for one in recent], axis=0)
-        blocks = np.sum([one.measured for one in recent], axis=0, dtype=float)
-        sd = own * cell.noise(torques[-window:])
-        found = find_teeth(cell.bank, Residual(total, blocks, sd))
-        if found:
-            self._name(found, cell, block, cell.noise(torques[-window:]))
+        residual_sum = np.sum([judged.residual for judged in recent], axis=0)
+        block_counts = np.sum([judged.measured for judged in recent], axis=0, dtype=float)
+        sd = block_sd * cell.noise(torques[-window:])
+        matches = find_teeth(cell.bank, Residual(residual_sum, block_counts, sd))
+        if matches:
+            self._update_teeth(matches, cell, block, cell.noise(torques[-window:]))
         else:
             self._clear_teeth()
 
-    def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, noise: float) -> None:
-        """Use the teeth of a search as the state; a new tooth is an event.
+    def _update_teeth(
+        self, matches: list[Found], cell: Baseline, block: HuntingBlock, noise: float
+    ) -> None:
+        """Report the teeth of a search as changed; a new tooth is an event.
 
         `noise` is the standard deviation in the window of the search over that of one block.
         """
         bank = cell.bank
         assert bank is not None  # set with the cell
         states = []
-        before, self._amounts = dict(self._amounts), {}
-        amounts = self._amounts_of([one.tooth for one in found], bank)
-        for one, every in zip(found, amounts.T, strict=True):
-            named = next((t for t in before if t in one.candidates), one.tooth)
-            tooth = bank.teeth[named]
-            since, after = self._onset(named, every, one.sd / noise)
-            self._amounts[named] = float(np.mean(every[after])) if after.any() else one.amount
-            kind = self._kinds.setdefault(named, ToothKind(self.learning))
+        previous, self._amounts = dict(self._amounts), {}
+        amounts = self._amounts_of([candidate.tooth for candidate in matches], bank)
+        for match, tooth_amounts in zip(matches, amounts.T, strict=True):
+            tooth_index = next((t for t in previous if t in match.candidates), match.tooth)
+            tooth = bank.teeth[tooth_index]
+            since, after = self._onset(tooth_index, tooth_amounts, match.sd / noise)
+            self._amounts[tooth_index] = (
+                float(np.mean(tooth_amounts[after])) if after.any() else match.amount
+            )
+            kind = self._kinds.setdefault(tooth_index, ToothKind(self.learning))
             state = ToothState(
                 tooth.gear,
                 tooth.number,
-                self._loss(cell, every, after, one.sd / noise),
-                one.z,
+                self._estimate_loss(cell, tooth_amounts, after, match.sd / noise),
+                match.z,
                 kind.kinds,
-                _names(bank, (named, *(other for other in one.candidates if other != named))),
+                _tooth_names(
+                    bank,
+                    (tooth_index, *(other for other in match.candidates if other != tooth_index)),
+                ),
             )
             states.append(state)
-            self._record_event(named, state, (since, block.end))
+            self._record_event(tooth_index, state, (since, block.end))
         self.teeth = tuple(states)
 
     def _amounts_of(self, teeth: list[int], bank: Bank) -> Array:
         """Amounts of some teeth in every recent block by joint least squares, (blocks, teeth)."""
-        found = []
-        for one in self._recent:
-            rows = np.array([bank.deviation(t, len(one.residual)).ravel() for t in teeth])
-            square = (rows * one.measured.ravel()) @ rows.T
-            inverse = np.linalg.pinv(square, hermitian=True)  # two may have the same best tooth
-            found.append(inverse @ (rows @ one.residual.ravel()))
-        return np.array(found)
+        amounts = []
+        for judged in self._recent:
+            rows = np.array(
+                [bank.deviation(tooth, len(judged.residual)).ravel() for tooth in teeth]
+            )
+            gram = (rows * judged.measured.ravel()) @ rows.T
+            inverse = np.linalg.pinv(gram, hermitian=True)  # two may have the same best tooth
+            amounts.append(inverse @ (rows @ judged.residual.ravel()))
+        return np.array(amounts)
 
     def _onset(self, tooth: int, amounts: Array, sd: float) -> tuple[float, NDArray[np.bool_]]:
         """Earliest start of a change [s], and which recent blocks surely follow it."""
-        begins = np.array([one.begin for one in self._recent])
+        begins = np.array([judged.begin for judged in self._recent])
         known = self._changed_by.get(tooth, math.inf)
         if begins[0] >= known:
             return known, np.ones(len(begins), dtype=bool)
@@ -337,7 +351,7 @@ class TeethFollower:
         # A step later than half of a block belongs to the next one.
         return first.begin - 0.5 * (first.end - first.begin), begins >= last.end
 
-    def _loss(
+    def _estimate_loss(
         self, cell: Baseline, amounts: Array, after: NDArray[np.bool_], sd: float
     ) -> Estimate:
         """Loss of stiffness from the blocks after a change."""
@@ -345,35 +359,35 @@ class TeethFollower:
             remedy = "the next hunting period"
             return not_identifiable("stiffness_loss", math.nan, "", remedy, "LEARNING")
         assert cell.bank is not None  # set with the cell
-        torques = np.array([one.torque for one in self._recent])[after]
-        scale, uncertain = self._scale(cell.bank, float(np.mean(torques)))
+        torques = np.array([judged.torque for judged in self._recent])[after]
+        scale, relative_sd = self._signature_scale(cell.bank, float(np.mean(torques)))
         if cell.taken_off:
-            uncertain = UNSCALED
+            relative_sd = UNSCALED
         loss = float(np.mean(amounts[after])) / scale
-        spread = math.hypot(sd * cell.noise(torques) / scale, uncertain * loss)
-        return estimated("stiffness_loss", loss, spread, "")
+        total_sd = math.hypot(sd * cell.noise(torques) / scale, relative_sd * loss)
+        return estimated("stiffness_loss", loss, total_sd, "")
 
     def _record_event(self, tooth: int, state: ToothState, times: tuple[float, float]) -> None:
         """Add an event, with its earliest start and its detection [s], or update it."""
         size = state.loss
-        reach = CONFIDENT * size.sd
-        shown = (
-            f"loss {100 * size.value:.2g} +- {100 * reach:.2g} %"
+        half_width = CONFIDENT * size.sd
+        size_text = (
+            f"loss {100 * size.value:.2g} +- {100 * half_width:.2g} %"
             if size.status == "ESTIMATED"
             else f"its size follows from {size.remedy}"
         )
-        others = (
+        other_teeth = (
             f"; as likely: {', '.join(state.candidates[1:])}" if len(state.candidates) > 1 else ""
         )
-        evidence = f"z = {state.z:.1f}, {shown}{others}"
-        what = f"{state.gear} tooth {state.tooth} changed"
-        if tooth not in self._place:
-            self._place[tooth] = len(self.events)
-            self.events.append(Event(what, *times, size, state.kinds, evidence))
+        evidence = f"z = {state.z:.1f}, {size_text}{other_teeth}"
+        description = f"{state.gear} tooth {state.tooth} changed"
+        if tooth not in self._event_index:
+            self._event_index[tooth] = len(self.events)
+            self.events.append(Event(description, *times, size, state.kinds, evidence))
             return
-        place = self._place[tooth]
-        self.events[place] = replace(
-            self.events[place], size=size, causes=state.kinds, evidence=evidence
+        event_index = self._event_index[tooth]
+        self.events[event_index] = replace(
+            self.events[event_index], size=size, causes=state.kinds, evidence=evidence
         )
 
     def _clear_teeth(self) -> None:
@@ -381,28 +395,28 @@ class TeethFollower:
         if len(self._recent) >= WINDOWS[2]:
             self.teeth, self._amounts = (), {}
 
-    def _scale(self, bank: Bank, torque: float) -> tuple[float, float]:
+    def _signature_scale(self, bank: Bank, torque: float) -> tuple[float, float]:
         """Factor on the signatures of the bank, and the uncertainty of a size."""
-        line = self.compliance.present
-        grown = torque / bank.torque
-        if line is None or not line.significant:
-            return grown, UNSCALED
-        return grown * line.slope / bank.compliance, UNCERTAIN
+        regression = self.compliance.present
+        torque_ratio = torque / bank.torque
+        if regression is None or not regression.significant:
+            return torque_ratio, UNSCALED
+        return torque_ratio * regression.slope / bank.compliance, UNCERTAIN
 
-    def _follow_known(self, block: HuntingBlock, torque: float, place: int) -> None:
+    def _follow_known_teeth(self, block: HuntingBlock, torque: float, cell_index: int) -> None:
         """Amounts of known teeth at a load that is being learned, from the nearest baseline."""
-        near = [
+        candidates = [
             cell
             for cell in self._cells
             if cell.learned and cell.segment == block.segment and cell.torque * torque > 0.0
         ]
-        if not near or not self._amounts:
+        if not candidates or not self._amounts:
             return
-        cell = min(near, key=lambda one: abs(one.torque - torque))
+        cell = min(candidates, key=lambda candidate: abs(candidate.torque - torque))
         residual, measured = cell.residual(block, torque)
-        self._note_amounts(residual, measured, (cell, place), torque)
+        self._add_known_amounts(residual, measured, (cell, cell_index), torque)
 
-    def _note_amounts(
+    def _add_known_amounts(
         self,
         residual: Array,
         measured: NDArray[np.bool_],
@@ -410,42 +424,42 @@ class TeethFollower:
         torque: float,
     ) -> None:
         """Amount of every known tooth in one block, with the others subtracted."""
-        cell, place = at
+        cell, cell_index = at
         assert cell.bank is not None  # set with the cell
         cycles = len(residual)
         for tooth in self._amounts:
-            left = residual.copy()
+            remainder = residual.copy()
             for other, amount in self._amounts.items():
                 if other != tooth:
-                    left -= amount * cell.bank.deviation(other, cycles) * measured
-            products, squares = cell.bank.score(left, measured)
+                    remainder -= amount * cell.bank.deviation(other, cycles) * measured
+            products, squares = cell.bank.score(remainder, measured)
             sd = float(cell.sd[cell.bank.gear_of[tooth]])
             kind = self._kinds[tooth]
-            kind.add(place, torque, float(products[tooth] / squares[tooth]), sd)
+            kind.add(cell_index, torque, float(products[tooth] / squares[tooth]), sd)
         self.teeth = tuple(self._with_kinds(state, cell.bank) for state in self.teeth)
 
     def _with_kinds(self, state: ToothState, bank: Bank) -> ToothState:
         """A state and its event, with the kinds that are possible now."""
         tooth = bank.teeth.index((state.gear, state.tooth))  # type: ignore[arg-type]
         kinds = self._kinds[tooth].kinds
-        if kinds != state.kinds and tooth in self._place:
-            place = self._place[tooth]
-            self.events[place] = replace(self.events[place], causes=kinds)
+        if kinds != state.kinds and tooth in self._event_index:
+            event_index = self._event_index[tooth]
+            self.events[event_index] = replace(self.events[event_index], causes=kinds)
         return state._replace(kinds=kinds)
 
-    def _take_off_known(self, cell: Baseline, place: int) -> None:
+    def _subtract_known_teeth(self, cell: Baseline, cell_index: int) -> None:
         """Subtract a changed tooth from a baseline that was learned with it."""
         assert cell.bank is not None and cell.mean is not None  # it has been learned
         for tooth, kind in self._kinds.items():
             if tooth in self._amounts:
                 cell.taken_off = True
-                cell.mean -= kind.amount(place) * cell.bank.deviation(tooth, len(cell.mean))
+                cell.mean -= kind.amount(cell_index) * cell.bank.deviation(tooth, len(cell.mean))
 
     def remarks(self) -> Iterator[str]:
         """Reasons why the estimates are less certain, one line each."""
-        if self._restored:
-            yield self._restored
-        if self._unmeasured:
+        if self._restore_remark:
+            yield self._restore_remark
+        if self._torque_assumed:
             yield "encoders: the torque is not measured: that of the scene is assumed"
         if self._cells and not any(cell.learned for cell in self._cells):
             most = max(cell.count for cell in self._cells)
@@ -460,14 +474,14 @@ class TeethFollower:
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and backlash since the baseline."""
         if self._estimates is None:
-            self._estimates = self._of_compliance()
+            self._estimates = self._compliance_estimates()
         return self._estimates
 
-    def _of_compliance(self) -> tuple[Estimate, ...]:
+    def _compliance_estimates(self) -> tuple[Estimate, ...]:
         remedy = "a load that varies by some percent"
-        line, both = self.compliance.present, self.compliance.both
+        present, both = self.compliance.present, self.compliance.both
         per_input = 1.0 / (self.train.lever * abs(float(self.train.twist[0])))
-        if line is None:
+        if present is None:
             wait = "hunting periods with the torque measured"
             return tuple(
                 not_identifiable(name, math.nan, unit, wait, "LEARNING")
@@ -476,30 +490,35 @@ class TeethFollower:
                     ("backlash_change", "m"),
                 )
             )  # fmt: skip
-        slope, sd = abs(line.slope) * per_input, line.sd * per_input
-        found = [
+        slope, sd = abs(present.slope) * per_input, present.sd * per_input
+        estimates = [
             estimated("compliance", slope, sd, "rad/(N m)", remedy)
-            if line.significant
+            if present.significant
             else not_identifiable("compliance", sd, "rad/(N m)", remedy)
         ]
         if both is None or not (both[0].significant and both[1].significant):
             status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
             names = (("compliance_change", ""), ("backlash_change", "m"))
             return (
-                *found,
+                *estimates,
                 *(not_identifiable(name, math.nan, unit, remedy, status) for name, unit in names),
             )
         first, last = both
         change = last.slope / first.slope - 1.0
-        width = math.hypot(last.sd, first.sd) / abs(first.slope)
-        found.append(estimated("compliance_change", change, width, ""))
-        now, here = last.at(*last.centre)
-        then, there = first.at(*last.centre)
-        found.append(
-            estimated("backlash_change", 2.0 * (now - then), 2.0 * math.hypot(here, there), "m")
+        change_sd = math.hypot(last.sd, first.sd) / abs(first.slope)
+        estimates.append(estimated("compliance_change", change, change_sd, ""))
+        last_error, last_sd = last.at(*last.centre)
+        first_error, first_sd = first.at(*last.centre)
+        estimates.append(
+            estimated(
+                "backlash_change",
+                2.0 * (last_error - first_error),
+                2.0 * math.hypot(last_sd, first_sd),
+                "m",
+            )
         )
-        return tuple(found)
+        return tuple(estimates)
 
 
-def _names(bank: Bank, teeth: tuple[int, ...]) -> tuple[str, ...]:
+def _tooth_names(bank: Bank, teeth: tuple[int, ...]) -> tuple[str, ...]:
     return tuple(str(bank.teeth[tooth]) for tooth in teeth)

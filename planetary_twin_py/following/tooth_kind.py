@@ -68,21 +68,21 @@ class ToothKind:
         """Possible kinds, the more likely one first; one kind if the loads distinguish them."""
         misfits = self._misfits()
         order = sorted(misfits, key=lambda kind: misfits[kind])
-        apart = 0.5 * (misfits[order[1]] - misfits[order[0]])
-        return (order[0],) if apart > BETTER else (CRACK, WEAR)
+        difference = 0.5 * (misfits[order[1]] - misfits[order[0]])
+        return (order[0],) if difference > BETTER else (CRACK, WEAR)
 
     def _misfits(self) -> Mapping[str, float]:
         """Sums of squares of the residuals of both laws, by kind."""
         rows = []
         for sums in self._cells.values():
-            many = sums.blocks
-            variance = sums.variance / many * (1.0 / many + 1.0 / self.learning)
-            rows.append((abs(sums.torque / many), sums.amount / many, variance))
+            count = sums.blocks
+            variance = sums.variance / count * (1.0 / count + 1.0 / self.learning)
+            rows.append((abs(sums.torque / count), sums.amount / count, variance))
         if len(rows) < 2:
             return {CRACK: 0.0, WEAR: 0.0}
         torque, amount, variance = np.array(rows).T
         misfits = {}
-        for kind, course in ((CRACK, torque / torque.mean()), (WEAR, np.ones_like(torque))):
-            size = np.sum(course * amount / variance) / np.sum(course**2 / variance)
-            misfits[kind] = float(np.sum((amount - size * course) ** 2 / variance))
+        for kind, law in ((CRACK, torque / torque.mean()), (WEAR, np.ones_like(torque))):
+            amplitude = np.sum(law * amount / variance) / np.sum(law**2 / variance)
+            misfits[kind] = float(np.sum((amount - amplitude * law) ** 2 / variance))
         return misfits

@@ -61,13 +61,16 @@ class Bank:
         squares: list[Array] = []
         weight = measured.astype(float)
         for gear, signature in self.gears.items():
-            count = len(signature)
-            own, square = self._spectra[gear]
-            folded = deviation.reshape(-1, count, deviation.shape[1]).sum(axis=0)
-            share = weight.reshape(-1, count, deviation.shape[1]).sum(axis=0)
-            for found, spectrum, values in ((products, own, folded), (squares, square, share)):
-                shifted = np.fft.irfft(np.fft.rfft(values, axis=0) * spectrum, count, axis=0)
-                found.append(shifted.sum(axis=1))
+            teeth = len(signature)
+            signature_spectrum, square_spectrum = self._spectra[gear]
+            folded = deviation.reshape(-1, teeth, deviation.shape[1]).sum(axis=0)
+            folded_weight = weight.reshape(-1, teeth, deviation.shape[1]).sum(axis=0)
+            for results, spectrum, values in (
+                (products, signature_spectrum, folded),
+                (squares, square_spectrum, folded_weight),
+            ):
+                shifted = np.fft.irfft(np.fft.rfft(values, axis=0) * spectrum, teeth, axis=0)
+                results.append(shifted.sum(axis=1))
         return np.concatenate(products), np.concatenate(squares)
 
     def deviation(self, tooth: int, cycles: int) -> Array:

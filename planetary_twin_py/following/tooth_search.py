@@ -63,9 +63,9 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
     """
     residual = _with_noise(bank, residual)
     active: list[int] = []
-    left, limit = residual.total, ALARM
+    remainder, limit = residual.total, ALARM
     while len(active) < MOST:
-        z = _z(bank, left, residual)
+        z = _significance(bank, remainder, residual)
         z[active] = -np.inf
         best = int(np.argmax(z))
         if z[best] < limit:
@@ -73,7 +73,7 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
         if not active:
             limit = max(FURTHER, SHARE * float(z[best]))
         active.append(best)
-        left = _left(bank, residual, active, _fit(bank, residual, active)[0])
+        remainder = _subtract(bank, residual, active, _fit(bank, residual, active)[0])
     while active:
         amounts, sds = _fit(bank, residual, active)
         weak = int(np.argmin(amounts / sds))
@@ -82,40 +82,40 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
         del active[weak]
     if not active:
         return []
-    return sorted(_named(bank, residual, active), key=lambda found: -found.z)
+    return sorted(_with_similar(bank, residual, active), key=lambda match: -match.z)
 
 
 def _with_noise(bank: Bank, residual: Residual) -> Residual:
-    """The residual with the scatter of its teeth after the best one is subtracted.
+    """The residual with at least the scatter of its teeth after the best one is subtracted.
 
     Few teeth change, so the median over all teeth gives the noise. Blocks may be noisier than those
     of the baseline.
     """
-    best = int(np.argmax(_z(bank, residual.total, residual)))
-    left = _left(bank, residual, [best], _fit(bank, residual, [best])[0])
-    spread = NORMAL * float(np.median(np.abs(_z(bank, left, residual))))
+    strongest = int(np.argmax(_significance(bank, residual.total, residual)))
+    remainder = _subtract(bank, residual, [strongest], _fit(bank, residual, [strongest])[0])
+    spread = NORMAL * float(np.median(np.abs(_significance(bank, remainder, residual))))
     return residual._replace(sd=residual.sd * max(1.0, spread))
 
 
-def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
+def _with_similar(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
     """Each tooth with its similar ones, of which the best one replaces it."""
     cycles = len(residual.total)
     amounts, sds = _fit(bank, residual, active)
-    left = _left(bank, residual, active, amounts)
-    found = []
+    remainder = _subtract(bank, residual, active, amounts)
+    matches = []
     for tooth, amount, sd in zip(active, amounts, sds, strict=True):
-        own = left + residual.blocks * amount * bank.deviation(tooth, cycles)
-        z = _z(bank, own, residual)
+        tooth_residual = remainder + residual.blocks * amount * bank.deviation(tooth, cycles)
+        z = _significance(bank, tooth_residual, residual)
         z[[other for other in active if other != tooth]] = -np.inf
         order = np.argsort(-z, kind="stable")
         gains = 0.5 * np.maximum(z[order], 0.0) ** 2
         similar = tuple(int(t) for t in order[gains >= gains[0] - SIMILAR])
-        found.append(Found(similar[0], float(amount), float(sd), float(z[similar[0]]), similar))
-    return found
+        matches.append(Found(similar[0], float(amount), float(sd), float(z[similar[0]]), similar))
+    return matches
 
 
-def _z(bank: Bank, left: Array, residual: Residual) -> Array:
-    product, square = bank.score(left, residual.blocks)
+def _significance(bank: Bank, remainder: Array, residual: Residual) -> Array:
+    product, square = bank.score(remainder, residual.blocks)
     return np.asarray(product / np.maximum(square, 1e-300) / residual.sd)
 
 
@@ -123,15 +123,15 @@ def _fit(bank: Bank, residual: Residual, active: list[int]) -> tuple[Array, Arra
     """Joint least squares: amounts and their standard deviations, (active,) each."""
     rows = np.array([bank.deviation(t, len(residual.total)).ravel() for t in active])
     weighted = rows * residual.blocks.ravel()
-    square = weighted @ rows.T
-    inverse = np.linalg.inv(square)
-    wider = np.sqrt(np.diag(inverse) * np.diag(square))
-    return inverse @ (rows @ residual.total.ravel()), residual.sd[active] * wider
+    gram = weighted @ rows.T
+    inverse = np.linalg.inv(gram)
+    widening = np.sqrt(np.diag(inverse) * np.diag(gram))
+    return inverse @ (rows @ residual.total.ravel()), residual.sd[active] * widening
 
 
-def _left(bank: Bank, residual: Residual, active: list[int], amounts: Array) -> Array:
-    shown = sum(
+def _subtract(bank: Bank, residual: Residual, active: list[int], amounts: Array) -> Array:
+    explained = sum(
         amount * bank.deviation(t, len(residual.total))
         for t, amount in zip(active, amounts, strict=True)
     )
-    return np.asarray(residual.total - residual.blocks * shown)
+    return np.asarray(residual.total - residual.blocks * explained)

@@ -62,9 +62,9 @@ class ErrorOfCounts:
             The samples.
         """
         numerator, denominator = self._position
-        place = counts[:, 0] * numerator
-        cycle = place // denominator
-        part = np.asarray((place - cycle * denominator) / denominator)
+        position = counts[:, 0] * numerator
+        cycle = position // denominator
+        part = np.asarray((position - cycle * denominator) / denominator)
         a, b = self._factors
         anchor = int(counts[0, 0]), int(counts[0, 1])
         base = (anchor[0] - zero[0]) * a - (anchor[1] - zero[1]) * b  # exact at any age
@@ -97,9 +97,9 @@ def model_error(
     )
     input_, output = (run.angle[:, run.bodies.index(member)] for member in train.members)
     a, b = (float(turns) for turns in train.twist)
-    place = abs(float(train.cycles)) * np.abs(input_) / (2.0 * math.pi)
-    first = math.ceil(float(place[0]) * points)
+    position = abs(float(train.cycles)) * np.abs(input_) / (2.0 * math.pi)
+    first = math.ceil(float(position[0]) * points)
     steps = (first + np.arange(cycles * points)) / points
-    error = np.interp(steps, place, train.lever * (a * input_ - b * output))
-    ahead = float(train.cycles) * float(input_[-1]) > 0.0
-    return (first, error) if ahead else (-(first + cycles * points - 1), error[::-1])
+    error = np.interp(steps, position, train.lever * (a * input_ - b * output))
+    forwards = float(train.cycles) * float(input_[-1]) > 0.0
+    return (first, error) if forwards else (-(first + cycles * points - 1), error[::-1])

@@ -43,10 +43,10 @@ STRETCH = 2e-3  # largest relative error of the measured speed
 STEPS = 21  # trial values of the scale of the speed within `STRETCH`
 CELL = 0.1  # relative distance of torque and speed within which a baseline applies
 OVER_TORQUE = 1.0  # largest exponent over the torque of an amplitude divided by the torque
-OVER_SPEED = 4.0  # the same over the speed: 2 of an acceleration, the rest of resonances
+OVER_SPEED = 4.0  # largest exponent over the speed: 2 of an acceleration, the rest of resonances
 WINDOWS = 4, 16  # hunting periods that are judged together
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
-STEADY = 0.02  # relative standard deviation of the speed, above which it is not used
+STEADY = 0.02  # relative standard deviation of the speed, above which the period is not used
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
 SLOWEST = 0.05  # share of the speed of the scene, below which the train counts as at rest
 UNKNOWN = "; size of the fault: NOT IDENTIFIABLE, as the path to the sensor is unknown"
@@ -84,11 +84,11 @@ class _Line(NamedTuple):
     side: int
     """Number of the sideband, negative below the harmonic."""
     teeth: int
-    """Of its gear, whose rotation separates the sidebands."""
+    """Number of teeth of the gear whose rotation separates the sidebands."""
 
     @property
     def order(self) -> float:
-        """Order over that of the mesh."""
+        """Frequency of the line over the mesh frequency."""
         return self.mesh + self.side / self.teeth
 
 
@@ -123,7 +123,7 @@ class _Judged(NamedTuple):
     found: Array
     """Amplitudes over torque, (channels, patterns)."""
     floor: Array
-    """The same beside their sidebands, where no gear has lines; NaN without sidebands."""
+    """Amplitudes over torque beside the sidebands, where no gear has lines, or NaN."""
     torque: float
     """Mean torque at the input [N m]."""
     speed: float
@@ -142,13 +142,13 @@ class _Baseline:
 
     def fields(self) -> dict[str, NDArray[Any]]:
         """Values from which `of_fields` restores the baseline."""
-        found = {name: np.array(getattr(self, name)) for name in ("torque", "speed", "highest")}
-        return found | {
-            name: np.array([getattr(one, name) for one in self.learned])
+        values = {name: np.array(getattr(self, name)) for name in ("torque", "speed", "highest")}
+        return values | {
+            name: np.array([getattr(period, name) for period in self.learned])
             for name in _Judged._fields
-            if name not in found
+            if name not in values
         } | {
-            f"each_{name}": np.array([getattr(one, name) for one in self.learned])
+            f"each_{name}": np.array([getattr(period, name) for period in self.learned])
             for name in ("torque", "speed")
         }  # fmt: skip
 
@@ -162,8 +162,8 @@ class _Baseline:
         return cls(torque, speed, highest, learned)
 
     def covers(self, torque: float, speed: float) -> bool:
-        near = abs(torque - self.torque) <= CELL * abs(self.torque)
-        return near and abs(speed - self.speed) <= CELL * abs(self.speed)
+        similar_torque = abs(torque - self.torque) <= CELL * abs(self.torque)
+        return similar_torque and abs(speed - self.speed) <= CELL * abs(self.speed)
 
 
 class VibrationFollower:
@@ -182,27 +182,28 @@ class VibrationFollower:
         self.names, self.period, self.counters = names, period, VibrationCounters()
         self.events: list[Event] = []
         """Patterns that have grown."""
-        self._train, self._learning = train, learning
-        self._turn = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
-        self._longest = self._turn / (SLOWEST * train.speed)  # of a hunting period [s]
+        self._train, self._usual_learning = train, learning
+        self._period_angle = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
+        self._longest_period = self._period_angle / (SLOWEST * train.speed)  # [s]
         self._patterns = tuple(_patterns(train))
-        self._beside = 0.5 / max(train.teeth.values())  # of an order: between two sidebands
+        self._side_offset = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
         self._waiting: list[tuple[Array, Array]] = []
-        self._most = round(2.0 * self._longest / period)
+        self._most_samples = round(2.0 * self._longest_period / period)
         self._begin = math.nan  # start of the present hunting period [s]
-        self._until = math.nan  # time of the last call of `judge` [s]
+        self._judged_until = math.nan  # time of the last call of `judge` [s]
         self.learn()
-        # The standard deviation is known from `learning` hunting periods only, so this is the
-        # quantile of Student's distribution that has the probability of a normal z of ALARM.
-        self._limit = -float(stdtrit(learning - 1, ndtr(-ALARM)))
 
     @property
     def saved(self) -> VibrationBaseline | None:
         """Learned baselines; None if there are none."""
-        cells = [one for one in self._baselines if len(one.learned) >= self._learning]
+        cells = [
+            baseline for baseline in self._baselines if len(baseline.learned) >= self._learning
+        ]
         if not cells:
             return None
-        return VibrationBaseline(self.names, self.period, tuple(one.fields() for one in cells))
+        return VibrationBaseline(
+            self.names, self.period, tuple(baseline.fields() for baseline in cells)
+        )
 
     def restore(self, saved: VibrationBaseline) -> None:
         """Use saved baselines instead of learning.
@@ -219,16 +220,26 @@ class VibrationFollower:
                 f"must be {', '.join(self.names)} at {1.0 / self.period:g} Hz as measured"
             )
         self.learn()
-        self._baselines += [_Baseline.of_fields(one) for one in saved.cells]
-        self._learning = min(len(one.learned) for one in self._baselines)
+        self._baselines += [_Baseline.of_fields(fields) for fields in saved.cells]
+        self._learning = min(len(baseline.learned) for baseline in self._baselines)
 
     def learn(self) -> None:
         """Forget baselines; events remain. The next hunting periods are learned."""
+        self._learning = self._usual_learning
         self._baselines: list[_Baseline] = []
         self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: _Baseline | None = None
-        self._known: dict[tuple[int, int], tuple[int, _Baseline]] = {}
+        self._reported: dict[tuple[int, int], tuple[int, _Baseline]] = {}
         """Index of the event, and the baseline that showed it, by channel and pattern."""
+
+    @property
+    def _limit(self) -> float:
+        """Standardised growth that is reported.
+
+        The standard deviation is known from a few hunting periods only, so this is the quantile of
+        Student's distribution that has the probability of a normal z of ALARM.
+        """
+        return -float(stdtrit(self._learning - 1, ndtr(-ALARM)))
 
     def add(self, time: Array, values: Array) -> None:
         """Add samples in the order of their arrival.
@@ -239,16 +250,16 @@ class VibrationFollower:
         """
         while self._waits_too_long():
             self.counters.late += len(self._waiting.pop(0)[0])
-        there = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
-        self.counters.late += int(np.sum(~there))
-        self._waiting.append((time[there], values[there]))
+        usable = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
+        self.counters.late += int(np.sum(~usable))
+        self._waiting.append((time[usable], values[usable]))
 
     def _waits_too_long(self) -> bool:
         """Whether there are no readings, or their end is long before the newest samples."""
-        if sum(len(part) for part, _ in self._waiting) <= self._most:
+        if sum(len(part) for part, _ in self._waiting) <= self._most_samples:
             return False
         times = self._waiting[0][0]
-        return not (len(times) and times.max() <= self._until)
+        return not (len(times) and times.max() <= self._judged_until)
 
     def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
         """Judge the hunting periods that end by a time.
@@ -257,16 +268,16 @@ class VibrationFollower:
             until: time up to which the speed is known [s].
             turning: function of two times [s] that returns speed and torque between them.
         """
-        if until == self._until:
+        if until == self._judged_until:
             return
-        self._until = until
+        self._judged_until = until
         while self._waiting:
             if math.isnan(self._begin) and not self._start(turning(-math.inf, until)):
                 return
-            course = turning(self._begin, min(until, self._begin + self._longest))
-            end = _end_of(course, self._turn, self._begin)
+            course = turning(self._begin, min(until, self._begin + self._longest_period))
+            end = _end_of(course, self._period_angle, self._begin)
             if end is None:
-                if until > self._begin + self._longest:  # the train is at rest
+                if until > self._begin + self._longest_period:  # the train is at rest
                     self._pop_samples(until)
                     self._begin = until
                 return
@@ -291,9 +302,9 @@ class VibrationFollower:
         values = np.concatenate([part for _, part in self._waiting])
         order = np.argsort(time, kind="stable")
         time, values = time[order], values[order]
-        single = np.diff(time, prepend=-np.inf) > 0.5 * self.period
-        self.counters.late += int(np.sum(~single))
-        time, values = time[single], values[single]
+        distinct = np.diff(time, prepend=-np.inf) > 0.5 * self.period
+        self.counters.late += int(np.sum(~distinct))
+        time, values = time[distinct], values[distinct]
         ready = time < until
         self._waiting = [(time[~ready], values[~ready])] if not ready.all() else []
         self.counters.used += int(np.sum(ready))
@@ -303,33 +314,38 @@ class VibrationFollower:
         self, span: tuple[float, float], time: Array, values: Array, course: Turning
     ) -> None:
         inside = (course.time > span[0]) & (course.time < span[1])
+        if np.count_nonzero(inside) < 2:  # whether the speed was steady is not known
+            self.counters.dropped_periods += 1
+            return
         speeds, torque = course.speed[inside], float(np.mean(course.torque[inside]))
         speed = float(np.mean(speeds))
-        whole = len(time) >= PRESENT * (span[1] - span[0]) / self.period
+        complete = len(time) >= PRESENT * (span[1] - span[0]) / self.period
         gaps = np.diff(course.time[inside])
         steady = float(np.std(speeds)) <= STEADY * abs(speed) and gaps.max() < 3.0 * gaps.min()
-        if not (whole and steady and abs(torque) > CELL * self._train.torque):
+        if not (complete and steady and abs(torque) > CELL * self._train.torque):
             self.counters.dropped_periods += 1
             return
         self.counters.periods += 1
-        cell = next((one for one in self._baselines if one.covers(torque, speed)), None)
+        cell = next(
+            (baseline for baseline in self._baselines if baseline.covers(torque, speed)), None
+        )
         if cell is None:
             mesh = abs(float(self._train.cycles) * speed) * (1.0 + CELL) / (2.0 * math.pi)  # [Hz]
             cell = _Baseline(torque, speed, RESOLVED / (self.period * mesh))
             self._baselines.append(cell)
-        lines, floor = self._amplitudes(time, values, course, cell.highest) / abs(torque)
-        found = _Judged(span[0], lines, floor, torque, speed)
+        amplitudes, floor = self._amplitudes(time, values, course, cell.highest) / abs(torque)
+        judged = _Judged(span[0], amplitudes, floor, torque, speed)
         if cell is not self._cell:
             self._cell = cell
             self._recent.clear()
         if len(cell.learned) < self._learning:
-            cell.learned.append(found)
+            cell.learned.append(judged)
             return
-        self._recent.append(found)
-        self._decide(cell, span[1])
+        self._recent.append(judged)
+        self._report_growth(cell, span[1])
 
     def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
-        """Root mean square of the amplitudes of every pattern, (channels, patterns).
+        """Root mean square of the amplitudes of every pattern.
 
         Only lines below the mesh order `highest` are used. Returns (2, channels, patterns):
         amplitudes of the lines, and beside the sidebands; NaN for a pattern without such lines.
@@ -342,29 +358,37 @@ class VibrationFollower:
 
         # Waves are powers of few exponentials, which take most of the time.
         stretches = 1.0 + np.linspace(-STRETCH, STRETCH, STEPS)
-        first, step = (
-            np.exp(-1j * one * mesh) for one in (stretches[0], stretches[1] - stretches[0])
+        mesh_wave, wave_step = (
+            np.exp(-1j * trial * mesh) for trial in (stretches[0], stretches[1] - stretches[0])
         )
         strength = []
         for _ in stretches:
-            strength.append(float(np.sum(np.abs(first @ weighted))))
-            first = first * step
-        best = float(stretches[int(np.argmax(strength))])
-        first = np.exp(-1j * best * mesh)
-        shifted = list(itertools.accumulate(range(HARMONICS), lambda one, _: first[:, None] * one,
-                                          initial=weighted.astype(complex)))  # fmt: skip
-        sides = {(1, 0): np.ones_like(first)}
+            strength.append(float(np.sum(np.abs(mesh_wave @ weighted))))
+            mesh_wave = mesh_wave * wave_step
+        stretch = float(stretches[int(np.argmax(strength))])
+        mesh_wave = np.exp(-1j * stretch * mesh)
+        shifted = list(
+            itertools.accumulate(
+                range(HARMONICS),
+                lambda last, _: mesh_wave[:, None] * last,
+                initial=weighted.astype(complex),
+            )
+        )
+        side_waves = {(1, 0): np.ones_like(mesh_wave)}
         for teeth, side in {
-            (line.teeth, abs(line.side)) for one in self._patterns for line in one.lines
-        } - set(sides):
-            sides[teeth, side] = np.exp(-1j * (best * side / teeth) * mesh)
-            sides[teeth, -side] = sides[teeth, side].conj()
-        shift = np.exp(-1j * (best * self._beside) * mesh)[:, None]
-        besides = [[one * shift, one * shift.conj()] for one in shifted]
+            (line.teeth, abs(line.side)) for shape in self._patterns for line in shape.lines
+        } - set(side_waves):
+            side_waves[teeth, side] = np.exp(-1j * (stretch * side / teeth) * mesh)
+            side_waves[teeth, -side] = side_waves[teeth, side].conj()
+        side_shift = np.exp(-1j * (stretch * self._side_offset) * mesh)[:, None]
+        neighbours = [
+            [shifted_wave * side_shift, shifted_wave * side_shift.conj()]
+            for shifted_wave in shifted
+        ]
 
         def mean_square(lines: Sequence[tuple[_Line, Array]]) -> Array:
-            found = [np.abs(sides[line.teeth, line.side] @ wave) ** 2 for line, wave in lines]
-            return np.mean(found, axis=0) if found else np.full(len(self.names), np.nan)
+            powers = [np.abs(side_waves[line.teeth, line.side] @ wave) ** 2 for line, wave in lines]
+            return np.mean(powers, axis=0) if powers else np.full(len(self.names), np.nan)
 
         squares, floors = [], []
         for pattern in self._patterns:
@@ -372,60 +396,72 @@ class VibrationFollower:
             squares.append(mean_square([(line, shifted[line.mesh]) for line in lines]))
             sidebands = [line for line in lines if line.side]
             floors.append(
-                mean_square([(line, w) for line in sidebands for w in besides[line.mesh]])
+                mean_square(
+                    [(line, neighbour) for line in sidebands for neighbour in neighbours[line.mesh]]
+                )
             )
         return np.sqrt(np.array([np.stack(squares, axis=1), np.stack(floors, axis=1)]))
 
-    def _decide(self, cell: _Baseline, now: float) -> None:
+    def _report_growth(self, cell: _Baseline, now: float) -> None:
         """Report amplitudes that have grown in any window."""
-        learned = np.array([one.found for one in cell.learned])
+        learned = np.array([period.found for period in cell.learned])
         mean, sd = learned.mean(axis=0), learned.std(axis=0, ddof=1)
-        for key, (place, where) in self._known.items():
-            if where is cell:  # another baseline may have been learned after the growth
-                self._measure(place, key, (mean, sd))
+        for key, (event_index, source) in self._reported.items():
+            if source is cell:  # another baseline may have been learned after the growth
+                self._update_growth(event_index, key, (mean, sd))
         for count in WINDOWS:
             if count > len(self._recent):
                 return
             recent = list(self._recent)[-count:]
-            grown = np.mean([one.found for one in recent], axis=0) - mean
-            grown -= _explained(recent, cell.learned) * mean
-            floor = np.nan_to_num(np.mean([one.floor for one in recent], axis=0))
-            quiet = np.nan_to_num(np.mean([one.floor for one in cell.learned], axis=0))
-            grown -= np.maximum(floor - quiet, 0.0)
-            louder = np.maximum(floor / np.where(quiet > 0.0, quiet, np.inf), 1.0)
-            noise = louder * sd * math.sqrt(1.0 / count + 1.0 / self._learning)
-            for channel, pattern in np.argwhere(grown > self._limit * noise).tolist():
-                if (channel, pattern) in self._known:
+            growth = np.mean([period.found for period in recent], axis=0) - mean
+            growth -= _explained_growth(recent, cell.learned) * mean
+            floor = np.nan_to_num(np.mean([period.floor for period in recent], axis=0))
+            learned_floor = np.nan_to_num(
+                np.mean([period.floor for period in cell.learned], axis=0)
+            )
+            growth -= np.maximum(floor - learned_floor, 0.0)
+            floor_ratio = np.maximum(
+                floor / np.where(learned_floor > 0.0, learned_floor, np.inf), 1.0
+            )
+            noise = floor_ratio * sd * math.sqrt(1.0 / count + 1.0 / self._learning)
+            for channel, pattern in np.argwhere(growth > self._limit * noise).tolist():
+                if (channel, pattern) in self._reported:
                     continue
-                self._known[channel, pattern] = len(self.events), cell
+                self._reported[channel, pattern] = len(self.events), cell
                 name, _, causes = self._patterns[pattern]
-                z = float(grown[channel, pattern] / noise[channel, pattern])
+                z = float(growth[channel, pattern] / noise[channel, pattern])
                 size = not_identifiable("vibration_growth", math.nan, "", "the next hunting period")
                 evidence = f"{self.names[channel]}: z = {z:.1f}{UNKNOWN}"
                 what = f"vibration grew: {name}"
-                since = self._since((channel, pattern), mean, sd, now)
+                since = self._earliest_start((channel, pattern), mean, sd, now)
                 self.events.append(Event(what, since, now, size, causes, evidence))
 
-    def _since(self, key: tuple[int, int], mean: Array, sd: Array, now: float) -> float:
+    def _earliest_start(self, key: tuple[int, int], mean: Array, sd: Array, now: float) -> float:
         """Earliest time at which a pattern may have grown [s]."""
-        amounts = np.array([one.found[key] for one in self._recent]) - mean[key]
+        amounts = np.array([period.found[key] for period in self._recent]) - mean[key]
         first = self._recent[onset_of(amounts, float(sd[key])).first].begin
         # A step later than half of a hunting period belongs to the next one.
         return first - 0.5 * (now - self._recent[-1].begin)
 
-    def _measure(self, place: int, key: tuple[int, int], baseline: tuple[Array, Array]) -> None:
+    def _update_growth(
+        self, event_index: int, key: tuple[int, int], baseline: tuple[Array, Array]
+    ) -> None:
         """Growth of a pattern in the hunting periods that began after it was found."""
-        event = self.events[place]
-        since = np.array([one.found[key] for one in self._recent if one.begin >= event.found])
-        if not len(since):
+        event = self.events[event_index]
+        amplitudes = np.array(
+            [period.found[key] for period in self._recent if period.begin >= event.found]
+        )
+        if not len(amplitudes):
             return
-        mean, sd = (float(one[key]) for one in baseline)
-        own = max(sd, float(np.std(since)))
-        spread = math.sqrt(own**2 / len(since) + sd**2 / self._learning)
-        size = estimated("vibration_growth", (float(since.mean()) - mean) / mean, spread / mean, "")
-        grown = f"amplitude {100 * size.value:+.2g} +- {100 * CONFIDENT * size.sd:.2g} %"
-        evidence = f"{self.names[key[0]]}: {grown}{UNKNOWN}"
-        self.events[place] = replace(event, size=size, evidence=evidence)
+        mean, sd = (float(statistic[key]) for statistic in baseline)
+        scatter = max(sd, float(np.std(amplitudes)))
+        growth_sd = math.sqrt(scatter**2 / len(amplitudes) + sd**2 / self._learning)
+        size = estimated(
+            "vibration_growth", (float(amplitudes.mean()) - mean) / mean, growth_sd / mean, ""
+        )
+        growth_text = f"amplitude {100 * size.value:+.2g} +- {100 * CONFIDENT * size.sd:.2g} %"
+        evidence = f"{self.names[key[0]]}: {growth_text}{UNKNOWN}"
+        self.events[event_index] = replace(event, size=size, evidence=evidence)
 
     def remarks(self) -> Iterator[str]:
         """Reasons why the results are less certain, one line each."""
@@ -448,10 +484,11 @@ class VibrationFollower:
             )
 
 
-def _explained(recent: Sequence[_Judged], learned: Sequence[_Judged]) -> float:
+def _explained_growth(recent: Sequence[_Judged], learned: Sequence[_Judged]) -> float:
     """Relative growth that torque and speed explain where they differ from those learned."""
     (torque, speed), (torques, speeds) = (
-        np.mean([(one.torque, one.speed) for one in some], axis=0) for some in (recent, learned)
+        np.mean([(period.torque, period.speed) for period in periods], axis=0)
+        for periods in (recent, learned)
     )
     return float(OVER_TORQUE * abs(torque / torques - 1.0) + OVER_SPEED * abs(speed / speeds - 1.0))
 
@@ -465,16 +502,18 @@ def _patterns(train: FollowedTrain) -> Iterator[_Pattern]:
     kinds = {name.partition("_")[0]: count for name, count in train.teeth.items()}
     for gear, count in kinds.items():
         others = {other: teeth for other, teeth in kinds.items() if other != gear}
-        sides = range(1, count)
-        own = [n for n in sides if all(n * teeth % count for teeth in others.values())]
-        sharing = [] if own else [other for other, teeth in others.items() if teeth % count == 0]
+        orders = range(1, count)
+        unshared = [n for n in orders if all(n * teeth % count for teeth in others.values())]
+        sharing_gears = (
+            [] if unshared else [other for other, teeth in others.items() if teeth % count == 0]
+        )
         lines = tuple(
             _Line(mesh, sign * n, count)
             for mesh in meshes
-            for n in (own or sides)[:SIDEBANDS]
+            for n in (unshared or orders)[:SIDEBANDS]
             for sign in (-1, 1)
         )
-        teeth_of = tuple(f"a tooth of the {one}" for one in (gear, *sharing))
+        teeth_of = tuple(f"a tooth of the {member}" for member in (gear, *sharing_gears))
         yield _Pattern(f"sidebands of the {gear}", lines, (*teeth_of, "a runout"))
 
 

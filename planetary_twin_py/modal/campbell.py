@@ -49,8 +49,8 @@ def resonances(
 
     Args:
         scene: gives the mesh frequency.
-        modes: of the scene; a run resonates at the modes for the mean mesh stiffness.
-        highest_speed: of the first motor [rad/s].
+        modes: modes of the scene; a run resonates at the modes for the mean mesh stiffness.
+        highest_speed: highest speed of the first motor [rad/s].
         harmonics: number of mesh harmonics.
 
     Returns:
@@ -58,12 +58,12 @@ def resonances(
     """
     per_speed = mesh_frequency_per_speed(scene)
     levels = [(c.start, c.stop - c.start) for c in clusters(modes.frequencies)]
-    found = [
+    candidates = [
         Resonance(m, count, modes.kinds[m], frequency, h, frequency / (h * per_speed))
         for m, count in levels
         for h in range(1, harmonics + 1)
         if (frequency := float(modes.frequencies[m])) > 0.0
     ]
     return tuple(
-        sorted((r for r in found if r.speed <= highest_speed), key=lambda r: (r.speed, r.mode))
+        sorted((r for r in candidates if r.speed <= highest_speed), key=lambda r: (r.speed, r.mode))
     )

@@ -16,9 +16,9 @@ class MeshStiffness(NamedTuple):
     """Stiffness of one mesh of each kind along the line of action [N/m]."""
 
     sun_planet: float
-    """Of a sun-planet mesh [N/m]."""
+    """Stiffness of a sun-planet mesh [N/m]."""
     planet_ring: float
-    """Of a planet-ring mesh [N/m]."""
+    """Stiffness of a planet-ring mesh [N/m]."""
 
 
 def mesh_stiffness(scene: Scene, stiffness: str) -> MeshStiffness:

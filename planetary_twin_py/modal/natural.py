@@ -33,11 +33,11 @@ def natural_modes(
             "planar", Lin and Parker 1999; "spatial", six motions of every body. The last two
             require `scene.supports`, whose rolling bearings are linear about the static
             equilibrium at the torque of the scene.
-        stiffness: of every mesh. "single": one tooth pair is in contact; "mean": mean over the
-            mesh cycle, which gives the modes at which a simulation resonates.
-        input_speed: of the first motor [rad/s]. For the models planar and spatial, the frequencies
-            are those in the frame of the carrier, with gyroscopic and centripetal terms (Lin and
-            Parker 1999). It has no effect in the others.
+        stiffness: stiffness of every mesh. "single": one tooth pair is in contact; "mean": mean
+            over the mesh cycle, which gives the modes at which a simulation resonates.
+        input_speed: speed of the first motor [rad/s]. For the models planar and spatial, the
+            frequencies are those in the frame of the carrier, with gyroscopic and centripetal
+            terms (Lin and Parker 1999). It has no effect in the others.
 
     Returns:
         Frequencies [Hz] (modes,), mass-normalised shapes [kg^-1/2] (coordinates, modes), and kinds

@@ -70,22 +70,26 @@ def planar_model(data: PlanarSet) -> SpringModel:
         Masses and springs over 3 (N + 3) coordinates.
     """
     rows = planar_rows(data.planet_angles, data.sun_angle, data.ring_angle)
-    one = np.eye(len(rows.coordinates))
+    identity = np.eye(len(rows.coordinates))
     springs = [
-        Spring(f"{body}_{kind}", getattr(getattr(data, body), kind), one[rows.place(f"{body}.{m}")])
+        Spring(
+            f"{body}_{kind}",
+            getattr(getattr(data, body), kind),
+            identity[rows.place(f"{body}.{m}")],
+        )
         for body in CENTRAL
         for kind, m in (("bearing", "x"), ("bearing", "y"), ("torsion", "u"))
     ]
     planets = len(data.planets)
     kinds = ["sun_planet"] * planets + ["planet_ring"] * planets
     factors = 2 * (data.mesh_factors or (1.0,) * planets)
-    for kind, row, own in zip(kinds, rows.flanks(DRIVE), factors, strict=True):
-        springs.append(Spring(kind, own * getattr(data, kind), row, own))
+    for kind, row, factor in zip(kinds, rows.flanks(DRIVE), factors, strict=True):
+        springs.append(Spring(kind, factor * getattr(data, kind), row, factor))
     across = data.planet.bearing if data.planet.across is None else data.planet.across
     factors = data.pin_factors or (1.0,) * planets
-    for (outwards, sideways), own in zip(rows.pin, factors, strict=True):
-        springs.append(Spring("planet_bearing", own * data.planet.bearing, outwards, own))
-        springs.append(Spring("planet_bearing", own * across, sideways, own))
+    for (outwards, sideways), factor in zip(rows.pin, factors, strict=True):
+        springs.append(Spring("planet_bearing", factor * data.planet.bearing, outwards, factor))
+        springs.append(Spring("planet_bearing", factor * across, sideways, factor))
     masses = []
     for body in (*CENTRAL, *data.planets):
         values = getattr(data, body) if body in CENTRAL else data.planet

@@ -34,7 +34,7 @@ def mesh_block(stiffness: float, angle: float, helix: float) -> np.ndarray:
     """Matrix K_si of (25) or K_ri of (26) [N/m], (6, 6).
 
     Args:
-        stiffness: of the mesh [N/m].
+        stiffness: stiffness of the mesh [N/m].
         angle: psi_si or psi_ri [rad].
         helix: helix angle [rad].
     """

@@ -124,8 +124,10 @@ def _relative(first: dict[str, float], second: dict[str, float]) -> dict[str, fl
     return first | {name: -value for name, value in second.items()}
 
 
-def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float, own: float) -> list[Spring]:
-    """Springs along the contact normals at the pitch points, `own` times as stiff as nominal."""
+def _meshes(
+    data: SpatialSet, row: Rows, planet: str, psi: float, mesh_factor: float
+) -> list[Spring]:
+    """Springs along the contact normals at the pitch points, with a factor on their stiffness."""
     radial, springs = np.array([math.cos(psi), math.sin(psi), 0.0]), []
     ring = data.pressure_angle if data.ring_angle is None else data.ring_angle
     for gear, lean, hand in (("sun", -1.0, 1.0), ("ring", 1.0, -1.0)):
@@ -139,13 +141,13 @@ def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float, own: float) ->
             _velocity(data, gear, normal, central), _velocity(data, planet, normal, outward)
         )
         kind = "sun_planet" if gear == "sun" else "planet_ring"
-        stiffness = own * getattr(data, kind) / math.cos(data.base_helix) ** 2
-        springs.append(Spring(kind, stiffness, row(parts), own))
-        tilting = own * getattr(data, kind) * data.face_width**2 / 12.0
+        stiffness = mesh_factor * getattr(data, kind) / math.cos(data.base_helix) ** 2
+        springs.append(Spring(kind, stiffness, row(parts), mesh_factor))
+        tilting = mesh_factor * getattr(data, kind) * data.face_width**2 / 12.0
         if tilting > 0.0:
             slope = np.cross([0.0, 0.0, 1.0], flat)
             parts = _relative(_tilt(data, gear, slope), _tilt(data, planet, slope))
-            springs.append(Spring(f"{kind}_tilting", tilting, row(parts), own))
+            springs.append(Spring(f"{kind}_tilting", tilting, row(parts), mesh_factor))
     return springs
 
 
@@ -155,10 +157,10 @@ def _tilt(data: SpatialSet, name: str, direction: Vector) -> dict[str, float]:
     return {f"{name}.{m}": part / radius for m, part in zip(("wx", "wy"), direction, strict=False)}
 
 
-def _pin(data: SpatialSet, row: Rows, planet: str, psi: float, own: float) -> list[Spring]:
+def _pin(data: SpatialSet, row: Rows, planet: str, psi: float, pin_factor: float) -> list[Spring]:
     """Springs of the bearing of a planet: three directions, and tilting relative to the carrier.
 
-    Its radial stiffness is `own` times the nominal one.
+    Its radial stiffness is `pin_factor` times the nominal one.
     """
     outwards = np.array([math.cos(psi), math.sin(psi), 0.0])
     sideways = np.array([-math.sin(psi), math.cos(psi), 0.0])
@@ -166,8 +168,8 @@ def _pin(data: SpatialSet, row: Rows, planet: str, psi: float, own: float) -> li
     body, springs = data.planet, []
     across = body.bearing if body.across is None else body.across
     for direction, kind, stiffness, factor in (
-        (outwards, "bearing", body.bearing, own),
-        (sideways, "bearing", across, own),
+        (outwards, "bearing", body.bearing, pin_factor),
+        (sideways, "bearing", across, pin_factor),
         (np.array([0.0, 0.0, 1.0]), "axial", body.axial, 1.0),
     ):
         carried = _velocity(data, "carrier", direction, arm)

@@ -55,11 +55,11 @@ class SpringModel(NamedTuple):
         Returns:
             The model without these coordinates.
         """
-        kept = np.array([name not in held for name in self.coordinates])
+        free = np.array([name not in held for name in self.coordinates])
         return SpringModel(
-            tuple(np.array(self.coordinates)[kept]),
-            self.mass[kept],
-            tuple(spring._replace(row=spring.row[kept]) for spring in self.springs),
+            tuple(np.array(self.coordinates)[free]),
+            self.mass[free],
+            tuple(spring._replace(row=spring.row[free]) for spring in self.springs),
         )
 
 

@@ -27,11 +27,11 @@ def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = Fal
         Masses and springs.
     """
     scene = held_axes(scene)
-    bodies, found = build_bodies(scene), machines(scene)
+    bodies, machine_data = build_bodies(scene), machines(scene)
     ground = len(bodies.mass) - 1
     names = [name for name, place in bodies.place.items() if place != ground]
     if not with_machines:
-        names = [name for name in names if name not in found]
+        names = [name for name in names if name not in machine_data]
     coordinates = tuple(f"{name}.u" for name in names)
     row, springs = Rows(coordinates), []
     carried = scene.gearset.geometry.carrier_ratio
@@ -39,12 +39,12 @@ def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = Fal
         planet = f"planet_{i + 1}.u"
         sun_row = row({"sun.u": 1.0, planet: 1.0, "carrier.u": -1.0})
         ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -carried})
-        own = scene.errors.of_planet(i).stiffness
-        springs += [Spring("sun_planet", own * mesh.sun_planet, sun_row, own)]
-        springs += [Spring("planet_ring", own * mesh.planet_ring, ring_row, own)]
+        factor = scene.errors.of_planet(i).stiffness
+        springs += [Spring("sun_planet", factor * mesh.sun_planet, sun_row, factor)]
+        springs += [Spring("planet_ring", factor * mesh.planet_ring, ring_row, factor)]
     if with_machines:
         radii = base_radii(scene)
-        for name, machine in found.items():
+        for name, machine in machine_data.items():
             shaft = row({f"{name}.u": 1.0, f"{machine.member}.u": -1.0})
             stiffness = machine.coupling_stiffness / radii[machine.member] ** 2
             springs.append(Spring(f"{name}_coupling", stiffness, shaft))

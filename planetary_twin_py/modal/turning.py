@@ -56,7 +56,7 @@ def turning_terms(
                 twice = 2.0 * carrier * model.mass[a]
                 gyroscopic[a, b] -= twice
                 gyroscopic[b, a] += twice
-                for row in _pulled(place, size, body, planet_angles, a, b):
+                for row in _centrifugal_rows(place, size, body, planet_angles, a, b):
                     centripetal += model.mass[a] * carrier**2 * np.outer(row, row)
         if f"{body}.wx" in place:
             a, b = place[f"{body}.wx"], place[f"{body}.wy"]
@@ -71,19 +71,19 @@ def turning_terms(
     return Turning(gyroscopic, centripetal)
 
 
-def _pulled(
+def _centrifugal_rows(
     place: Mapping[str, int], size: int, body: str, angles: Sequence[float], a: int, b: int
 ) -> list[np.ndarray]:
     """Rows of the two displacements on which the centrifugal force acts, (coordinates,) each."""
-    one = np.eye(size)
+    identity = np.eye(size)
     if not body.startswith("planet_"):
-        return [one[a], one[b]]
-    outwards, across = one[a], one[b]
+        return [identity[a], identity[b]]
+    outwards, across = identity[a], identity[b]
     if f"{body}.x" in place:
         psi = angles[int(body.removeprefix("planet_")) - 1]
-        outwards = math.cos(psi) * one[a] + math.sin(psi) * one[b]
-        across = -math.sin(psi) * one[a] + math.cos(psi) * one[b]
-    return [outwards, across - one[place["carrier.u"]] if "carrier.u" in place else across]
+        outwards = math.cos(psi) * identity[a] + math.sin(psi) * identity[b]
+        across = -math.sin(psi) * identity[a] + math.cos(psi) * identity[b]
+    return [outwards, across - identity[place["carrier.u"]] if "carrier.u" in place else across]
 
 
 def turning_modes(model: SpringModel, terms: Turning) -> NaturalModes:
@@ -95,7 +95,7 @@ def turning_modes(model: SpringModel, terms: Turning) -> NaturalModes:
 
     Args:
         model: masses and springs.
-        terms: of the turning frame.
+        terms: terms of the turning frame.
 
     Returns:
         Frequencies [Hz] (modes,), complex shapes [kg^-1/2] (coordinates, modes), and kinds.

@@ -66,7 +66,7 @@ class AxesSums:
         """Add samples.
 
         Args:
-            samples: of a run whose axes move.
+            samples: samples of a run whose axes move.
         """
         self._count += len(samples.moved)
         self._moved = self._moved + samples.moved.sum(axis=0)
@@ -115,24 +115,24 @@ def read_axes(
         The samples, and the statistics over `span`.
     """
     begin, until = span
-    needed = max(LEAST, PER_PERIOD * _fastest(scene))
-    finer = max(1, math.ceil(needed / sample_rate))
-    rate = finer * sample_rate
+    needed = max(LEAST, PER_PERIOD * _fastest_mode(scene))
+    decimation = max(1, math.ceil(needed / sample_rate))
+    rate = decimation * sample_rate
     done, last = samples_until(begin, rate), samples_until(until, rate)
     sums, parts = AxesSums(), list[Samples]()
     while done < last:
         count = min(_MOST_AT_ONCE, last - done)
         # End between two samples, so that rounding cannot add or drop one.
         time = until if done + count == last else (done + count + 0.5) / rate
-        found = run.advance(time, done + 1, rate, count)
-        sums.add(found)
-        first = (-done - 1) % finer  # index of the first sample to keep
-        parts.append(Samples(*(part[first::finer].copy() for part in found)))
+        samples = run.advance(time, done + 1, rate, count)
+        sums.add(samples)
+        first = (-done - 1) % decimation  # index of the first sample to keep
+        parts.append(Samples(*(part[first::decimation].copy() for part in samples)))
         done += count
     return Samples(*map(np.concatenate, zip(*parts, strict=True))), sums.statistics()
 
 
-def _fastest(scene: Scene) -> float:
+def _fastest_mode(scene: Scene) -> float:
     """Frequency of the fastest natural mode [Hz], 0 where nothing vibrates."""
     if scene.quasi_static:
         return 0.0

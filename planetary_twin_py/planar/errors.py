@@ -70,7 +70,7 @@ def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> 
     runout, errors, teeth = scene.mesh.runout, scene.errors, scene.gearset.tooth_numbers
     carrier, first = angle["carrier"], scene.gearset.planet_angles[0]
     sun_phases, ring_phases = scene_phases(scene)
-    found = np.zeros((len(carrier), len(rows.coordinates)))
+    displaced = np.zeros((len(carrier), len(rows.coordinates)))
     # The part of the phase of a ring mesh that is independent of the planet's position.
     offset = 2.0 * np.pi * float(ring_phases[0]) / teeth.ring
     for gear, size, start in (
@@ -78,12 +78,12 @@ def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> 
         ("ring", runout.ring, first + offset + errors.ring_runout_phase),
     ):
         direction = angle[gear] - carrier + start
-        found[:, rows.place(f"{gear}.x")] = size * np.cos(direction)
-        found[:, rows.place(f"{gear}.y")] = size * np.sin(direction)
+        displaced[:, rows.place(f"{gear}.x")] = size * np.cos(direction)
+        displaced[:, rows.place(f"{gear}.y")] = size * np.sin(direction)
     phases = errors.planet_runout_phases or (0.0,) * scene.gearset.planets
     for i, phase in enumerate(phases):
         start = math.pi + 2.0 * np.pi * float(sun_phases[i]) / teeth.planet + phase
         direction = angle["planet"] - carrier + start
-        found[:, rows.place(f"planet_{i + 1}.xi")] = runout.planet * np.cos(direction)
-        found[:, rows.place(f"planet_{i + 1}.eta")] = runout.planet * np.sin(direction)
-    return found
+        displaced[:, rows.place(f"planet_{i + 1}.xi")] = runout.planet * np.cos(direction)
+        displaced[:, rows.place(f"planet_{i + 1}.eta")] = runout.planet * np.sin(direction)
+    return displaced

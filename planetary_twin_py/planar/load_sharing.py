@@ -91,15 +91,15 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     angles = [mesh.pressure_angle for mesh in gears.meshes]
     rows = planar_rows(scene.gearset.planet_angles, *angles)
     errors = displacements(scene, rows, turns)
-    basis = _free(scene, rows)
+    basis = _free_coordinates(scene, rows)
     springs = _springs(scene, rows, errors, turns, basis)
     weight = weight_forces(scene, rows, turns)
     force = (_input_force(scene, rows) + weight) @ basis
     driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
     closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
-    found = equilibrium(springs, force, closed)
-    elements = _element_loads(scene, springs, found)
-    return _result(scene, rows, turns, errors, basis, found, weight, elements)
+    solution = equilibrium(springs, force, closed)
+    elements = _element_loads(scene, springs, solution)
+    return _assemble_result(scene, rows, turns, errors, basis, solution, weight, elements)
 
 
 def _positions(scene: Scene) -> np.ndarray:
@@ -119,20 +119,20 @@ def _positions(scene: Scene) -> np.ndarray:
     return np.asarray((np.arange(count) + 0.5) / count * cycles / abs(float(per_turn)))
 
 
-def _free(scene: Scene, rows: PlanarRows) -> np.ndarray:
+def _free_coordinates(scene: Scene, rows: PlanarRows) -> np.ndarray:
     """Displacement of each coordinate per free coordinate, (coordinates, free).
 
     The input member can turn, the other central members cannot. Without bearings the axes are held,
     and planets move with the carrier.
     """
     basis = np.eye(len(rows.coordinates))
-    held = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
+    fixed = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
     if scene.supports is None:
-        held += [f"{body}.{motion}" for body in CENTRAL for motion in "xy"]
+        fixed += [f"{body}.{motion}" for body in CENTRAL for motion in "xy"]
         for i in range(scene.gearset.planets):
-            held += [f"planet_{i + 1}.xi", f"planet_{i + 1}.eta"]
+            fixed += [f"planet_{i + 1}.xi", f"planet_{i + 1}.eta"]
             basis[rows.place(f"planet_{i + 1}.eta"), rows.place("carrier.u")] = 1.0
-    return np.delete(basis, [rows.place(name) for name in held], axis=1)
+    return np.delete(basis, [rows.place(name) for name in fixed], axis=1)
 
 
 def _input_force(scene: Scene, rows: PlanarRows) -> np.ndarray:
@@ -170,22 +170,22 @@ def _springs(
         radial,
         clearance,
         centre,
-        _rolling(scene),
+        _rolling_laws(scene),
     )
 
 
 def _held_pins(scene: Scene, rows: PlanarRows, errors: Displacements) -> np.ndarray:
     """Displacements of planets by errors of their pins, and of held axes, (P, n)."""
-    found = np.zeros((len(errors.axis), len(rows.coordinates)))
+    displaced = np.zeros((len(errors.axis), len(rows.coordinates)))
     for place, body in enumerate(CENTRAL):
         for direction, motion in enumerate("xy"):
-            found[:, rows.place(f"{body}.{motion}")] = errors.axis[:, place, direction]
-    carried = -rows.pin @ found.T  # displacements of the pins with the axis of the carrier
+            displaced[:, rows.place(f"{body}.{motion}")] = errors.axis[:, place, direction]
+    carried = -rows.pin @ displaced.T  # displacements of the pins with the axis of the carrier
     for i in range(scene.gearset.planets):
         for direction, motion in enumerate(("xi", "eta")):
             place = rows.place(f"planet_{i + 1}.{motion}")
-            found[:, place] = errors.pin[i, direction] + carried[i, direction]
-    return found
+            displaced[:, place] = errors.pin[i, direction] + carried[i, direction]
+    return displaced
 
 
 def _bearings(
@@ -201,7 +201,7 @@ def _bearings(
         for direction, motion in enumerate("xy"):
             central[place, direction, rows.place(f"{body}.{motion}")] = 1.0
     pins = np.tile(errors.pin, (count, 1, 1))
-    stiffness, clearance = _of_bodies(scene, supports)
+    stiffness, clearance = _bearing_data(scene, supports)
     return (
         np.concatenate([central, rows.pin]),
         stiffness,
@@ -210,26 +210,26 @@ def _bearings(
     )
 
 
-def _kinds(scene: Scene) -> list[str]:
+def _body_kinds(scene: Scene) -> list[str]:
     """Kinds of the bodies on bearings: sun, ring, carrier, planets."""
     return [*CENTRAL, *["planet"] * scene.gearset.planets]
 
 
-def _of_bodies(scene: Scene, supports: Supports) -> tuple[np.ndarray, np.ndarray]:
-    kinds = _kinds(scene)
+def _bearing_data(scene: Scene, supports: Supports) -> tuple[np.ndarray, np.ndarray]:
+    kinds = _body_kinds(scene)
     stiffness = np.array([linear_bearing(scene, name)[0] for name in bearing_names(scene)])
     return stiffness, np.array([getattr(supports, kind).clearance for kind in kinds])
 
 
-def _rolling(scene: Scene) -> tuple[RollingBearing | None, ...]:
+def _rolling_laws(scene: Scene) -> tuple[RollingBearing | None, ...]:
     """Laws of the rolling bearings, None for the others."""
     if scene.supports is None:
         return ()
-    given = (getattr(scene.supports, kind).rolling for kind in _kinds(scene))
+    given = (getattr(scene.supports, kind).rolling for kind in _body_kinds(scene))
     return tuple(rolling_bearing(rolling) if rolling else None for rolling in given)
 
 
-def _cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
+def _mesh_cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
     """Cycles since a pair was at the pitch point of each mesh, on drive flanks, (P, meshes)."""
     ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
     per_turn = float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios))
@@ -239,14 +239,14 @@ def _cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
 
 def _harmonic_errors(scene: Scene, turns: np.ndarray) -> np.ndarray:
     """Transmission errors of the teeth, harmonics of the mesh frequency [m], (P, meshes)."""
-    cycles, planets = _cycles(scene, turns), scene.gearset.planets
-    found = np.zeros_like(cycles)
+    cycles, planets = _mesh_cycles(scene, turns), scene.gearset.planets
+    errors = np.zeros_like(cycles)
     for kind, error in enumerate((scene.mesh.sun_planet_error, scene.mesh.planet_ring_error)):
-        own = slice(kind * planets, (kind + 1) * planets)
+        meshes = slice(kind * planets, (kind + 1) * planets)
         phases = error.phases or (0.0,) * len(error.amplitudes)
         for n, (size, phase) in enumerate(zip(error.amplitudes, phases, strict=True), 1):
-            found[:, own] += size * np.sin(2.0 * np.pi * n * cycles[:, own] + phase)
-    return found
+            errors[:, meshes] += size * np.sin(2.0 * np.pi * n * cycles[:, meshes] + phase)
+    return errors
 
 
 def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
@@ -254,7 +254,7 @@ def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
     train, planets = build_train(scene), scene.gearset.planets
     kinds = np.repeat([0, 1], planets)
     lead = np.array([mesh.coast_lead for mesh in scene.gearset.geometry.meshes])[kinds]
-    cycles = side * _cycles(scene, turns) + (lead if side == COAST else 0.0)
+    cycles = side * _mesh_cycles(scene, turns) + (lead if side == COAST else 0.0)
     fractions = cycles - np.floor(cycles)
     nominal = [_mesh_stiffness(train, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
     factors = [scene.errors.of_planet(i).stiffness for i in range(planets)]
@@ -271,23 +271,23 @@ def _mesh_stiffness(train: Train, kind: int, fraction: np.ndarray) -> np.ndarray
     return np.asarray(train.stiffness_base[kind] + train.stiffness_gain[kind] * weight)
 
 
-def _result(
+def _assemble_result(
     scene: Scene,
     rows: PlanarRows,
     turns: np.ndarray,
     errors: Displacements,
     basis: np.ndarray,
-    found: Equilibrium,
+    solution: Equilibrium,
     weight: np.ndarray,
     elements: np.ndarray,
 ) -> LoadSharing:
     planets, count = scene.gearset.planets, len(turns)
-    forces = found.contact_force.reshape(count, 2, 2 * planets)
+    forces = solution.contact_force.reshape(count, 2, 2 * planets)
     sun_mesh = forces[:, 0, :planets] - forces[:, 1, :planets]
-    moved = (found.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
+    moved = (solution.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
     flanks = np.vstack([rows.flanks(side) for side in SIDES])
     # Forces of the meshes on each coordinate, and weight.
-    on_bodies = weight - found.contact_force @ flanks
+    on_bodies = weight - solution.contact_force @ flanks
     pins = on_bodies[:, 3 * len(CENTRAL) :].reshape(count, planets, 3)[:, :, :2]
     bearing = on_bodies[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)[:, :, :2]
     on_carrier = -np.einsum("pid,idn->pn", pins, rows.pin)
@@ -303,11 +303,11 @@ def _result(
     )
 
 
-def _element_loads(scene: Scene, springs: Springs, found: Equilibrium) -> np.ndarray:
+def _element_loads(scene: Scene, springs: Springs, solution: Equilibrium) -> np.ndarray:
     """Load of the most loaded rolling element of each bearing, (P, bearings)."""
-    loads = np.full((len(found.displacement), len(_kinds(scene))), np.nan)
-    size = np.linalg.norm(eccentricities(springs, found.displacement), axis=-1)
-    for b, kind in enumerate(_kinds(scene)):
+    loads = np.full((len(solution.displacement), len(_body_kinds(scene))), np.nan)
+    size = np.linalg.norm(eccentricities(springs, solution.displacement), axis=-1)
+    for b, kind in enumerate(_body_kinds(scene)):
         support: Support | None = getattr(scene.supports, kind, None)
         if support is not None and support.rolling is not None:
             loads[:, b] = largest_element_load(support.rolling, support.clearance, size[:, b])

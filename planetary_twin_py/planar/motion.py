@@ -63,8 +63,8 @@ class AxesMotion:
     def load_share(self) -> np.ndarray:
         """Torque that each planet takes from the sun over the mean of all planets, NaN where that
         is zero, (samples, planets)."""
-        own = slice(len(self.mean_load_share))
-        return _shares(self.flank_force[:, 0, own] - self.flank_force[:, 1, own])
+        sun_meshes = slice(len(self.mean_load_share))
+        return _shares(self.flank_force[:, 0, sun_meshes] - self.flank_force[:, 1, sun_meshes])
 
     @property
     def load_sharing_factor(self) -> float:
@@ -179,7 +179,7 @@ def _shares(force: np.ndarray) -> np.ndarray:
 def _orbits(core: ModuleType, displaced: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """Displacements of sun, ring and carrier in the housing, (samples, 3, 2)."""
     rows = len(angle)
-    found = np.empty((rows, 2 * len(CENTRAL)))
+    orbits = np.empty((rows, 2 * len(CENTRAL)))
     within_one_turn = np.remainder(angle, 2.0 * math.pi)
-    core.orbits(displaced.reshape(rows, -1), within_one_turn, found)
-    return found.reshape(rows, len(CENTRAL), 2)
+    core.orbits(displaced.reshape(rows, -1), within_one_turn, orbits)
+    return orbits.reshape(rows, len(CENTRAL), 2)

@@ -22,7 +22,7 @@ def radial_stiffness(scene: Scene, kind: str) -> tuple[float, float]:
     a rolling bearing has no stiffness.
 
     Args:
-        scene: with supports.
+        scene: scene with supports.
         kind: "sun", "planet", "ring" or "carrier".
 
     Returns:

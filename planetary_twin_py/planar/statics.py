@@ -88,18 +88,18 @@ def equilibrium(springs: Springs, force: np.ndarray, closed: np.ndarray) -> Equi
 def _guess(springs: Springs, force: np.ndarray, closed: np.ndarray) -> np.ndarray:
     """Displacements with bilateral flanks and without clearance."""
     stiffness = springs.contact_stiffness * closed
-    right = force + (stiffness * springs.gap) @ springs.contact
+    rhs = force + (stiffness * springs.gap) @ springs.contact
     per_bearing = springs.bearing_stiffness[:, None, None] * springs.bearing
-    right = right + np.einsum("pbd,bdn->pn", springs.offset, per_bearing)
+    rhs = rhs + np.einsum("pbd,bdn->pn", springs.offset, per_bearing)
     matrix = springs.linear + np.einsum("bdn,bdm->nm", per_bearing, springs.bearing)
     matrix = matrix + np.einsum("pf,fn,fm->pnm", stiffness, springs.contact, springs.contact)
-    return _solve(matrix, right)
+    return _solve(matrix, rhs)
 
 
-def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+def _solve(matrix: np.ndarray, rhs: np.ndarray) -> np.ndarray:
     size = np.abs(matrix).max(axis=(1, 2))[:, None, None]
-    held = matrix + LOOSE * size * np.eye(matrix.shape[-1])
-    return np.asarray(np.linalg.solve(held, right[..., None])[..., 0])
+    regularised = matrix + LOOSE * size * np.eye(matrix.shape[-1])
+    return np.asarray(np.linalg.solve(regularised, rhs[..., None])[..., 0])
 
 
 def _contact_forces(springs: Springs, q: np.ndarray) -> np.ndarray:
@@ -118,11 +118,11 @@ def _pressed(springs: Springs, size: np.ndarray) -> np.ndarray:
     """Energy, force and stiffness of bearings along their eccentricities, (3, P, bearings)."""
     pressed = np.maximum(size - springs.clearance, 0.0)
     k = springs.bearing_stiffness
-    found = np.stack([0.5 * k * pressed**2, k * pressed, k * (size > springs.clearance)])
+    laws = np.stack([0.5 * k * pressed**2, k * pressed, k * (size > springs.clearance)])
     for b, law in enumerate(springs.rolling):
         if law is not None:
-            found[:, :, b] = press(law, springs.clearance[b], size[:, b])
-    return found
+            laws[:, :, b] = press(law, springs.clearance[b], size[:, b])
+    return laws
 
 
 def eccentricities(springs: Springs, q: np.ndarray) -> np.ndarray:

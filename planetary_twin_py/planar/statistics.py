@@ -26,13 +26,13 @@ def axes_statistics(motion: AxesMotion) -> dict[str, np.ndarray]:
         motion = AxesMotion(
             motion.bodies, moved, moved, moved[:, :3], nothing, motion.mean_load_share
         )
-    found = {}
+    statistics = {}
     for name, vectors in (
         ("displacement", motion.displacement),
         ("bearing_force", motion.bearing_force),
     ):
-        found[name] = vectors.mean(axis=0)
+        statistics[name] = vectors.mean(axis=0)
         x, y = vectors[:, :, 0], vectors[:, :, 1]
-        found[f"{name}_peak"] = np.sqrt((x * x + y * y).max(axis=0))
+        statistics[f"{name}_peak"] = np.sqrt((x * x + y * y).max(axis=0))
     drive, coast = motion.flank_force.mean(axis=0)
-    return found | {"orbit": motion.orbit[-1], "drive_force": drive, "coast_force": coast}
+    return statistics | {"orbit": motion.orbit[-1], "drive_force": drive, "coast_force": coast}

@@ -127,10 +127,10 @@ def _between(knots: Array, targets: Array) -> Array:
 
 def _gauss_markov(count: int, step: float, chance: np.random.Generator) -> Array:
     """Gauss-Markov process with unit standard deviation, smooth over a second."""
-    every = round(1.0 / step)
-    keep = np.exp(-1.0 / WANDERING)
-    coarse = np.empty(count // every + 2)
+    steps = round(1.0 / step)
+    decay = np.exp(-1.0 / WANDERING)
+    coarse = np.empty(count // steps + 2)
     coarse[0] = chance.standard_normal()
-    for n, fresh in enumerate(chance.standard_normal(len(coarse) - 1)):
-        coarse[n + 1] = keep * coarse[n] + np.sqrt(1.0 - keep**2) * fresh
-    return np.interp(np.arange(count) / every, np.arange(len(coarse)), coarse)
+    for n, noise in enumerate(chance.standard_normal(len(coarse) - 1)):
+        coarse[n + 1] = decay * coarse[n] + np.sqrt(1.0 - decay**2) * noise
+    return np.interp(np.arange(count) / steps, np.arange(len(coarse)), coarse)

@@ -42,22 +42,22 @@ def simulate_encoders(plant: Plant) -> Iterator[EncoderCounts]:
     for sample, time, angle, torque, cycles in chunks(plant, errors.rate):
         twist = course_of(plant.error_stages, time, cycles, torque) / train.lever
         output = (float(train.twist[0]) * angle - twist) / float(train.twist[1])
-        moved = errors.delay + errors.jitter * chance.standard_normal(len(time))
-        read = output + train.ratio * plant.course.speed_at(time) * moved
+        delay = errors.delay + errors.jitter * chance.standard_normal(len(time))
+        read = output + train.ratio * plant.course.speed_at(time) * delay
         orders = float(train.cycles), float(train.cycles) / train.ratio
         columns = [
             _counts(value, order, errors, phases[2 * k : 2 * k + 2], chance)
             for k, (value, order) in enumerate(zip((angle, read), orders, strict=True))
         ]
-        kept = received(sample, errors.packet, errors.lost, chance)
-        yield EncoderCounts(sample[kept], np.stack(columns, axis=1)[kept])
+        delivered = received(sample, errors.packet, errors.lost, chance)
+        yield EncoderCounts(sample[delivered], np.stack(columns, axis=1)[delivered])
 
 
 def _counts(
     angle: Array, order: float, errors: EncoderErrors, phases: Array, chance: np.random.Generator
 ) -> NDArray[np.int64]:
     """Counts of one encoder."""
-    shown = angle + errors.long_wave * np.sin(angle + phases[0])
-    shown = shown + errors.mesh_wave * np.sin(order * angle + phases[1])
-    shown = shown + errors.noise * chance.standard_normal(len(angle))
-    return np.floor(shown * 2.0**errors.bits / (2.0 * math.pi)).astype(np.int64)
+    reading = angle + errors.long_wave * np.sin(angle + phases[0])
+    reading = reading + errors.mesh_wave * np.sin(order * angle + phases[1])
+    reading = reading + errors.noise * chance.standard_normal(len(angle))
+    return np.floor(reading * 2.0**errors.bits / (2.0 * math.pi)).astype(np.int64)

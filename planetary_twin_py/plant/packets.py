@@ -62,5 +62,5 @@ def received(
         Whether the packet of a sample is received, (n,).
     """
     packet = sample // size
-    kept = ~(chance.random(packet[-1] - packet[0] + 1) < lost)
-    return np.asarray(kept[packet - packet[0]])
+    delivered = ~(chance.random(packet[-1] - packet[0] + 1) < lost)
+    return np.asarray(delivered[packet - packet[0]])

@@ -45,12 +45,12 @@ class Pattern(NamedTuple):
             Values, (n,).
         """
         count = self.values.shape[1]
-        place = np.mod(cycles * POINTS, count)
-        low = place.astype(np.int64)
-        part = place - low
+        position = np.mod(cycles * POINTS, count)
+        low = position.astype(np.int64)
+        fraction = position - low
         low %= count
         high = (low + 1) % count
-        values = self.values[:, low] * (1.0 - part) + self.values[:, high] * part
+        values = self.values[:, low] * (1.0 - fraction) + self.values[:, high] * fraction
         n = np.clip(np.searchsorted(self.torques, torque) - 1, 0, len(self.torques) - 2)
         step = (torque - self.torques[n]) / (self.torques[n + 1] - self.torques[n])
         k = np.arange(len(torque))
@@ -109,11 +109,11 @@ def course_of(stages: tuple[Stage, ...], time: Array, cycles: Array, torque: Arr
     Returns:
         Values, (n,).
     """
-    found = np.empty(len(time))
+    values = np.empty(len(time))
     for begin, end, pattern in stages:
         rows = (time >= begin) & (time < end)
-        found[rows] = pattern.at(cycles[rows], torque[rows])
-    return found
+        values[rows] = pattern.at(cycles[rows], torque[rows])
+    return values
 
 
 def _pattern(
@@ -121,9 +121,9 @@ def _pattern(
 ) -> Pattern:
     rows = []
     for torque in torques:
-        there = scene.replace(
+        loaded_scene = scene.replace(
             faults=[fault.model_dump() for fault in faults], input_torque=float(torque)
         )
-        first, error = model_error(there, train.hunting_cycles, POINTS, SETTLING, TOLERANCE)
+        first, error = model_error(loaded_scene, train.hunting_cycles, POINTS, SETTLING, TOLERANCE)
         rows.append(np.roll(error, first % len(error)))
     return Pattern(torques, np.array(rows))

@@ -106,23 +106,25 @@ def simulate_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
     time = np.arange(1, int(plant.duration * sensors.rate) + 1) / sensors.rate
     torque, speed = course.torque_at(time), course.speed_at(time)
     driving = torque + train.inertia * course.acceleration_at(time)
-    later = time + sensors.clock_offset
-    driven = (_loss(plant, later, course.torque_at(later), course.speed_at(later))
-              - course.torque_at(later)) / train.ratio  # fmt: skip
+    output_time = time + sensors.clock_offset
+    driven = (_loss(plant, output_time, course.torque_at(output_time), course.speed_at(output_time))
+              - course.torque_at(output_time)) / train.ratio  # fmt: skip
     chance = np.random.default_rng([plant.hidden.seed, 1])
-    one, two = sensors.input_torque, sensors.output_torque
-    zero = plant.at("torque_zero", time, one.zero)
+    at_input, at_output = sensors.input_torque, sensors.output_torque
+    zero = plant.at("torque_zero", time, at_input.zero)
     noise = chance.standard_normal((4, len(time)))
     columns = {
-        "input_torque": driving * (1.0 + one.gain) + zero + one.noise * noise[0],
-        "output_torque": driven * (1.0 + two.gain) + two.zero + two.noise * noise[1],
+        "input_torque": driving * (1.0 + at_input.gain) + zero + at_input.noise * noise[0],
+        "output_torque": driven * (1.0 + at_output.gain)
+        + at_output.zero
+        + at_output.noise * noise[1],
         "input_speed": speed + sensors.speed_noise * noise[2],
         "output_speed": train.ratio * speed + sensors.speed_noise * noise[3],
     }
     for name, values in columns.items():
         if name.endswith("torque"):
-            wild = chance.random(len(time)) < sensors.outlying
-            values[wild] = train.torque * chance.standard_cauchy(int(wild.sum()))
+            outlying = chance.random(len(time)) < sensors.outlying
+            values[outlying] = train.torque * chance.standard_cauchy(int(outlying.sum()))
         values[chance.random(len(time)) < sensors.lost] = np.nan
     columns["oil_temperature"] = np.full(len(time), train.oil_temperature)
     return time, columns

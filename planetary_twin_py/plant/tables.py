@@ -32,8 +32,8 @@ def readings_table(plant: Plant) -> PlantTable:
     Args:
         plant: the plant.
     """
-    time, found = simulate_readings(plant)
-    batch = {"time": time, **found}
+    time, readings = simulate_readings(plant)
+    batch = {"time": time, **readings}
     units = {"time": "s", **CHANNELS}
     columns = [Column(name, units[name], np.dtype(float)) for name in batch]
     return PlantTable(columns, iter([batch]))
@@ -60,7 +60,9 @@ def vibration_table(plant: Plant) -> PlantTable:
         plant: the plant; it has an accelerometer.
     """
     rate, units = plant.hidden.sensors.vibration.rate, {"time": "s", NAME: "m/s^2"}
-    batches = ({"time": one.sample / rate, NAME: one.values} for one in simulate_vibration(plant))
+    batches = (
+        {"time": packet.sample / rate, NAME: packet.values} for packet in simulate_vibration(plant)
+    )
     columns = [Column(name, unit, np.dtype(float)) for name, unit in units.items()]
     return PlantTable(columns, batches)
 

@@ -80,7 +80,7 @@ def timeline(plant: Plant) -> Iterator[Measured]:
         streams.append(_packets(plant))
     if plant.hidden.sensors.vibration.rate:
         streams.append(_accelerations(plant))
-    return heapq.merge(*streams, key=lambda one: one.time)
+    return heapq.merge(*streams, key=lambda measured: measured.time)
 
 
 def _readings(plant: Plant) -> Iterator[Measured]:
@@ -101,16 +101,16 @@ def _readings(plant: Plant) -> Iterator[Measured]:
 def _packets(plant: Plant) -> Iterator[Measured]:
     """Packets of encoder samples, without the lost ones."""
     errors = plant.hidden.sensors.encoders
-    for found in simulate_encoders(plant):
-        for sample, counts in _cut(found.sample, found.counts, errors.packet):
+    for chunk in simulate_encoders(plant):
+        for sample, counts in _cut(chunk.sample, chunk.counts, errors.packet):
             yield CountPacket(float(sample[-1]) / errors.rate, int(sample[0]), counts)
 
 
 def _accelerations(plant: Plant) -> Iterator[Measured]:
     """Packets of accelerations, without the lost ones."""
     sensor = plant.hidden.sensors.vibration
-    for found in simulate_vibration(plant):
-        for sample, values in _cut(found.sample, found.values, sensor.packet):
+    for chunk in simulate_vibration(plant):
+        for sample, values in _cut(chunk.sample, chunk.values, sensor.packet):
             first, last = float(sample[0]), float(sample[-1])
             yield AccelerationPacket(last / sensor.rate, first / sensor.rate, values)
 

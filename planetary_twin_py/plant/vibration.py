@@ -52,14 +52,14 @@ def simulate_vibration(plant: Plant) -> Iterator[Acceleration]:
     highest = RESOLVED * sensor.rate / (per_turn * train.speed)
     path = _path(sensor, highest, chance)
     stages = tuple(
-        one._replace(pattern=_curvature(one.pattern, path)) for one in plant.error_stages
+        stage._replace(pattern=_curvature(stage.pattern, path)) for stage in plant.error_stages
     )
     for sample, time, _, torque, cycles in chunks(plant, sensor.rate):
         curvature = course_of(stages, time, cycles, torque)
         values = curvature * (per_turn * plant.course.speed_at(time)) ** 2
         values += sensor.noise * chance.standard_normal(len(time))
-        kept = received(sample, sensor.packet, sensor.lost, chance)
-        yield Acceleration(sample[kept], values[kept])
+        delivered = received(sample, sensor.packet, sensor.lost, chance)
+        yield Acceleration(sample[delivered], values[delivered])
 
 
 def _path(sensor: Accelerometer, highest: float, chance: np.random.Generator) -> NDArray[Any]:
@@ -74,7 +74,7 @@ def _curvature(pattern: Pattern, path: NDArray[Any]) -> Pattern:
     """Second derivative of a pattern over the mesh cycles, behind the path."""
     count = pattern.values.shape[1]
     order = np.arange(count // 2 + 1) * (POINTS / count)
-    near = np.minimum(np.round(order).astype(int), len(path))
-    gain = np.append(path, 0.0)[near] * -((2.0 * math.pi * order) ** 2)
+    harmonic = np.minimum(np.round(order).astype(int), len(path))
+    gain = np.append(path, 0.0)[harmonic] * -((2.0 * math.pi * order) ** 2)
     spectrum = np.fft.rfft(pattern.values, axis=1) * gain
     return Pattern(pattern.torques, np.fft.irfft(spectrum, count, axis=1))

@@ -30,10 +30,10 @@ def bifurcation_diagram(known: dict[str, Column], meshes: Sequence[str] = ()) ->
     speed, direction = known["input_speed"], known["direction"].values
     for axes, name in zip(panes, shown, strict=True):
         for branch, label, colour, size in BRANCHES:
-            own = direction == branch
+            selected = direction == branch
             axes.plot(
-                speed.values[own],
-                known[name].values[own],
+                speed.values[selected],
+                known[name].values[selected],
                 "o",
                 color=colour,
                 markersize=size,

@@ -25,7 +25,7 @@ def campbell_diagram(
 
     Args:
         scene: gives the mesh frequency and the title.
-        modes: at mean mesh stiffness; modes of one kind have the same colour.
+        modes: modes at mean mesh stiffness; modes of one kind have the same colour.
         found: crossings to mark, from `resonances`.
         highest_speed: end of the speed axis [rad/s].
         harmonics: number of mesh harmonics.

@@ -39,7 +39,7 @@ def mark(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
         axes: where to draw.
         x: coordinates, (n,).
         y: coordinates, (n,).
-        colour: of the points.
+        colour: colour of the points.
     """
     if len(x):
         look = axes.scatter(x, y, s=9.0, zorder=3, clip_on=False)

@@ -19,7 +19,7 @@ def course_figure(
     """Input torque over a manoeuvre, and the residuals.
 
     Args:
-        time: of the fitted bins [s], (n,).
+        time: times of the fitted bins [s], (n,).
         measured: [N m], (n,).
         simulated: [N m], (n,).
         held_out: time [s], measured, predicted and half of the interval [N m] of another part,
@@ -49,7 +49,7 @@ def points_figure(name: str, residuals: Array, held_out: tuple[Array, Array] | N
     """Residuals of means over operating points.
 
     Args:
-        name: of the observable.
+        name: name of the observable.
         residuals: simulated less recorded means in SI, (points, channels).
         held_out: predicted less measured means and half of their intervals, (points, channels)
             each; None: there are none.

@@ -22,7 +22,7 @@ def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Followi
     """Draw estimates over time, with a dotted line where a change has been found.
 
     Args:
-        name: of the scene, for the title.
+        name: name of the scene, for the title.
         teeth: number of teeth by gear, in the order of `Following.every_z`.
         states: estimated states, in the order of time.
 
@@ -33,17 +33,17 @@ def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Followi
     Raises:
         ValueError: there is no state with a time.
     """
-    states = [one for one in states if np.isfinite(one.time)]
+    states = [state for state in states if np.isfinite(state.time)]
     if not states:
         raise ValueError("there is no estimate to draw")
     every = [(gear, number) for gear, count in teeth.items() for number in range(count)]
-    changed = list(dict.fromkeys((t.gear, t.tooth) for one in states for t in one.teeth))
-    rows = 1 + any(one.every_z for one in states) + bool(changed)
+    changed = list(dict.fromkeys((t.gear, t.tooth) for state in states for t in state.teeth))
+    rows = 1 + any(state.every_z for state in states) + bool(changed)
     with applied():
         figure = Figure(figsize=(WIDTH, rows * HEIGHT), layout="constrained")
         axes = list(figure.subplots(rows, 1, squeeze=False, sharex=True)[:, 0])
         _friction(axes[-1], states)
-        if any(one.every_z for one in states):
+        if any(state.every_z for state in states):
             _significance(axes[0], states, {tooth: every.index(tooth) for tooth in changed})
         if changed:
             _losses(axes[-2], states, changed)
@@ -65,12 +65,12 @@ def _headline(state: Following) -> str:
 
 def _significance(axes: Axes, states: Sequence[Following], changed: Mapping[Tooth, int]) -> None:
     """Significance of every tooth in each hunting period; teeth that have changed in colour."""
-    judged = [one for one in states if one.every_z]
-    time, every = (np.array([getattr(one, n) for one in judged]) for n in ("time", "every_z"))
-    axes.plot(time, every, color=GREY, linewidth=0.4, alpha=0.5)
+    judged = [state for state in states if state.every_z]
+    time, every_z = (np.array([getattr(state, n) for state in judged]) for n in ("time", "every_z"))
+    axes.plot(time, every_z, color=GREY, linewidth=0.4, alpha=0.5)
     for n, ((gear, number), column) in enumerate(changed.items()):
         label = f"{gear} tooth {number}"
-        axes.plot(time, every[:, column], color=CYCLE[n % len(CYCLE)], label=label)
+        axes.plot(time, every_z[:, column], color=CYCLE[n % len(CYCLE)], label=label)
     axes.axhline(ALARM, color="black", linewidth=0.8, linestyle="--", label="limit of an event")
     axes.set_ylabel("Each tooth, z [-]")
     axes.legend(loc="upper left")
@@ -80,9 +80,9 @@ def _losses(axes: Axes, states: Sequence[Following], changed: Sequence[Tooth]) -
     """Loss of stiffness of changed teeth, with 95 % intervals."""
     for n, (gear, number) in enumerate(changed):
         rows = [
-            (one.time, tooth.loss.value, tooth.loss.low, tooth.loss.high)
-            for one in states
-            for tooth in one.teeth
+            (state.time, tooth.loss.value, tooth.loss.low, tooth.loss.high)
+            for state in states
+            for tooth in state.teeth
             if (tooth.gear, tooth.tooth) == (gear, number)
         ]
         time, value, low, high = np.array(rows).T
@@ -96,9 +96,11 @@ def _losses(axes: Axes, states: Sequence[Following], changed: Sequence[Tooth]) -
 
 def _friction(axes: Axes, states: Sequence[Following]) -> None:
     """Friction level with its 95 % interval, where it is identifiable."""
-    found = [(one.time, one["friction_level"]) for one in states]
-    time = np.array([at for at, _ in found])
-    value, low, high = np.array([(one.value, one.low, one.high) for _, one in found]).T
+    estimates = [(state.time, state["friction_level"]) for state in states]
+    time = np.array([at for at, _ in estimates])
+    value, low, high = np.array(
+        [(estimate.value, estimate.low, estimate.high) for _, estimate in estimates]
+    ).T
     axes.plot(time, value, color=BLUE)
     axes.fill_between(time, low, high, color=BLUE, alpha=0.2, linewidth=0.0)
     axes.set_ylabel("Friction level [-]")

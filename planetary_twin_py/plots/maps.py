@@ -27,16 +27,16 @@ def draw_map(
         axes: where to draw.
         fields: columns of the horizontal axis, of the vertical axis and of the colour.
         rows: rows to draw (bool).
-        limits: of the colours.
+        limits: limits of the colours.
     """
     x, y, z = (column.values[rows] for column in fields)
     levels = MaxNLocator(LEVELS).tick_values(*limits)
     grid = _grid(x, y, z)
-    places: Any = grid or (x, y, z)
+    coordinates: Any = grid or (x, y, z)
     fill: Any = axes.contourf if grid else axes.tricontourf
     draw: Any = axes.contour if grid else axes.tricontour
-    filled = fill(*places, levels=levels, cmap=COLOURS)
-    lines = draw(*places, levels=levels, colors="white", linewidths=0.5)
+    filled = fill(*coordinates, levels=levels, cmap=COLOURS)
+    lines = draw(*coordinates, levels=levels, colors="white", linewidths=0.5)
     axes.clabel(lines, fontsize=7.5)
     axes.plot(x, y, ".", color=GREY, markersize=2.0, clip_on=False)
     axes.figure.colorbar(filled, ax=axes, label=fields[2].label)

@@ -80,7 +80,7 @@ def find(known: dict[str, Column], name: str, role: str) -> Column:
 
     Args:
         known: columns by name.
-        name: of the column.
+        name: name of the column.
         role: name of the argument, for the error message.
 
     Raises:

@@ -20,8 +20,8 @@ def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -
 
     Args:
         spectrum: amplitudes.
-        title: of the figure.
-        labels: of both axes, with their units.
+        title: title of the figure.
+        labels: labels of both axes, with their units.
 
     Returns:
         The figure.

@@ -57,7 +57,7 @@ def plot_study(
     value of the third. Failed points are omitted, and the figure states their number.
 
     Args:
-        table: of a sweep or a bifurcation.
+        table: table of a sweep or a bifurcation.
         x: column of the horizontal axis.
         measures: columns to draw, in separate panels; if empty, the first measure.
         by: field distinguished by colour; in a map, the vertical axis.
@@ -69,15 +69,15 @@ def plot_study(
     Raises:
         ValueError: a column does not exist, or there is nothing to draw.
     """
-    known, (whole, failed) = columns(table), _without_failures(table)
+    known, (completed, failed) = columns(table), _without_failures(table)
     if kind is not None and kind not in KINDS:
         raise ValueError(f"kind = {kind!r}: must be one of {', '.join(KINDS)}")
     for name, role in [(x, "x"), (by, "by"), *((name, "y") for name in measures)]:
         if name is not None:
             find(known, name, role)
-    if not len(whole):
+    if not len(completed):
         raise ValueError("all points of the table failed")
-    known = columns(whole)
+    known = columns(completed)
     with applied():
         if (table.schema.metadata or {}).get(b"study") == BIFURCATION.encode():
             figure = bifurcation_diagram(known, measures)
@@ -87,7 +87,7 @@ def plot_study(
             varying = [name for name in fields(table) if len(known[name].distinct) > 1]
             figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
         notes = [f"{failed} of {len(table)} points failed and are omitted"] if failed else []
-        notes += [LEGEND] if clipped_points(known, len(whole)).any() else []
+        notes += [LEGEND] if clipped_points(known, len(completed)).any() else []
         if notes:
             remark(figure, "; ".join(notes))
     return figure
@@ -97,17 +97,17 @@ def fields(table: pa.Table) -> list[str]:
     """Names of the columns that the study varied.
 
     Args:
-        table: of a study.
+        table: table of a study.
     """
-    own = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
-    return [name for name in table.column_names if name not in own]
+    other_columns = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
+    return [name for name in table.column_names if name not in other_columns]
 
 
 def failures(table: pa.Table) -> int:
     """Number of rows without results.
 
     Args:
-        table: of a study.
+        table: table of a study.
     """
     return len(table) - table["failure"].null_count if "failure" in table.column_names else 0
 
@@ -196,9 +196,9 @@ def _draw(choice: Choice) -> Figure:
 def _share_limits(panes: list[Axes], count: int) -> None:
     """Give every group of `count` panels, which show one measure, the same limits."""
     for first in range(0, len(panes), count):
-        own = panes[first : first + count]
-        lows, highs = zip(*(axes.get_ylim() for axes in own), strict=True)
-        for axes in own:
+        group = panes[first : first + count]
+        lows, highs = zip(*(axes.get_ylim() for axes in group), strict=True)
+        for axes in group:
             axes.set_ylim(min(lows), max(highs))
 
 
@@ -211,13 +211,13 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
             "choose another field with by, or a map"
         )
     for n, value in enumerate(groups):
-        own = rows if by is None else rows & (by.values == value)
-        order = np.argsort(x.values[own], kind="stable") if x.is_number else slice(None)
+        selected = rows if by is None else rows & (by.values == value)
+        order = np.argsort(x.values[selected], kind="stable") if x.is_number else slice(None)
         colour = CYCLE[n] if len(groups) <= len(CYCLE) else _shade(n, len(groups))
-        hollow = own & choice.clipped
+        hollow = selected & choice.clipped
         axes.plot(
-            x.values[own][order],
-            measure.values[own][order],
+            x.values[selected][order],
+            measure.values[selected][order],
             "o-" if x.is_number else "o",
             color=colour,
             label="" if by is None else by.text(value).removesuffix(f" {by.quantity.unit}"),

@@ -62,7 +62,7 @@ def panels(
 
     Args:
         count: number of axes.
-        height: of a row [in].
+        height: height of a row [in].
         columns: number of columns; None places all axes in one row.
 
     Returns:
@@ -81,8 +81,8 @@ def colour_of(names: Sequence[str], name: str) -> str:
     """The colour of one of several names.
 
     Args:
-        names: of all curves.
-        name: of the curve.
+        names: names of all curves.
+        name: name of the curve.
     """
     return CYCLE[names.index(name) % len(CYCLE)]
 
@@ -91,7 +91,7 @@ def drawing(axes: Axes) -> Axes:
     """Axes for a drawing to scale: no frame, no ticks.
 
     Args:
-        axes: to change.
+        axes: axes to change.
     """
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -102,8 +102,8 @@ def logarithmic(axes: Axes, name: Literal["x", "y"]) -> None:
     """Make one axis logarithmic, with numbers without exponents.
 
     Args:
-        axes: to change.
-        name: of the axis.
+        axes: axes to change.
+        name: name of the axis.
     """
     axes.set(**{f"{name}scale": "log"})
     axis = axes.xaxis if name == "x" else axes.yaxis
@@ -114,7 +114,7 @@ def widen(axes: Axes) -> None:
     """Give the vertical axis a minimum relative span; smaller variations are numerical errors.
 
     Args:
-        axes: to change.
+        axes: axes to change.
     """
     low, high = axes.get_ylim()
     lacking = LEAST_SPAN * max(abs(low), abs(high)) - (high - low)
@@ -126,8 +126,8 @@ def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:
     """Write a picture reproducibly, in the format of the suffix.
 
     Args:
-        figure: to write.
-        path: of the file; its suffix is one of FORMATS.
+        figure: figure to write.
+        path: path of the file; its suffix is one of FORMATS.
         dots_per_inch: resolution of a .png file.
 
     Raises:
@@ -146,7 +146,7 @@ def remark(figure: Figure, text: str) -> None:
     """A line below the picture.
 
     Args:
-        figure: to change.
-        text: of the line.
+        figure: figure to change.
+        text: text of the line.
     """
     figure.supxlabel(text, x=0.99, ha="right", fontsize=8.0, color=GREY)

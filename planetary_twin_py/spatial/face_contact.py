@@ -38,8 +38,8 @@ def uneven_deflection(scene: Scene, run: Result) -> float:
         row = row_of_scene(scene, side, ("sun", "ring")[kind], planet)
         slope = row.slope[0] @ tilt[kind] + row.slope[1] @ tilt[3 + planet]
         at_end = 0.5 * scene.gearset.face_width * abs(float(slope))
-        own = float(stiffness[kind]) * scene.errors.of_planet(planet).stiffness
-        worst = max(worst, at_end * own / abs(float(force)))
+        mesh_stiffness = float(stiffness[kind]) * scene.errors.of_planet(planet).stiffness
+        worst = max(worst, at_end * mesh_stiffness / abs(float(force)))
     return worst
 
 

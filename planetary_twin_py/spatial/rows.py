@@ -23,7 +23,7 @@ from ..scene import Scene
 
 
 class MeshOfKind(NamedTuple):
-    """What determines the rows of a mesh."""
+    """Data that determine the rows of a mesh."""
 
     internal: bool
     """Whether it is a planet-ring mesh."""
@@ -43,8 +43,8 @@ class LeaningRow(NamedTuple):
     axial: np.ndarray
     """Factors of the axial displacements, (2,)."""
     tilt: np.ndarray
-    """Of the tilts [m/rad]: of the central gear about x and y, of the planet about the radial and
-    the tangential direction, (2, 2)."""
+    """Factors of the tilts [m/rad]: of the central gear about x and y, of the planet about the
+    radial and the tangential direction, (2, 2)."""
     slope: np.ndarray
     """Slope of the deflection along the face per tilt [-], (2, 2)."""
 

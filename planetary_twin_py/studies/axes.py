@@ -158,7 +158,7 @@ def admitted(scene: Scene, span: Span, values: np.ndarray) -> tuple[Any, ...]:
     Args:
         scene: has the field.
         span: the field and its range.
-        values: in SI, (n,).
+        values: values in SI, (n,).
     """
     whole = isinstance(span.low, int)
     numbers = [round(value) if whole else float(value) for value in values]

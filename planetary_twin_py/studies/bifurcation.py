@@ -91,11 +91,13 @@ def bifurcation(
     branches = {UP: _Branch(scene, rising, dwell), DOWN: _Branch(scene, rising[::-1], dwell)}
     with ThreadPoolExecutor(len(branches)) as pool:
         try:
-            found = list(pool.map(lambda branch: list(branch.run(report)), branches.values()))
+            samples_by_branch = list(
+                pool.map(lambda branch: list(branch.run(report)), branches.values())
+            )
         finally:
             for branch in branches.values():
                 branch.interrupted = True
-    return _tabulate(scene, dwell, dict(zip(branches, found, strict=True)))
+    return _tabulate(scene, dwell, dict(zip(branches, samples_by_branch, strict=True)))
 
 
 class _Branch:
@@ -152,14 +154,16 @@ def _counts(sampled: _Sampled) -> tuple[int, ...]:
     return tuple(getattr(sampled.course, name) for name in COUNTED)
 
 
-def _tabulate(scene: Scene, dwell: Dwell, found: Mapping[str, Sequence[_Sampled]]) -> pa.Table:
+def _tabulate(
+    scene: Scene, dwell: Dwell, samples_by_branch: Mapping[str, Sequence[_Sampled]]
+) -> pa.Table:
     import pyarrow as pa
 
     from .table import column
 
     meshes = mesh_names(scene).names
     rows: list[tuple[Any, ...]] = []
-    for direction, branch in found.items():
+    for direction, branch in samples_by_branch.items():
         for sampled in branch:
             samples = np.full((1, len(meshes)), None) if sampled.dte is None else sampled.dte
             rows += [

@@ -32,7 +32,7 @@ def clipping_of_study(table: pa.Table) -> str | None:
     """Warning of a study, with the number of points and the largest fraction of time.
 
     Args:
-        table: from `tabulate`.
+        table: table from `tabulate`.
 
     Returns:
         A sentence, or None if no fraction exceeds the threshold.

@@ -22,7 +22,7 @@ class Cluster:
     All workers must have this version of the package, so that their results are identical.
 
     Args:
-        address: of the scheduler, e.g. "tcp://10.0.0.1:8786".
+        address: address of the scheduler, e.g. "tcp://10.0.0.1:8786".
 
     Raises:
         ValueError: there is no scheduler, it has no workers, or a worker has another core.
@@ -36,12 +36,12 @@ class Cluster:
             self._client.wait_for_workers(1, timeout=_TIMEOUT)
         except (OSError, TimeoutError, ValueError) as reason:
             raise ValueError(f"scheduler = {address!r}: {reason}") from None
-        here = core_digest()
-        for worker, there in self._client.run(core_digest).items():
-            if there != here:
+        own_digest = core_digest()
+        for worker, digest in self._client.run(core_digest).items():
+            if digest != own_digest:
                 raise ValueError(
-                    f"scheduler = {address!r}: worker {worker} has core {there}, here {here}; "
-                    "install the same version"
+                    f"scheduler = {address!r}: worker {worker} has core {digest}, here "
+                    f"{own_digest}; install the same version"
                 )
 
     def run(
@@ -51,25 +51,25 @@ class Cluster:
 
         Args:
             work: function to evaluate at each point.
-            points: of the study.
+            points: points of the study.
         """
         from distributed import as_completed
 
         waiting = iter(points)
-        under_way = as_completed()
-        asked: dict[Any, Task] = {}
+        running = as_completed()
+        submitted: dict[Any, Task] = {}
 
         def ask(count: int) -> None:
             for point in islice(waiting, count):
                 future = self._client.submit(work, point, pure=False)
-                asked[future.key] = point
-                under_way.add(future)
+                submitted[future.key] = point
+                running.add(future)
 
         ask(AHEAD * self._threads())
-        for future in under_way:
-            yield asked.pop(future.key), _found(future)
+        for future in running:
+            yield submitted.pop(future.key), _result_of(future)
             future.release()
-            ask(max(AHEAD * self._threads() - len(asked), 1))
+            ask(max(AHEAD * self._threads() - len(submitted), 1))
 
     def close(self) -> None:
         """Disconnect; the cluster keeps running."""
@@ -86,7 +86,7 @@ def core_digest() -> str:
     return SOURCES if FUSES else f"{SOURCES} without fused products"
 
 
-def _found(future: Any) -> Any:
+def _result_of(future: Any) -> Any:
     """Result of a point; a point that killed several workers is a failure."""
     from distributed.scheduler import KilledWorker
 

@@ -16,7 +16,7 @@ def unbalanced_runs(table: pa.Table) -> str | None:
     """Warning with the number of points whose energy ledger does not balance.
 
     Args:
-        table: from `tabulate`, with its settings.
+        table: table from `tabulate`, with its settings.
 
     Returns:
         A sentence, or None if the ledgers of all points balance.

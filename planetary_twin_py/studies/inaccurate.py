@@ -16,24 +16,24 @@ def inaccuracies(table: pa.Table) -> Iterator[str]:
     """Warn about motions that amplify errors beyond the tolerance.
 
     Args:
-        table: with a row per point, and those columns of `COURSE` that apply.
+        table: table with a row per point, and those columns of `COURSE` that apply.
 
     Returns:
         A sentence per kind of motion.
     """
     for name in (name for name in COURSE if name in table.column_names):
-        found = [value or 0.0 for value in table[name].to_pylist()]
-        points, most = sum(value > 0.0 for value in found), max(found, default=0.0)
-        for sentence in course_warnings(_worst(name, most)):
+        values = [value or 0.0 for value in table[name].to_pylist()]
+        points, largest = sum(value > 0.0 for value in values), max(values, default=0.0)
+        for sentence in course_warnings(_worst(name, largest)):
             yield f"at {points} of {len(table)} points ({name}), at worst: {sentence}"
 
 
-def _worst(name: str, most: float) -> Course:
+def _worst(name: str, largest: float) -> Course:
     """Counters that are 0 except for the largest value of a column."""
     if name == "unsettled":
-        return Course(unsettled=most)
+        return Course(unsettled=largest)
     if name == "reversals":
-        return Course(reversals=int(most))
+        return Course(reversals=int(largest))
     if name == "both_flanks":
-        return Course(both_flanks=int(most))
-    return Course(flank_events=int(most))
+        return Course(both_flanks=int(largest))
+    return Course(flank_events=int(largest))

@@ -15,7 +15,7 @@ class Journal:
     Failures are not stored, so that they are tried again.
 
     Args:
-        path: of the file; it is created if it does not exist.
+        path: path of the file; it is created if it does not exist.
 
     Raises:
         OSError: `path` cannot be read or written.
@@ -32,7 +32,7 @@ class Journal:
         """Store the result of the point with this key.
 
         Args:
-            key: of the point.
+            key: key of the point.
             found: its result.
         """
         if isinstance(found, Failure):
@@ -49,10 +49,10 @@ class Journal:
     def _read(self) -> None:
         """Read complete lines, and remove an incomplete last line."""
         text = self.path.read_bytes()
-        whole = text[: text.rfind(b"\n") + 1]
-        for line in whole.splitlines():
+        complete = text[: text.rfind(b"\n") + 1]
+        for line in complete.splitlines():
             entry = json.loads(line)
             self.done[entry["key"]] = entry["figures"]
-        if len(whole) < len(text):
+        if len(complete) < len(text):
             with self.path.open("r+b") as stream:
-                stream.truncate(len(whole))
+                stream.truncate(len(complete))

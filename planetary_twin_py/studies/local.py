@@ -35,18 +35,18 @@ class Threads:
 
         Args:
             work: function to evaluate at each point.
-            points: of the study.
+            points: points of the study.
         """
         waiting = iter(points)
         pool = ThreadPoolExecutor(self.count, "point")
-        under_way: dict[Future[Answer], Task] = {}
+        running: dict[Future[Answer], Task] = {}
         try:
             while True:
-                for point in islice(waiting, AHEAD * self.count - len(under_way)):
-                    under_way[pool.submit(work, point)] = point
-                if not under_way:
+                for point in islice(waiting, AHEAD * self.count - len(running)):
+                    running[pool.submit(work, point)] = point
+                if not running:
                     return
-                for done in wait(under_way, return_when=FIRST_COMPLETED).done:
-                    yield under_way.pop(done), done.result()
+                for done in wait(running, return_when=FIRST_COMPLETED).done:
+                    yield running.pop(done), done.result()
         finally:
             pool.shutdown(cancel_futures=True)

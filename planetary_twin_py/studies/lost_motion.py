@@ -58,15 +58,17 @@ class LostMotion:
         falling = self.torque[: turn + 1][::-1], self.twist[: turn + 1][::-1]
         return falling, (self.torque[turn:], self.twist[turn:])
 
-    def _at_small_torque(self) -> np.ndarray:
+    def _twists_at_small_torque(self) -> np.ndarray:
         """Twist of both branches, (2,), at `share` of the torque and at its opposite, (2, 2)."""
         small = self.share * float(self.torque.max())
-        return np.array([[_at(t, *branch) for branch in self._branches()] for t in (small, -small)])
+        return np.array(
+            [[_twist_at(t, *branch) for branch in self._branches()] for t in (small, -small)]
+        )
 
     @property
     def lost_motion(self) -> float:
         """Twist between both senses of `share` of the torque, means of both branches [rad]."""
-        forward, backward = self._at_small_torque().mean(axis=1)
+        forward, backward = self._twists_at_small_torque().mean(axis=1)
         return float(forward - backward)
 
     @property
@@ -75,7 +77,7 @@ class LostMotion:
 
         It is due to friction alone; at zero torque it would include the backlash.
         """
-        return float(np.abs(np.diff(self._at_small_torque(), axis=1)).mean())
+        return float(np.abs(np.diff(self._twists_at_small_torque(), axis=1)).mean())
 
     @property
     def hysteresis_resolved(self) -> bool:
@@ -86,12 +88,12 @@ class LostMotion:
     def stiffness(self) -> float:
         """Torsional stiffness from half to full torque, mean of both senses [N m/rad]."""
         largest, (torque, twist) = float(self.torque.max()), self._branches()[1]
-        loading = np.polyfit(
-            *_between(twist, torque, UPPER * largest, largest), 1
+        rising_line = np.polyfit(
+            *_points_between(twist, torque, UPPER * largest, largest), 1
         )  # the rising branch loads where the torque is positive
         torque, twist = self._branches()[0]
-        back = np.polyfit(*_between(twist, torque, -largest, -UPPER * largest), 1)
-        return float(0.5 * (loading[0] + back[0]))
+        falling_line = np.polyfit(*_points_between(twist, torque, -largest, -UPPER * largest), 1)
+        return float(0.5 * (rising_line[0] + falling_line[0]))
 
     @property
     def stiffness_with_couplings(self) -> float:
@@ -99,7 +101,7 @@ class LostMotion:
         return 1.0 / (1.0 / self.stiffness + self.couplings)
 
 
-def _at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
+def _twist_at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
     """Twist at a torque `value`, on the line through the nearest points of its sense [rad].
 
     Friction changes the torque on the output, so no point is exactly at `value`. Points of both
@@ -112,7 +114,7 @@ def _at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
     return float(twist[k] + slope * (value - torque[k]))
 
 
-def _between(
+def _points_between(
     twist: np.ndarray, torque: np.ndarray, low: float, high: float
 ) -> tuple[np.ndarray, np.ndarray]:
     margin = 1e-6 * (high - low)
@@ -137,7 +139,7 @@ def lost_motion(
     gears would require steps of a microsecond. Neither changes the statics.
 
     Args:
-        scene: with one input.
+        scene: scene with one input.
         torque: largest torque on the output member [N m].
         share: part of it at which lost motion is measured.
         levels: torques from 0 to the largest.
@@ -157,27 +159,29 @@ def lost_motion(
         raise ValueError("drive.second_input: must be none for a lost-motion test")
     if not (math.isfinite(torque) and torque > 0.0):
         raise ValueError(f"torque = {torque!r}: must be a number above 0")
-    still = _on_bench(scene)
-    per_input = static_torques(still)[LOAD_MACHINE]
-    twin = Twin(still, tolerance=tolerance)
+    bench = _on_bench(scene)
+    per_input = static_torques(bench)[LOAD_MACHINE]
+    twin = Twin(bench, tolerance=tolerance)
     # Not at torque 0, at which the output may rest anywhere in its backlash.
-    up = np.unique([share * torque, *np.linspace(0.0, torque, levels + 1)[1:]])
-    steps = np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
-    rest = SETTLED * torque / _stiffness(scene, scene.drive.output.member)
-    loop, moving = [], 0.0
+    loading = np.unique([share * torque, *np.linspace(0.0, torque, levels + 1)[1:]])
+    steps = np.concatenate([loading, loading[-2::-1], -loading, -loading[-2::-1], loading])
+    resolution = SETTLED * torque / _stiffness(scene, scene.drive.output.member)
+    loop, largest_motion = [], 0.0
     for step in steps:
         twin.set(input_torque=float(step / per_input))
-        readings = [_twist(twin, still, dwell) for _ in range(READINGS)]
+        readings = [_twist(twin, bench, dwell) for _ in range(READINGS)]
         for _ in range(FURTHER_READINGS):
-            if _motion(readings) <= rest:
+            if _motion(readings) <= resolution:
                 break
-            readings = [*readings[1:], _twist(twin, still, dwell)]
-        moving = max(moving, _motion(readings))
+            readings = [*readings[1:], _twist(twin, bench, dwell)]
+        largest_motion = max(largest_motion, _motion(readings))
         loop.append(readings[-1])
         report(1)
-    closed = np.array(loop[len(up) - 1 :])
+    closed = np.array(loop[len(loading) - 1 :])
     couplings = _compliance_of_couplings(scene)
-    return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share, couplings, rest)
+    return LostMotion(
+        closed[:, 0], closed[:, 1], largest_motion <= resolution, share, couplings, resolution
+    )
 
 
 def _motion(readings: list[tuple[float, float]]) -> float:

@@ -35,7 +35,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
 
     Args:
         scene: the gearbox.
-        settings: of the run.
+        settings: settings of the run.
 
     Returns:
         Values in SI by the names of `STUDY_RESULTS`, and of `AXES_RESULTS` where axes move.
@@ -65,7 +65,7 @@ def summary_of(result: Result) -> RunSummary:
     """Summary of a run over its duration and over all meshes.
 
     Args:
-        result: of the run.
+        result: result of the run.
     """
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
@@ -95,11 +95,11 @@ def axes_row(motion: AxesMotion) -> Row:
     Args:
         motion: statistics of the axes over a window.
     """
-    found, members = axes_statistics(motion), len(MEMBERS)
+    statistics, members = axes_statistics(motion), len(MEMBERS)
     figures = {"load_sharing_factor": motion.load_sharing_factor}
     for name in STUDIED_OF_AXES:
-        figures |= {f"{body}_{name}": float(found[name][k]) for k, body in enumerate(MEMBERS)}
-        figures[f"planet_{name}"] = float(found[name][members:].max())
+        figures |= {f"{body}_{name}": float(statistics[name][k]) for k, body in enumerate(MEMBERS)}
+        figures[f"planet_{name}"] = float(statistics[name][members:].max())
     return figures
 
 

@@ -67,7 +67,7 @@ class Study:
         """Digest of everything that determines the results of a point.
 
         Args:
-            point: of this study.
+            point: point of this study.
             versions: digest of the core and names of the measures.
 
         Returns:
@@ -88,7 +88,7 @@ def grid(scene: Scene, axes: Sequence[Axis | Span], settings: Settings = Setting
     Args:
         scene: the gearbox.
         axes: fields and their values.
-        settings: of each run.
+        settings: settings of each run.
 
     Returns:
         The study.
@@ -126,8 +126,8 @@ def latin_hypercube(
         scene: the gearbox.
         axes: fields with their ranges or values.
         samples: number of points.
-        seed: of the random generator.
-        settings: of each run.
+        seed: seed of the random generator.
+        settings: settings of each run.
 
     Returns:
         The study.

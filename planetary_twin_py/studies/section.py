@@ -33,7 +33,7 @@ class Section:
     Args:
         scene: the gearbox.
         tolerance: relative local error tolerance of the integrator.
-        phase: in [0, 1).
+        phase: phase of the section, in [0, 1).
 
     Raises:
         ValueError: the scene is quasi-static, or an argument is out of range.
@@ -49,7 +49,7 @@ class Section:
         self._places = names.place[[names.names.index("sun"), names.names.index("carrier")]]
         self._ratio = self._run.train.ratio[self._places]
         self._teeth, self._phase = scene.gearset.teeth.sun, phase
-        self._pace()
+        self._set_mesh_frequency()
         self._time = Fraction(0)
 
     @property
@@ -67,7 +67,7 @@ class Section:
         self._point = self._scene.replace(
             **{**self._point.model_dump(), "input_speed": speed}
         ).operating_point
-        self._pace()
+        self._set_mesh_frequency()
         self._run.change(self._point, self._tolerance, self._time)
         self._advance(duration)
 
@@ -78,36 +78,40 @@ class Section:
             ArithmeticError: the sun oscillates so strongly that the passage is missed.
         """
         samples = self._run.sample(self._time)
-        cycle, rate = self._passed(samples)
+        cycle, rate = self._mesh_cycles(samples)
         passage = math.floor(cycle + GUARD) + 1.0
-        while (left := passage - cycle) > EXACT:
-            far = left > 2.0 * GUARD
-            duration = (left - GUARD) / self._frequency if far else SHORT * left / rate
+        while (remaining := passage - cycle) > EXACT:
+            distant = remaining > 2.0 * GUARD
+            duration = (
+                (remaining - GUARD) / self._frequency if distant else SHORT * remaining / rate
+            )
             samples = self._advance(duration)
-            cycle, rate = self._passed(samples)
-        if left < -MISSED:
+            cycle, rate = self._mesh_cycles(samples)
+        if remaining < -MISSED:
             raise ArithmeticError(
                 f"t = {self.time:.6g} s: the sun oscillates across the sampled mesh phase"
             )
         return np.array(samples.mesh[0, DTE, self._meshes])
 
-    def _pace(self) -> None:
+    def _set_mesh_frequency(self) -> None:
         """Set the mesh frequency [Hz] at the speed set-point, and its sign."""
         speeds = np.array([self._point.input_speed, self._point.second_input_speed])
         sun, carrier = self._ratio @ speeds[: self._ratio.shape[1]]
         rate = self._teeth * (sun - carrier) / (2.0 * math.pi)
-        self._frequency, self._ahead = float(abs(rate)), math.copysign(1.0, rate)
+        self._frequency, self._direction = float(abs(rate)), math.copysign(1.0, rate)
 
-    def _passed(self, samples: Samples) -> tuple[float, float]:
+    def _mesh_cycles(self, samples: Samples) -> tuple[float, float]:
         """Mesh cycles since phase 0, and their rate [Hz], positive in the direction of running."""
-        turned = self._ratio @ samples.turns[0] + self._of(samples.angle) / (2.0 * math.pi)
-        cycles, rate = (
-            self._ahead * self._teeth * (sun - carrier)
-            for sun, carrier in (turned, self._of(samples.speed) / (2.0 * math.pi))
+        turned = self._ratio @ samples.turns[0] + self._sun_and_carrier(samples.angle) / (
+            2.0 * math.pi
         )
-        return float(cycles - self._ahead * self._phase), float(rate)
+        cycles, rate = (
+            self._direction * self._teeth * (sun - carrier)
+            for sun, carrier in (turned, self._sun_and_carrier(samples.speed) / (2.0 * math.pi))
+        )
+        return float(cycles - self._direction * self._phase), float(rate)
 
-    def _of(self, bodies: np.ndarray) -> np.ndarray:
+    def _sun_and_carrier(self, bodies: np.ndarray) -> np.ndarray:
         """Sun and carrier of samples (1, bodies); 0 for a held member."""
         return np.append(bodies[0], 0.0)[self._places]
 

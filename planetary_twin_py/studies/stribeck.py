@@ -75,13 +75,13 @@ def stribeck(
 
     study = grid(scene.replace(**LAWS), [axis])
     evaluation = CycleEvaluation(study.scene)
-    found: dict[int, Found] = {}
+    results: dict[int, Found] = {}
     for point, result in executor.run(evaluation, study.points):
-        found[point.place] = result
+        results[point.place] = result
         report(1, result if isinstance(result, Failure) else None)
     settings = asdict(evaluation)
     del settings["scene"]
-    table = tabulate(study, found)
+    table = tabulate(study, results)
     return table.replace_schema_metadata(
         {**table.schema.metadata, b"settings": json.dumps(settings).encode()}
     )

@@ -26,7 +26,7 @@ def sweep(
     """Run the points of `study` that are not yet in `journal`, and tabulate all points.
 
     Args:
-        study: from `grid` or `latin_hypercube`.
+        study: study from `grid` or `latin_hypercube`.
         executor: runs the points.
         journal: file of completed points, from which an interrupted study resumes; the caller
             deletes it. None stores nothing.
@@ -44,18 +44,18 @@ def sweep(
     # A journal of another core, or with other measures, is not resumed.
     versions = "/".join((SOURCES, *STUDY_RESULTS, *AXES_RESULTS))
     keys = {point.place: study.key(point, versions) for point in study.points}
-    book = Journal(journal) if journal else None
-    known = book.done if book else {}
-    found: dict[int, Found] = {place: known[key] for place, key in keys.items() if key in known}
-    report(len(found), None)
-    left = (point for point in study.points if point.place not in found)
+    results_file = Journal(journal) if journal else None
+    known = results_file.done if results_file else {}
+    results: dict[int, Found] = {place: known[key] for place, key in keys.items() if key in known}
+    report(len(results), None)
+    remaining = (point for point in study.points if point.place not in results)
     try:
-        for point, result in executor.run(Evaluation(study.scene, study.settings), left):
-            found[point.place] = result
-            if book:
-                book.add(keys[point.place], result)
+        for point, result in executor.run(Evaluation(study.scene, study.settings), remaining):
+            results[point.place] = result
+            if results_file:
+                results_file.add(keys[point.place], result)
             report(1, result if isinstance(result, Failure) else None)
     finally:
-        if book:
-            book.close()
-    return tabulate(study, found)
+        if results_file:
+            results_file.close()
+    return tabulate(study, results)

@@ -65,7 +65,7 @@ def write(table: pa.Table, path: Path) -> None:
     """Write a table, atomically.
 
     Args:
-        table: from `tabulate`.
+        table: table from `tabulate`.
         path: file ending in .csv or .parquet.
 
     Raises:
@@ -136,10 +136,10 @@ def column(
     """Make a column of a table.
 
     Args:
-        name: of the column.
+        name: name of the column.
         values: (n,); None is null.
-        unit: in SI; empty for a dimensionless number or a text.
-        description: of the quantity.
+        unit: SI unit; empty for a dimensionless number or a text.
+        description: description of the quantity.
         kind: "i8", "f8" or "str"; None infers the type from the values.
 
     Returns:

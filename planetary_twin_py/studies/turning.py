@@ -59,7 +59,7 @@ def off_speed(share: float) -> bool:
     """Whether the mean speed deviates from that of the operating point.
 
     Args:
-        share: from `speed_share`.
+        share: result of `speed_share`.
     """
     return abs(share - 1.0) > ALLOWED  # NaN is no deviation
 
@@ -68,7 +68,7 @@ def turning_of_study(table: pa.Table) -> Iterator[str]:
     """Warnings of a study about the mesh cycles and the mean speeds of its points.
 
     Args:
-        table: from `tabulate`, with its settings.
+        table: table from `tabulate`, with its settings.
 
     Returns:
         A sentence about the points with less than a mesh cycle, another about those at a mean
@@ -77,18 +77,18 @@ def turning_of_study(table: pa.Table) -> Iterator[str]:
     settings = json.loads(table.schema.metadata[b"settings"])
     duration = settings.get("duration", math.inf)  # a Stribeck curve has whole mesh cycles
     rows = zip(table["mesh_frequency"].to_pylist(), table[SPEED_SHARE].to_pylist(), strict=True)
-    short, shares = [], []
+    few_cycles, shares = [], []
     for frequency, share in rows:
         if share is None or math.isnan(share):
             continue
         if frequency * duration < WHOLE:
-            short.append(frequency * duration)
+            few_cycles.append(frequency * duration)
         elif off_speed(share):
             shares.append(share)
-    if short:
+    if few_cycles:
         yield (
-            f"{len(short)} of {len(table)} points cover less than a mesh cycle, down to "
-            f"{min(short):.2g}: their means depend on where the teeth are; increase --duration"
+            f"{len(few_cycles)} of {len(table)} points cover less than a mesh cycle, down to "
+            f"{min(few_cycles):.2g}: their means depend on where the teeth are; increase --duration"
         )
     if shares:
         worst = max(shares, key=lambda share: abs(math.log(max(share, 1e-12))))

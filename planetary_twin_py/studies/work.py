@@ -46,5 +46,5 @@ class Executor(Protocol):
 
         Args:
             work: function to evaluate at each point.
-            points: of the study.
+            points: points of the study.
         """

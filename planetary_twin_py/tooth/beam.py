@@ -34,7 +34,7 @@ class Load(NamedTuple):
     crossing: Floats
     """Height above the root at which the line of action crosses the centre line [m], (m,)."""
     angle: Floats
-    """Between the force and the normal to the centre line [rad], (m,), positive if the force
+    """Angle between the force and the normal to the centre line [rad], (m,), positive if the force
     compresses the tooth."""
 
 
@@ -49,10 +49,10 @@ def beam_compliance(
     centre line below the root, the integral is negative: it corrects the larger moment on the body.
 
     Args:
-        thickness: of the section [m], as a function of its height [m].
+        thickness: thickness of the section [m], as a function of its height [m].
         knots: heights at which the thickness is not smooth [m].
         load: unit forces, (m,).
-        material: of the tooth.
+        material: material of the tooth.
     """
     height, weight = _quadrature(load.crossing, knots)
     thick = thickness(height)

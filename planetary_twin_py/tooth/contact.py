@@ -38,7 +38,7 @@ def yang_sun(contact: Contact, material: Material) -> Floats:
 
     Args:
         contact: contacts of two flanks, (m,).
-        material: of both teeth.
+        material: material of both teeth.
     """
     return np.full_like(contact.radius, 4.0 / (math.pi * material.plane_strain_modulus))
 

@@ -28,13 +28,13 @@ class Crack:
     depth: float = 0.0
     """Length [m]."""
     angle: float = math.radians(70.0)
-    """To the centre line of the tooth [rad]."""
+    """Angle to the centre line of the tooth [rad]."""
 
     def thickness(self, profile: ToothProfile) -> Callable[[Floats], Floats]:
         """Thickness of the remaining sections.
 
         Args:
-            profile: of the tooth.
+            profile: profile of the tooth.
 
         Returns:
             Thickness [m] as a function of the height [m].
@@ -44,8 +44,8 @@ class Crack:
         """
         start = profile.critical_height
         half = 0.5 * float(profile.thickness(np.array(start)))
-        left = half - self.depth * math.sin(self.angle)
-        if self.depth < 0.0 or left < 0.0:
+        intact_half = half - self.depth * math.sin(self.angle)
+        if self.depth < 0.0 or intact_half < 0.0:
             raise ValueError(
                 f"depth of crack = {self.depth:g} m: must be within 0 and "
                 f"{half / math.sin(self.angle):.3g} m, the centre line of the tooth"
@@ -53,7 +53,7 @@ class Crack:
 
         def remaining(height: Floats) -> Floats:
             full = 0.5 * profile.thickness(height)
-            return full + np.where(height >= start, np.minimum(full, left), full)
+            return full + np.where(height >= start, np.minimum(full, intact_half), full)
 
         return remaining
 

@@ -83,9 +83,10 @@ def _rounding(gear: SpurGear) -> float:
     alpha = gear.pressure_angle
     room = 0.25 * math.pi * gear.module - DEDENDUM * gear.module * math.tan(alpha)
     if room <= 0.0:
+        largest = math.degrees(math.atan(0.25 * math.pi / DEDENDUM))
         raise ValueError(
             f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
-            f"pointed above its tip; must be below {math.degrees(math.atan(math.pi / 5)):.4g} deg"
+            f"pointed above its tip; must be below {largest:.4g} deg"
         )
     return min(TIP_ROUNDING * gear.module, room * math.cos(alpha) / (1.0 - math.sin(alpha)))
 

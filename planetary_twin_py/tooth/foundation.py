@@ -35,7 +35,7 @@ class GearBody:
     """Radius of the held circle [root radii]: below 1 for an external gear (hub), above 1 for an
     internal gear (housing)."""
     half_angle: float
-    """Of the root of a tooth [rad]."""
+    """Half angle of the root of a tooth [rad]."""
     poisson_ratio: float
 
     def compliance(self, neighbour: float = 0.0) -> Floats:
@@ -79,10 +79,10 @@ class GearBody:
         right = np.zeros((len(harmonic), 4, len(factors)), dtype=complex)
         right[:, 0] = stress[:, count + 1 :].T
         right[:, 1] = stress[:, :count][:, ::-1].conj().T
-        found = moved @ np.linalg.solve(edge, right)
+        displacement = moved @ np.linalg.solve(edge, right)
         response = np.empty_like(factors)
-        response[:, count + 1 :] = found[:, 0].T
-        response[:, :count] = found[:, 1].conj().T[:, ::-1]
+        response[:, count + 1 :] = displacement[:, 0].T
+        response[:, :count] = displacement[:, 1].conj().T[:, ::-1]
         response[:, count] = self._mean(stress[:, count])
         return response
 
@@ -106,9 +106,9 @@ class GearBody:
             rows[0, :, 1] = -1.0, 2.0 * kappa * np.log(radius)
             return rows
 
-        one = np.exp(-log_scale)
-        plus = np.stack([1 - n**2, 1 - n, 1 - n, 0 * n], axis=-1) * one
-        minus = np.stack([n + 1, 1 - n**2, 0 * n, n + 1], axis=-1) * one
+        column_scale = np.exp(-log_scale)
+        plus = np.stack([1 - n**2, 1 - n, 1 - n, 0 * n], axis=-1) * column_scale
+        minus = np.stack([n + 1, 1 - n**2, 0 * n, n + 1], axis=-1) * column_scale
         stress = np.stack([plus, minus], axis=1)
         stress[0, :, 1] = 1.0 + kappa, 2.0
         return np.concatenate([stress, displacement(self.held)], axis=1), displacement(1.0)

@@ -26,11 +26,11 @@ class ToothPair:
     """Two teeth in mesh."""
 
     first: Tooth
-    """Of the driving gear: the sun, or the planet in mesh with the ring."""
+    """Tooth of the driving gear: of the sun, or of the planet in mesh with the ring."""
     second: Tooth
-    """Of the driven gear."""
+    """Tooth of the driven gear."""
     path: PathOfContact
-    """Between the base circles, see `gearset.geometry`."""
+    """Path of contact between the base circles, see `gearset.geometry`."""
     contact: ContactLaw
     spall: Spall = NO_SPALL
     angle: float | None = None
@@ -58,7 +58,7 @@ class ToothPair:
         """Radii of the contact point on both gears [m], (m,) each.
 
         Args:
-            position: after the pitch point [base pitches], (m,).
+            position: position after the pitch point [base pitches], (m,).
         """
         lengths = self._tangent_lengths(position)
         first, second = (
@@ -71,7 +71,7 @@ class ToothPair:
         """Approach of the gears per unit load, times face width [m^2/N], (m,).
 
         Args:
-            position: after the pitch point [base pitches], (m,).
+            position: position after the pitch point [base pitches], (m,).
         """
         radii = self.radii(position)
         beams = self.first.beam(radii[0]) + self.second.beam(radii[1])
@@ -93,7 +93,7 @@ class ToothPair:
         The law is valid on the path of contact, and smooth slightly beyond its ends.
 
         Args:
-            position: after the pitch point [base pitches], (m,).
+            position: position after the pitch point [base pitches], (m,).
             face_width: [m].
         """
         return face_width / self.compliance(position)
@@ -106,7 +106,7 @@ class ToothPair:
         stiffness is therefore the sum of the elements of the inverse of the compliances c_ij.
 
         Args:
-            position: of this pair after the pitch point [base pitches], (m,).
+            position: position of this pair after the pitch point [base pitches], (m,).
             face_width: [m].
         """
         here, ahead, shared = self._two_pairs(position)

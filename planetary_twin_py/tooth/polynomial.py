@@ -18,7 +18,7 @@ class Fit(NamedTuple):
     """A polynomial and its error."""
 
     coefficients: Floats
-    """Of 1, s, s^2, ..., (degree + 1,)."""
+    """Coefficients of 1, s, s^2, ..., (degree + 1,)."""
     error: float
     """Largest relative error at the points of the fit."""
 
@@ -33,7 +33,7 @@ def fit(law: Callable[[Floats], Floats], low: float, high: float, degree: int = 
         law: positive function of the position, (m,) to (m,).
         low: start of the interval.
         high: end of the interval.
-        degree: of the polynomial.
+        degree: degree of the polynomial.
 
     Returns:
         Coefficients and largest relative error at these points.

@@ -76,7 +76,7 @@ class ToothProfile:
         """Thickness of sections [m], any shape.
 
         Args:
-            height: of the sections [m], any shape.
+            height: heights of the sections [m], any shape.
         """
         return 2.0 * np.interp(height, *self.outline)
 
@@ -88,7 +88,7 @@ class ToothProfile:
         it is their sum, tan(a) + pi/2z - inv(alpha).
 
         Args:
-            radius: of the loaded points [m], (m,).
+            radius: radii of the loaded points [m], (m,).
 
         Returns:
             The unit forces, (m,).
@@ -103,7 +103,7 @@ class ToothProfile:
         """Distance along the line of action from the flank to the centre line [m], (m,).
 
         Args:
-            radius: of the points on the flank [m], (m,).
+            radius: radii of the points on the flank [m], (m,).
         """
         return radius * np.sin(self.gear.half_thickness(radius)) / np.cos(self.load(radius).angle)
 

@@ -18,9 +18,9 @@ class Spall(NamedTuple):
     """
 
     start: float = 0.0
-    """After the pitch point [base pitches]."""
+    """Position after the pitch point [base pitches]."""
     end: float = 0.0
-    """After the pitch point [base pitches]."""
+    """Position after the pitch point [base pitches]."""
     width: float = 0.0
     """Lost share of the face width, at least 0 and below 1."""
 
@@ -28,7 +28,7 @@ class Spall(NamedTuple):
         """Share of the face width in contact, any shape.
 
         Args:
-            position: after the pitch point [base pitches], any shape.
+            position: position after the pitch point [base pitches], any shape.
         """
         within = (self.start <= position) & (position <= self.end)
         return np.where(within, 1.0 - self.width, 1.0)

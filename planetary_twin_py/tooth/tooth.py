@@ -51,7 +51,7 @@ class Tooth:
         """Compliance of bending, shear and compression, times face width [m^2/N], (m,).
 
         Args:
-            radius: of the points on the flank at which a normal force acts [m], (m,).
+            radius: radii of the points on the flank at which a normal force acts [m], (m,).
         """
         profile = self.profile
         thickness = self.crack.thickness(profile)
@@ -61,7 +61,7 @@ class Tooth:
         """Compliance of the gear body, times face width [m^2/N], (m,).
 
         Args:
-            radius: of the points on the flank at which a normal force acts [m], (m,).
+            radius: radii of the points on the flank at which a normal force acts [m], (m,).
         """
         return self.body_coupling(radius, radius, 0)
 
@@ -69,9 +69,9 @@ class Tooth:
         """Displacement of a tooth per load on another, times face width [m^2/N], (m,).
 
         Args:
-            radius: of the displaced points [m], (m,); the displacement is along the line of action
-                of that tooth.
-            loaded: radius of the loaded points of the other tooth [m], (m,).
+            radius: radii of the displaced points [m], (m,); the displacement is along the line of
+                action of that tooth.
+            loaded: radii of the loaded points of the other tooth [m], (m,).
             teeth: number of teeth from the loaded to the displaced tooth.
         """
         pitch = 2.0 * math.pi / self.gear.teeth

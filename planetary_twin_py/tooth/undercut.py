@@ -31,7 +31,7 @@ def check_undercut(mesh: WorkingMesh) -> Iterator[str]:
     """Errors of gears whose mates touch them where undercut has removed the involute.
 
     Args:
-        mesh: with a path of contact.
+        mesh: mesh with a path of contact.
 
     Yields:
         One line per error.
@@ -45,10 +45,11 @@ def check_undercut(mesh: WorkingMesh) -> Iterator[str]:
         if gear.internal or gear.profile_shift >= least_shift(gear):
             continue
         touched = math.hypot(gear.base_radius, curvature - end * pitch)
-        left = float(fillet(gear)(_END)[0])
-        if touched < left - TOLERANCE * gear.module:
+        involute_start = float(fillet(gear)(_END)[0])
+        if touched < involute_start - TOLERANCE * gear.module:
             yield (
                 f"gearset.profile_shift.{name} = {gear.profile_shift:g}: must be at least "
                 f"{least_shift(gear):.4g} for {gear.teeth} teeth: undercut leaves no involute "
-                f"below {2e3 * left:.6g} mm, and the {mate} touches it from {2e3 * touched:.6g} mm"
+                f"below {2e3 * involute_start:.6g} mm, and the {mate} touches it from "
+                f"{2e3 * touched:.6g} mm"
             )

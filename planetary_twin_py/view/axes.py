@@ -79,14 +79,14 @@ def moved(axes: Series, motion: Motion, gearset: Gearset, drawn: Scales) -> Move
         By name of the body, x and y [m] at the times of the motion, (n, 2).
     """
     carrier = motion.angle["carrier"]
-    found: dict[str, Array] = {}
-    across = {body: _at(axes, motion.time, f"{body}_displacement") for body in MEMBERS}
+    displacements: dict[str, Array] = {}
+    across = {body: _interpolated(axes, motion.time, f"{body}_displacement") for body in MEMBERS}
     for body, vectors in across.items():
-        found[body] = drawn.magnification * turned(vectors, carrier)
+        displacements[body] = drawn.magnification * turned(vectors, carrier)
     for i, psi in enumerate(gearset.planet_angles):
-        own = turned(_at(axes, motion.time, "planet_displacement", i), psi)
-        found[f"planet_{i + 1}"] = drawn.magnification * (own - across["carrier"])
-    return found
+        displacement = turned(_interpolated(axes, motion.time, "planet_displacement", i), psi)
+        displacements[f"planet_{i + 1}"] = drawn.magnification * (displacement - across["carrier"])
+    return displacements
 
 
 def log_bearing_forces(
@@ -109,11 +109,11 @@ def log_bearing_forces(
     at = moved(axes, places, gearset, drawn)
     front, thick = 0.75 * gearset.face_width, MILLIMETRES * _THICK * gearset.module
     for body in MEMBERS:
-        vectors = turned(_at(axes, places.time, f"{body}_bearing_force"), carrier)
+        vectors = turned(_interpolated(axes, places.time, f"{body}_bearing_force"), carrier)
         shown = _Arrow(at[body], per_newton * vectors, front)
         _arrows(layer, f"gears/bearing_force/{body}", index, shown, thick)
     for i, psi in enumerate(gearset.planet_angles):
-        vectors = turned(_at(axes, places.time, "planet_bearing_force", i), psi)
+        vectors = turned(_interpolated(axes, places.time, "planet_bearing_force", i), psi)
         pin = carrier_radius(gearset) * np.array([math.cos(psi), math.sin(psi)])
         body = f"planet_{i + 1}"
         shown = _Arrow(pin + at[body], per_newton * vectors, front)
@@ -132,7 +132,7 @@ def turned(vectors: Array, angle: Array | float) -> Array:
     return np.column_stack([along.real, along.imag])
 
 
-def _at(axes: Series, time: Array, name: str, planet: int | None = None) -> Array:
+def _interpolated(axes: Series, time: Array, name: str, planet: int | None = None) -> Array:
     """A mean vector of the intervals at `time` [s], interpolated between their middles, (n, 2)."""
     middle = axes.time - 0.5 * axes["interval"]
     body = "planet" if planet is not None else name.partition("_")[0]

@@ -56,7 +56,7 @@ def blueprint(
     """Make the layout of a view.
 
     Args:
-        gearset: of the gears to show; None shows no gears.
+        gearset: gears to show; None shows no gears.
         mode: variant.
         compared: name of the reference recording, if there are several.
         axes: how axes that move are drawn; None if they are held.
@@ -194,13 +194,13 @@ def _followed() -> rrb.Vertical:
         _plot(f"{PLACE}/{name}", f"{pair.quantity.heading}: measured and twin", legend=True)
         for name, pair in PAIRS.items()
     ]
-    left = [
+    residuals = [
         _plot(f"{PLACE}/{name}_residual", f"{pair.quantity.heading}: measured minus twin", False)
         for name, pair in PAIRS.items()
     ]
     alone = [_plot(f"{PLACE}/{name}", title, legend=True) for name, title in ALONE.items()]
     return rrb.Vertical(
-        rrb.Horizontal(rrb.Vertical(*beside), rrb.Vertical(*left)),
+        rrb.Horizontal(rrb.Vertical(*beside), rrb.Vertical(*residuals)),
         rrb.Horizontal(*alone),
         rrb.TextLogView(
             origin=EVENTS,

@@ -66,8 +66,8 @@ def bounds(width: float, height: float) -> rrb.VisualBounds2D:
     """Visible region of a chart: the frame and the labels around it.
 
     Args:
-        width: of the frame.
-        height: of the frame.
+        width: width of the frame.
+        height: height of the frame.
     """
     left, right, below, above = _MARGINS
     return rrb.VisualBounds2D(
@@ -110,7 +110,7 @@ def log_frame(layer: Layer, chart: Chart, x: Ticks, y: Ticks, name: str) -> None
         chart: the chart.
         x: ticks of the horizontal axis.
         y: ticks of the vertical axis.
-        name: of the horizontal axis.
+        name: name of the horizontal axis.
     """
     lines = grid(chart, x, y)
     colours = [GRID] * (len(lines) - 1) + [FRAME]
@@ -142,7 +142,7 @@ def send_strips(
 
     Args:
         layer: recording to draw into.
-        path: of the entity.
+        path: path of the entity.
         index: time columns, n rows.
         rows: n lists of strips (points, 2).
         style: arguments of `rr.LineStrips2D`.
@@ -163,7 +163,7 @@ def send_labels(
 
     Args:
         layer: recording to draw into.
-        path: of the entity.
+        path: path of the entity.
         index: time columns, n rows.
         rows: positions (m, 2) and m texts, n times.
     """

@@ -47,8 +47,8 @@ def _colour(share: float) -> NDArray[np.uint8]:
     chroma = np.linspace(_CHROMA, 0.0, len(lightness))
     lab = np.array([lightness, chroma * np.cos(hue), chroma * np.sin(hue)])
     linear = _TO_LINEAR @ (_TO_ROOTS @ lab) ** 3
-    there = (linear.min(axis=0) >= 0.0) & (linear.max(axis=0) <= 1.0)
-    strongest = linear[:, there.argmax()]
+    in_gamut = (linear.min(axis=0) >= 0.0) & (linear.max(axis=0) <= 1.0)
+    strongest = linear[:, in_gamut.argmax()]
     curve = np.where(
         strongest <= 0.0031308, 12.92 * strongest, 1.055 * strongest ** (1.0 / 2.4) - 0.055
     )

@@ -65,15 +65,15 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
         motion: angles at the times to draw.
     """
     force = forces(recording, motion.time)
-    found = [
+    contacts_of_meshes = [
         contacts(scene, mesh, motion.angle, force[:, mesh]) for mesh in range(len(recording.meshes))
     ]
-    loads = np.concatenate([mesh.load[mesh.load > 0.0] for mesh in found])
+    loads = np.concatenate([mesh.load[mesh.load > 0.0] for mesh in contacts_of_meshes])
     if not len(loads):
         return
     full = one_digit(float(np.quantile(loads, _FULL)))
     index = timeline.columns(motion.time, motion.stamp)
-    for name, mesh in zip(recording.meshes, found, strict=True):
+    for name, mesh in zip(recording.meshes, contacts_of_meshes, strict=True):
         columns = _strips(scene.gearset, mesh, full)
         layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
     _log_scale(layer, scene.gearset, full)
@@ -96,8 +96,8 @@ def forces(recording: Recording, time: Array) -> Array:
         return force
     after = np.clip(np.searchsorted(wave.time, time), 1, len(wave.time) - 1)
     nearest = np.where(time - wave.time[after - 1] < wave.time[after] - time, after - 1, after)
-    there = np.abs(wave.time[nearest] - time) < _NEAR
-    force[there] = wave.mesh_force[nearest[there]]
+    has_sample = np.abs(wave.time[nearest] - time) < _NEAR
+    force[has_sample] = wave.mesh_force[nearest[has_sample]]
     return force
 
 

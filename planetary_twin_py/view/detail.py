@@ -40,17 +40,17 @@ def detailed_spans(recording: Recording) -> list[TimeSpan]:
     changes = np.unique(np.append(begin, recording.operating_point.time))
     changes = changes[: math.floor(room / _SHORTEST)]
     length = room / len(changes)
-    found: list[TimeSpan] = []
+    spans: list[TimeSpan] = []
     for instant in changes:
         first, last = max(instant - _BEFORE * length, begin), min(instant + length, end)
-        if found and first <= found[-1][1]:
-            first, _ = found.pop()
-        found.append((first, last))
-    return found
+        if spans and first <= spans[-1][1]:
+            first, _ = spans.pop()
+        spans.append((first, last))
+    return spans
 
 
 def overview(recording: Recording, detail: list[TimeSpan]) -> Recording:
-    """The same with fewer states: intervals outside `detail` are aggregated.
+    """Recording with fewer states: intervals outside `detail` are aggregated.
 
     Args:
         recording: the recording.
@@ -68,7 +68,7 @@ def first_rows(time: NDArray[np.float64], detail: list[TimeSpan]) -> NDArray[np.
     """First row of each group that is aggregated to one row; in `detail` a group is one row.
 
     Args:
-        time: of the rows [s], (n,).
+        time: times of the rows [s], (n,).
         detail: time spans [s] whose rows are kept.
     """
     step = math.ceil(len(time) / MOST_ROWS)

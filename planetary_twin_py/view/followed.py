@@ -56,23 +56,24 @@ def log_followed(layer: Layer, recording: Recording, followed: Followed) -> None
         recording: recording of the twin; its states are interpolated at the stamps of estimates.
         followed: messages of the follower.
     """
-    found, state = followed.estimate, recording.state
-    index = _index(state, found.stamp)
+    estimate, state = followed.estimate, recording.state
+    index = _index(state, estimate.stamp)
     measured = {
-        "input_torque": _with_interval(found, "input_torque"),
-        "input_speed": found["input_speed"][:, None],
-        "power_loss": _with_interval(found, "loss_torque") * np.abs(found["input_speed"])[:, None],
+        "input_torque": _with_bounds(estimate, "input_torque"),
+        "input_speed": estimate["input_speed"][:, None],
+        "power_loss": _with_bounds(estimate, "loss_torque")
+        * np.abs(estimate["input_speed"])[:, None],
     }
     for name, pair in PAIRS.items():
         factor = pair.quantity.factor
-        values, twin = measured[name], _at(state, pair.field, found.stamp)
+        values, twin = measured[name], _twin_values(state, pair.field, estimate.stamp)
         bounds = ["low", "high"][: values.shape[1] - 1]
         columns = factor * np.column_stack([values[:, 0], twin, values[:, 1:]])
         names, colours = ["measured", "twin", *bounds], [_MEASURED, _TWIN, _BOUND, _BOUND]
         _log(layer, f"{PLACE}/{name}", index, columns, names, colours)
-        left = factor * (values[:, :1] - twin[:, None])
-        _log(layer, f"{PLACE}/{name}_residual", index, left, ["measured minus twin"], [_LEFT])
-    level = _with_interval(found, "friction_level")
+        residual = factor * (values[:, :1] - twin[:, None])
+        _log(layer, f"{PLACE}/{name}_residual", index, residual, ["measured minus twin"], [_LEFT])
+    level = _with_bounds(estimate, "friction_level")
     names = ["friction level", "low", "high"]
     _log(layer, f"{PLACE}/friction_level", index, level, names, [_MEASURED, _BOUND, _BOUND])
     _log_balance(layer, state, followed.residuals)
@@ -102,22 +103,22 @@ def _log(
     layer.send_columns(path, index, rr.Scalars.columns(scalars=values))
 
 
-def _with_interval(found: MessageColumns, name: str) -> Array:
+def _with_bounds(estimate: MessageColumns, name: str) -> Array:
     """A quantity with its 95 % interval, (n, 3)."""
-    return np.column_stack([found[name], found[f"{name}_low"], found[f"{name}_high"]])
+    return np.column_stack([estimate[name], estimate[f"{name}_low"], estimate[f"{name}_high"]])
 
 
 def _index(state: Series, stamp: NDArray[np.int64]) -> list[rr.TimeColumn]:
     """Both times of the stamps; simulated time runs on as ROS time beyond the twin's messages."""
     first, last = int(state.stamp[0]), int(state.stamp[-1])
     since = 1e-9 * (stamp - first).astype(float)
-    own = 1e-9 * (state.stamp - first).astype(float)
+    state_since = 1e-9 * (state.stamp - first).astype(float)
     beyond = np.minimum(since, 0.0) + np.maximum(since - 1e-9 * (last - first), 0.0)
-    return timeline.columns(np.interp(since, own, state.time) + beyond, stamp)
+    return timeline.columns(np.interp(since, state_since, state.time) + beyond, stamp)
 
 
-def _at(state: Series, field: str, stamp: NDArray[np.int64]) -> Array:
+def _twin_values(state: Series, field: str, stamp: NDArray[np.int64]) -> Array:
     """A field of the twin at some stamps; NaN outside its messages."""
     first = int(state.stamp[0])
-    since, own = (1e-9 * (one - first).astype(float) for one in (stamp, state.stamp))
-    return np.interp(since, own, state[field], left=np.nan, right=np.nan)
+    since, state_since = (1e-9 * (stamps - first).astype(float) for stamps in (stamp, state.stamp))
+    return np.interp(since, state_since, state[field], left=np.nan, right=np.nan)

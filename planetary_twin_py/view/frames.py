@@ -61,7 +61,7 @@ class Frames:
         """A field of GearboxState at the centres of the windows (n,).
 
         Args:
-            name: of the field.
+            name: name of the field.
         """
         state = self.recording.state
         row = np.minimum(np.searchsorted(state.time, self.time), len(state) - 1)
@@ -72,7 +72,7 @@ class Frames:
 
         Args:
             number: index of the window.
-            duration: of the window [s].
+            duration: duration of the window [s].
 
         Returns:
             The samples, near a gap or an end from a shifted window; None if no window fits.

@@ -45,9 +45,9 @@ class Layer:
         """Send columns at `path` unless they are empty, on which the viewer fails.
 
         Args:
-            path: of the entity.
+            path: path of the entity.
             index: time columns.
-            columns: of components.
+            columns: columns of components.
         """
         if len(index[0].as_arrow_array()):
             self.stream.send_columns(self._place(path), index, columns)
@@ -62,8 +62,8 @@ class Layer:
         """Style of one line per name.
 
         Args:
-            names: of the lines.
-            colours: of the lines.
+            names: names of the lines.
+            colours: colours of the lines.
             steps: whether values are constant between their times.
         """
         return rr.SeriesLines(
@@ -75,8 +75,8 @@ class Layer:
 
     def shade(self, colour: Colour) -> Colour:
         """A colour as drawn in this layer."""
-        kept = _FADE**self.order
-        red, green, blue = (round(255 - kept * (255 - channel)) for channel in colour)
+        strength = _FADE**self.order
+        red, green, blue = (round(255 - strength * (255 - channel)) for channel in colour)
         return red, green, blue
 
     def _place(self, path: str) -> str:

@@ -41,10 +41,10 @@ class LiveView:
     """Draws the messages of a twin; each run, from one reset to the next, has its own stream.
 
     Args:
-        namespace: of the twin.
+        namespace: namespace of the twin.
         begin: opens the stream of a run.
-        scene: to draw in place of the published one; without it, drawing starts when the twin has
-            published its scene.
+        scene: scene to draw in place of the published one; without it, drawing starts when the
+            twin has published its scene.
     """
 
     def __init__(
@@ -69,9 +69,9 @@ class LiveView:
             RecordingError: the scene does not match the messages, or cannot be read.
         """
         for record in records:
-            if found := self._topics.of(record):
-                name = found.topic.rpartition("/")[2]
-                (message,) = self._layout(found).arrays([record.data])
+            if described := self._topics.of(record):
+                name = described.topic.rpartition("/")[2]
+                (message,) = self._layout(described).arrays([record.data])
                 if name == ORIGIN:
                     self._published = read_origin(message["data"][0].decode()).scene
                 elif name in self._waiting:
@@ -126,14 +126,14 @@ class _DrawnRun:
     def draw(self, new: Messages) -> None:
         """Draw further messages of the run."""
         known = len(self._last[POINT])
-        shown = self._recording(
+        recording = self._recording(
             new | {name: before + new[name] for name, before in self._last.items()}
         )
-        check_scene(self._scene, shown)
-        log_solids(self._layer, shown, self._scene.gearset, motion(shown), self._drawn)
-        log_events(self._layer, shown, known)
-        if wave := shown.waveform:
-            log_waveform(self._layer, shown, [(float(wave.time[0]), float(wave.time[-1]))])
+        check_scene(self._scene, recording)
+        log_solids(self._layer, recording, self._scene.gearset, motion(recording), self._drawn)
+        log_events(self._layer, recording, known)
+        if wave := recording.waveform:
+            log_waveform(self._layer, recording, [(float(wave.time[0]), float(wave.time[-1]))])
         if new[STATE]:
             log_plots(self._layer, self._recording(new))
         if new[AXES_STATE]:

@@ -45,9 +45,9 @@ def _strips(
     chart: Chart, frames: Frames, time: NDArray[np.float64], orbit: NDArray[np.float64]
 ) -> list[list[NDArray[np.float32]]]:
     """The part of an orbit around each frame."""
-    found = []
+    strips = []
     for now in frames.time:
         begin, end = np.searchsorted(time, (now - 0.5 * WINDOW, now + 0.5 * WINDOW))
         part = orbit[begin:end]
-        found.append([chart.place(part[:, 0], part[:, 1])] if len(part) > 1 else [])
-    return found
+        strips.append([chart.place(part[:, 0], part[:, 1])] if len(part) > 1 else [])
+    return strips

@@ -21,7 +21,7 @@ def names_of(recordings: Sequence[Recording]) -> list[str]:
     """A name for each recording: of its file, or its path if several files have the same name.
 
     Args:
-        recordings: at least one; the name of a single recording is "".
+        recordings: recordings, at least one; the name of a single recording is "".
 
     Raises:
         RecordingError: a recording occurs twice.
@@ -51,26 +51,26 @@ def difference(first: Recording, other: Recording) -> Recording:
         )
     if first.waveform is None or other.waveform is None:
         raise RecordingError(f"{other.path}: a waveform is missing, so no difference is drawn")
-    less = _less(first.waveform, other.waveform)
-    if not len(less.time):
+    waveform = _subtract(first.waveform, other.waveform)
+    if not len(waveform.time):
         raise RecordingError(
             f"{other.path}: no sample has the same time as one of {first.path}, "
             "so no difference is drawn"
         )
-    return replace(other, blocks=InMemory(less))
+    return replace(other, blocks=InMemory(waveform))
 
 
-def _less(first: Waveform, other: Waveform) -> Waveform:
-    near = np.searchsorted(first.time, other.time - _COINCIDE)
-    near = np.minimum(near, len(first.time) - 1)
-    rows = np.flatnonzero(np.abs(first.time[near] - other.time) <= _COINCIDE)
-    near = near[rows]
+def _subtract(first: Waveform, other: Waveform) -> Waveform:
+    nearest = np.searchsorted(first.time, other.time - _COINCIDE)
+    nearest = np.minimum(nearest, len(first.time) - 1)
+    rows = np.flatnonzero(np.abs(first.time[nearest] - other.time) <= _COINCIDE)
+    nearest = nearest[rows]
     blocks = np.unique(np.searchsorted(rows, other.block))
     return Waveform(
         time=other.time[rows],
         stamp=other.stamp[rows],
         block=blocks[blocks < len(rows)],
-        dte=other.dte[rows] - first.dte[near],
-        mesh_force=other.mesh_force[rows] - first.mesh_force[near],
-        friction=other.friction[rows] - first.friction[near],
+        dte=other.dte[rows] - first.dte[nearest],
+        mesh_force=other.mesh_force[rows] - first.mesh_force[nearest],
+        friction=other.friction[rows] - first.friction[nearest],
     )

@@ -46,7 +46,7 @@ def served(port: int, origin: int, data: int) -> Iterator[None]:
     """Context in which a proxy serves the page of the viewer on this machine.
 
     Args:
-        port: of the proxy.
+        port: port of the proxy.
         origin: port of the viewer's page.
         data: port of the viewer's data.
 

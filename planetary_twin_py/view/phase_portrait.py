@@ -46,23 +46,23 @@ def log_phase_portrait(layer: Layer, frames: Frames) -> None:
     point = frames.recording.operating_point
     rows = np.searchsorted(point.time, frames.time, side="right") - 1
     half = [0.5 * float(point["backlash"][row]) if row >= 0 else math.nan for row in rows]
-    found = [_portrait(frames, number, half[number]) for number in range(len(frames.time))]
+    portraits = [_portrait(frames, number, half[number]) for number in range(len(frames.time))]
     index, colour = frames.index, mesh_colours(frames.recording.planets)[0]
     send_strips(
         layer, "phase_portrait/grid", index,
-        [grid(p.chart, p.x, p.y) if p else [] for p in found],
+        [grid(p.chart, p.x, p.y) if p else [] for p in portraits],
         {"colors": [GRID], "radii": [0.5], "draw_order": -10.0},
     )  # fmt: skip
     send_strips(
-        layer, "phase_portrait/flanks", index, [p.flanks if p else [] for p in found],
+        layer, "phase_portrait/flanks", index, [p.flanks if p else [] for p in portraits],
         {"colors": [_FLANK], "radii": [0.5], "draw_order": -5.0},
     )  # fmt: skip
     send_strips(
-        layer, "phase_portrait/curve", index, [[p.curve] if p else [] for p in found],
+        layer, "phase_portrait/curve", index, [[p.curve] if p else [] for p in portraits],
         {"colors": [colour], "radii": [0.5]},
     )  # fmt: skip
-    none = np.empty((0, 2), dtype=np.float32)
-    marks = [labels(p.chart, p.x, p.y) if p else (none, []) for p in found]
+    no_labels = np.empty((0, 2), dtype=np.float32)
+    marks = [labels(p.chart, p.x, p.y) if p else (no_labels, []) for p in portraits]
     send_labels(layer, "phase_portrait/marks", index, marks)
 
 

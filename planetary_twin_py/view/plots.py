@@ -72,11 +72,11 @@ def log_series(
 
     Args:
         layer: recording to draw into.
-        path: of the entity.
+        path: path of the entity.
         index: time columns, n rows.
         values: (n, series).
-        names: of the series.
-        colours: of the series.
+        names: names of the series.
+        colours: colours of the series.
     """
     layer.log(path, layer.lines(names, colours), static=True)
     layer.send_columns(path, index, rr.Scalars.columns(scalars=values))

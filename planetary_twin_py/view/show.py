@@ -56,7 +56,7 @@ def save(
 
     Args:
         recording: the first recording, of which gears and spectra are drawn.
-        scene: of the gears; None draws no gears.
+        scene: scene of the gears; None draws no gears.
         rrd: file to write.
         others: recordings to overlay; differences of their waveforms from the first are drawn, too.
         mode: variant of the layout.
@@ -135,7 +135,7 @@ def send_layout(
 
     Args:
         stream: Rerun stream.
-        scene: of the gears; None shows no gears.
+        scene: scene of the gears; None shows no gears.
         mode: see `blueprint`.
         compared: see `blueprint`.
         axes: see `blueprint`.
@@ -206,9 +206,9 @@ def _log_difference(
     layer: Layer, first: Recording, other: Recording, detail: list[TimeSpan]
 ) -> list[str]:
     try:
-        less = difference(first, other)
+        differences = difference(first, other)
     except RecordingError as reason:
         return [str(reason)]
     # Its warning about omitted samples repeats that of the recording.
-    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), less, detail)
+    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), differences, detail)
     return []

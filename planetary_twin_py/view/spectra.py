@@ -48,27 +48,27 @@ def log_spectra(layer: Layer, frames: Frames, scene: Scene | None) -> str | None
     Returns:
         A warning if the sample rate is too low for the signal, else None.
     """
-    found = [_spectrum(frames, number) for number in range(len(frames.time))]
-    highest = max((a[1:].max() for _, a in found if len(a) > 1), default=0.0)
+    spectra = [_spectrum(frames, number) for number in range(len(frames.time))]
+    highest = max((a[1:].max() for _, a in spectra if len(a) > 1), default=0.0)
     if highest <= 0.0:
         return None
     top = math.ceil(math.log10(highest))
-    _log_spectrum(layer, frames, found, top)
+    _log_spectrum(layer, frames, spectra, top)
     if scene is not None:
         _log_order_map(layer, frames, scene.gearset.teeth.sun, top)
-    return _alias_remark(frames, found, scene)
+    return _alias_remark(frames, spectra, scene)
 
 
 def _alias_remark(
-    frames: Frames, found: list[tuple[Array, Array]], scene: Scene | None
+    frames: Frames, spectra: list[tuple[Array, Array]], scene: Scene | None
 ) -> str | None:
     """Warning about the window with the largest aliasing, or None."""
-    shares = np.array([alias_share(*each) if len(each[0]) else 0.0 for each in found])
+    shares = np.array([alias_share(*spectrum) if len(spectrum[0]) else 0.0 for spectrum in spectra])
     worst = int(np.argmax(shares))
     if shares[worst] <= NEGLIGIBLE:
         return None
     highest = None if scene is None else float(natural_modes(scene).frequencies.max())
-    mesh, rate = float(frames.state("mesh_frequency")[worst]), 2.0 * float(found[worst][0][-1])
+    mesh, rate = float(frames.state("mesh_frequency")[worst]), 2.0 * float(spectra[worst][0][-1])
     known = mesh if mesh > 0.0 else None
     remark = alias_remark(rate, float(shares[worst]), highest, known)
     return f"spectrum around {frames.time[worst]:.2f} s: {remark}"
@@ -84,9 +84,11 @@ def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:
     return amplitude_spectrum(_MICRO * dte, rate)
 
 
-def _log_spectrum(layer: Layer, frames: Frames, found: list[tuple[Array, Array]], top: int) -> None:
+def _log_spectrum(
+    layer: Layer, frames: Frames, spectra: list[tuple[Array, Array]], top: int
+) -> None:
     mesh = frames.state("mesh_frequency")
-    nyquist = max(frequency[-1] for frequency, _ in found if len(frequency))
+    nyquist = max(frequency[-1] for frequency, _ in spectra if len(frequency))
     reach = min(nyquist, HARMONICS * float(np.nanmax(mesh, initial=0.0)) * 1.02 or nyquist)
     chart = Chart("spectrum", WIDTH, HEIGHT, (0.0, reach), (top - DECADES, top))
     marks = ticks(0.0, reach, 8)
@@ -98,7 +100,7 @@ def _log_spectrum(layer: Layer, frames: Frames, found: list[tuple[Array, Array]]
         "Frequency [Hz]",
     )
     curves = []
-    for frequency, amplitude in found:
+    for frequency, amplitude in spectra:
         shown = slice(1, int(np.searchsorted(frequency, reach, side="right")))
         level = np.log10(np.maximum(amplitude[shown], 1e-30))
         curves.append([chart.place(frequency[shown], level)] if len(level) else [])

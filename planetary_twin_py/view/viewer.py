@@ -75,7 +75,7 @@ def page(*arguments: str) -> Iterator[Viewer]:
     The page sends no requests to other hosts.
 
     Args:
-        arguments: of the binary.
+        arguments: arguments of the binary.
 
     Raises:
         ViewerError: the page cannot be served.
@@ -122,8 +122,8 @@ def start_viewer(
     """Start the viewer.
 
     Args:
-        port: of the loopback interface that receives data.
-        arguments: of the binary.
+        port: port of the loopback interface that receives data.
+        arguments: arguments of the binary.
         output: file for its output; None inherits that of this process.
 
     Returns:

@@ -128,7 +128,7 @@ def test_a_block_of_a_slow_train_is_thinned_evenly():
 
     def first(parts, most):
         blocks, held = HuntingBlocks(TRAIN, (N, N), 1.0 / FAST), 0
-        blocks._most = most or blocks._most
+        blocks._most_samples = most or blocks._most_samples
         for rows in np.array_split(np.arange(len(counts)), parts):
             found = list(blocks.add(rows, counts[rows]))
             held = max(held, sum(len(numbers) for numbers, _ in blocks._samples))

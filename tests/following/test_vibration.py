@@ -10,7 +10,7 @@ from planetary_twin_py.following.measured_tables import read_readings, read_vibr
 from planetary_twin_py.following.play_back import play_back
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.following.vibration import VibrationSamples
+from planetary_twin_py.following.vibration import Turning, VibrationFollower, VibrationSamples
 
 RATE = 4_000.0  # [Hz]
 TRAIN = followed_train(paper())
@@ -157,3 +157,29 @@ def test_other_channels_are_refused():
     follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-4))
     with pytest.raises(ValueError, match="channels and sample period must be as before"):
         follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("two",), 1e-4))
+
+
+def test_hunting_periods_too_short_for_the_speed_are_dropped():
+    """Of a hunting period of 0.15 s, one or two bins of 0.1 s are known."""
+    speed = 2.0 * np.pi * TRAIN.hunting_cycles / abs(float(TRAIN.cycles)) / 0.15
+    follower = VibrationFollower(TRAIN, NAMES, 1.0 / RATE, 8)
+    time = np.arange(8000) / RATE
+    follower.add(time, np.zeros((len(time), 2)))
+    bins = 0.05 + 0.1 * np.arange(20)
+
+    def turning(begin, end):
+        inside = (bins > begin - 0.1) & (bins < end + 0.1)
+        return Turning(bins[inside], np.full(inside.sum(), speed), np.full(inside.sum(), 63.0))
+
+    follower.judge(1.9, turning)
+    assert follower.counters.dropped_periods > 0
+
+
+def test_the_limit_of_growth_follows_the_number_of_learned_periods():
+    """A saved baseline of more hunting periods is better known."""
+    follower = VibrationFollower(TRAIN, NAMES, 1.0 / RATE, 8)
+    usual = follower._limit
+    follower._learning = 30
+    assert follower._limit < usual
+    follower.learn()
+    assert follower._limit == usual

@@ -86,13 +86,13 @@ class Damages:
         begin = gap.losses[0].place
         before = "everything before is intact" if len(self._gaps) == 1 else ""
         if begin == size:
-            found = "has no end record: the recorder is still writing, or was killed"
+            ending = "has no end record: the recorder is still writing, or was killed"
         else:
-            found = (
+            ending = (
                 f"is truncated, the last {size - begin} of {size} bytes are unreadable "
                 f"({type(gap.losses[0].reason).__name__})"
             )
-        return f"{self._file.name}: {'; '.join(filter(None, (found, before)))}"
+        return f"{self._file.name}: {'; '.join(filter(None, (ending, before)))}"
 
     def _span(self, gap: _Gap) -> str:
         """Time interval of a gap, relative to the first message of the file."""

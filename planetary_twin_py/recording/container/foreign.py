@@ -16,26 +16,26 @@ def how_stored(path: Path) -> str | None:
     """Detect a storage format that cannot be read.
 
     Args:
-        path: of the folder of a bag, or of one of its files.
+        path: path of the folder of a bag, or of one of its files.
 
     Returns:
         The format and the command that converts the bag, as the end of an error message; None for
         other bags.
     """
     folder = path if path.is_dir() else path.parent
-    found = _folder(path) if path.is_dir() else _file(path)
+    storage = _folder(path) if path.is_dir() else _file(path)
     hint = CONVERT.replace("BAG", str(folder)).replace("NEW", f"{folder.absolute().name}_mcap")
-    return found and f"{found}; {hint}"
+    return storage and f"{storage}; {hint}"
 
 
 def _folder(folder: Path) -> str | None:
-    for pattern, found in (
+    for pattern, storage in (
         ("*.db3", "a bag in SQLite"),
         ("*.db3.zstd", "a bag in SQLite, compressed by file"),
         ("*.mcap.zstd", "a bag compressed by file"),
     ):
         if any(folder.glob(pattern)):
-            return found
+            return storage
     metadata = folder / "metadata.yaml"
     if not metadata.is_file():
         return None

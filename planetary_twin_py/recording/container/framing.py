@@ -156,11 +156,11 @@ def unpacked_size(piece: Piece) -> int:
 def next_chunk(stream: BinaryIO, begin: int) -> int | None:
     """Position of the first intact, non-empty chunk after `begin`; None if there is none."""
     with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        for found in _CHUNK.finditer(data, begin):
-            stream.seek(found.start())
+        for match in _CHUNK.finditer(data, begin):
+            stream.seek(match.start())
             try:
                 if opened(piece_at(stream)):
-                    return found.start()
+                    return match.start()
             except DAMAGED:
                 continue
     return None
@@ -174,9 +174,9 @@ def _exact(kind: Any, content: bytes) -> Any:
         raise McapError(f"{len(content) - fields.count} bytes after the last field")
     if isinstance(record, Attachment):
         (expected,) = _CHECKSUM.unpack(content[-_CHECKSUM.size :])
-        found = zlib.crc32(content[: -_CHECKSUM.size])
-        if expected not in (0, found):
-            raise CRCValidationError(expected, found, record)
+        checksum = zlib.crc32(content[: -_CHECKSUM.size])
+        if expected not in (0, checksum):
+            raise CRCValidationError(expected, checksum, record)
     return record
 
 

@@ -30,8 +30,8 @@ def damaged_summary(file: Path) -> bool:
         if magic != MAGIC or not 0 <= start <= begin:
             return True
         stream.seek(start or begin)  # zero: there is no summary
-        found = zlib.crc32(stream.read(begin - (start or begin)) + footer[:-4])
-    return expected not in (0, found)
+        checksum = zlib.crc32(stream.read(begin - (start or begin)) + footer[:-4])
+    return expected not in (0, checksum)
 
 
 def damaged_data(file: Path) -> bool:
@@ -44,16 +44,16 @@ def damaged_data(file: Path) -> bool:
         _, _, summary, _, _ = _FOOTER.unpack(stream.read(_FOOTER.size))
         if summary < _DATA_END.size:
             return True
-        left, found = summary - _DATA_END.size, 0
+        remaining, checksum = summary - _DATA_END.size, 0
         stream.seek(0)
-        while left:
-            piece = stream.read(min(left, _PIECE))
+        while remaining:
+            piece = stream.read(min(remaining, _PIECE))
             if not piece:
                 return True
-            left -= len(piece)
-            found = zlib.crc32(piece, found)
+            remaining -= len(piece)
+            checksum = zlib.crc32(piece, checksum)
         _, _, expected = _DATA_END.unpack(stream.read(_DATA_END.size))
-    return expected not in (0, found)
+    return expected not in (0, checksum)
 
 
 def end_of_data(file: Path) -> int | None:
@@ -70,7 +70,7 @@ def end_of_data(file: Path) -> int | None:
             summary = place + _DATA_END.size
             if place < 0 or summary > footer or data[place:summary][:9] != _DATA_END_HEAD:
                 continue
-            found = zlib.crc32(data[summary : footer + _FOOTER.size - _CHECKSUM])
-            if found == expected or (expected == 0 and summary == start):
+            checksum = zlib.crc32(data[summary : footer + _FOOTER.size - _CHECKSUM])
+            if checksum == expected or (expected == 0 and summary == start):
                 return int(place)
     return None

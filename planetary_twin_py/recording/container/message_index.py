@@ -48,12 +48,12 @@ class Index:
             self.schemas: dict[int, Schema] = summary.schemas
             self.channels: dict[int, Channel] = summary.channels
             self.metadata: list[Metadata] = list(reader.iter_metadata())
-            found: dict[int, list[tuple[int, NDArray[Any]]]] = {c: [] for c in self.channels}
+            entries_of: dict[int, list[tuple[int, NDArray[Any]]]] = {c: [] for c in self.channels}
             for chunk in summary.chunk_indexes:
                 for channel, entries in _entries(stream, chunk):
-                    found[channel].append((chunk.chunk_start_offset, entries))
-            self.times = {c: _joined([e["log_time"] for _, e in f]) for c, f in found.items()}
-            self._places = {c: _joined([[p] * len(e) for p, e in f]) for c, f in found.items()}
+                    entries_of[channel].append((chunk.chunk_start_offset, entries))
+            self.times = {c: _joined([e["log_time"] for _, e in f]) for c, f in entries_of.items()}
+            self._places = {c: _joined([[p] * len(e) for p, e in f]) for c, f in entries_of.items()}
             counts = summary.statistics.channel_message_counts
             if any(counts.get(c, 0) != len(times) for c, times in self.times.items()):
                 raise ValueError("messages are missing in the index")
@@ -67,14 +67,14 @@ class Index:
         """
         places = self._places[channel]
         first = int(np.searchsorted(places, places[number]))
-        own = [
+        messages = [
             record
             for record in self._section(int(places[number]))
             if isinstance(record, Message) and record.channel_id == channel
         ]
-        if len(own) <= number - first:
+        if len(messages) <= number - first:
             raise ValueError("the index lists a message that does not exist")
-        return own[number - first]
+        return messages[number - first]
 
 
 def _entries(stream: BinaryIO, chunk: ChunkIndex) -> Iterator[tuple[int, NDArray[Any]]]:

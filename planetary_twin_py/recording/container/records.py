@@ -83,29 +83,29 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 
 
 def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
-    """The same records, section by section."""
-    known, damages, ended, behind = _Known(file), Damages(file), False, ""
+    """All intact records as in `records_of`, section by section."""
+    known, damages, ended, end_remark = _Known(file), Damages(file), False, ""
     with file.open("rb") as stream:
-        remarks += _begin(file, stream)
+        remarks += _begin_remarks(file, stream)
         if stream.tell() < len(MAGIC):
             return
         for step in Walk(file, stream):
             if isinstance(step, Sound):
                 damages.add_sound(step)
                 ended = ended or step.piece.opcode == Opcode.DATA_END  # the rest only repeats
-                place, found = step.piece.place, [] if ended else known.described(step.records)
+                place, records = step.piece.place, [] if ended else known.described(step.records)
             elif isinstance(step, Lost):
                 damages.add_lost(step)
-                place, found = step.place, known.summarised()
+                place, records = step.place, known.summarised()
             else:
-                behind = _truncated(file, damages.reached, step)
+                end_remark = _damage_after_data(file, damages.reached, step)
                 break
-            if found:
-                yield Section(place, found)
-        behind = behind or _at_the_end(file, ended)
+            if records:
+                yield Section(place, records)
+        end_remark = end_remark or _end_remark(file, ended)
     if damages.unsupported:
         raise RecordingError(f"{file}: {damages.unsupported}")
-    remarks += damages.remarks() or filter(None, [behind])
+    remarks += damages.remarks() or filter(None, [end_remark])
     if known.strays:
         remarks.append(
             f"{file.name}: {known.strays} messages are skipped because their channels are lost"
@@ -152,21 +152,21 @@ class _Known:
 
 def _summary(file: Path) -> list[Any]:
     """The schemas and channels of an intact summary."""
-    found: list[Any] = []
+    records: list[Any] = []
     end = end_of_data(file)
     if end is None:
-        return found
+        return records
     with file.open("rb") as stream:
         stream.seek(end)
         try:
             while (piece := piece_at(stream)).opcode != Opcode.FOOTER:
-                found += opened(piece)
+                records += opened(piece)
         except DAMAGED:
             pass  # the writer of the summary made an error that its checksum does not show
-    return found
+    return records
 
 
-def _begin(file: Path, stream: BinaryIO) -> list[str]:
+def _begin_remarks(file: Path, stream: BinaryIO) -> list[str]:
     """Warnings about the first bytes of an MCAP file, which its header or its end identifies.
 
     A killed writer may leave a file without these bytes.
@@ -188,14 +188,14 @@ def _begin(file: Path, stream: BinaryIO) -> list[str]:
     return [f"{file.name}: its first {len(MAGIC)} bytes are damaged"]
 
 
-def _at_the_end(file: Path, ended: bool) -> str:
+def _end_remark(file: Path, ended: bool) -> str:
     """Warning about the end of a file that is not truncated; empty if there is none."""
     if not ended:
         return f"{file.name}: has no Data End record; data may be missing"
     return f"{file.name}: its summary is damaged" if damaged_summary(file) else ""
 
 
-def _truncated(file: Path, sound: int, reason: Exception) -> str:
+def _damage_after_data(file: Path, sound: int, reason: Exception) -> str:
     """Warning about damage after the data, or a wrong checksum of the data."""
     if isinstance(reason, CRCValidationError) and isinstance(reason.record, DataEnd):
         return f"{file.name}: its data fail their checksum: they may be wrong or incomplete"

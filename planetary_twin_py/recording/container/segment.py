@@ -50,6 +50,8 @@ def open_segment(file: Path, warn: Warn) -> Segment:
         return _InOrder(file, warn)
     if summary.statistics.message_count and not summary.chunk_indexes:
         return _InOrder(file, warn)
+    if len(summary.channels) < summary.statistics.channel_count:  # they are not repeated there
+        return _InOrder(file, warn)
     return _Indexed(file, summary, warn)
 
 
@@ -75,16 +77,16 @@ class _Indexed:
 
     def _last(self, topic: str, count: int, before: int) -> list[Message]:
         channels = {number for number, name in self._topics.items() if name == topic}
-        found: list[Message] = []
+        messages: list[Message] = []
         for index in reversed(self._chunks):
-            held = index.message_index_offsets
-            if index.message_start_time >= before or (held and not channels & held.keys()):
+            indexed = index.message_index_offsets
+            if index.message_start_time >= before or (indexed and not channels & indexed.keys()):
                 continue
-            here = [m for name, m in self._read(index) if name == topic and m.log_time < before]
-            found = here + found
-            if len(found) >= count:
+            matching = [m for name, m in self._read(index) if name == topic and m.log_time < before]
+            messages = matching + messages
+            if len(messages) >= count:
                 break
-        return found[-count:]
+        return messages[-count:]
 
     def _read(self, index: ChunkIndex) -> Iterator[tuple[str, Message]]:
         """Messages of a chunk; a damaged chunk is skipped with a warning."""
@@ -126,12 +128,12 @@ class _InOrder:
                 yield self._topic(record), record
 
     def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
-        found = {topic: deque[Message](maxlen=count) for topic, count in kept.items()}
-        near = takewhile(lambda pair: pair[1].log_time < before + DISORDER, self.messages(0))
-        for topic, message in near:
-            if topic in found and message.log_time < before:
-                found[topic].append(message)
-        return {topic: list(messages) for topic, messages in found.items()}
+        latest = {topic: deque[Message](maxlen=count) for topic, count in kept.items()}
+        candidates = takewhile(lambda pair: pair[1].log_time < before + DISORDER, self.messages(0))
+        for topic, message in candidates:
+            if topic in latest and message.log_time < before:
+                latest[topic].append(message)
+        return {topic: list(messages) for topic, messages in latest.items()}
 
     def _topic(self, message: Message) -> str:
         return self.contents.channels[message.channel_id][0].topic

@@ -78,10 +78,10 @@ class Walk:
                     self._reached = self._vouched = resumed
 
     def _resume(self) -> int | None:
-        found = next_chunk(self._stream, self._vouched)
-        if found is None and (end := end_of_data(self._file)) and end >= self._reached:
+        chunk = next_chunk(self._stream, self._vouched)
+        if chunk is None and (end := end_of_data(self._file)) and end >= self._reached:
             return end
-        return found
+        return chunk
 
     def _in_frames(self, threads: ThreadPoolExecutor) -> Iterator[Sound | Lost]:
         """Records in order; raises one of `DAMAGED` if no intact record follows a damaged one."""
@@ -112,17 +112,17 @@ def _in_order(
 ) -> Iterator[tuple[Piece, Callable[[], list[Any]]]]:
     """Each record with a function that opens it; threads open the next chunks in advance."""
     waiting: deque[tuple[Piece, Callable[[], list[Any]]]] = deque()
-    ahead = 0
+    bytes_ahead = 0
     for piece in pieces:
         if isinstance(piece, Exception):
             yield from waiting
             raise piece
         open_it = partial(opened, piece)
-        large = piece.opcode == Opcode.CHUNK
-        ahead += unpacked_size(piece)
-        waiting.append((piece, threads.submit(open_it).result if large else open_it))
-        while len(waiting) > _AHEAD or (waiting and ahead > _BYTES_AHEAD):
-            ahead -= unpacked_size(waiting[0][0])
+        is_chunk = piece.opcode == Opcode.CHUNK
+        bytes_ahead += unpacked_size(piece)
+        waiting.append((piece, threads.submit(open_it).result if is_chunk else open_it))
+        while len(waiting) > _AHEAD or (waiting and bytes_ahead > _BYTES_AHEAD):
+            bytes_ahead -= unpacked_size(waiting[0][0])
             yield waiting.popleft()
     yield from waiting
 

@@ -15,7 +15,7 @@ from .fields import with_room
 
 def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
     """Fields of AxesState of a window whose axes move as `axes`."""
-    planets, found = len(axes.mean_load_share), axes_statistics(axes)
+    planets, statistics = len(axes.mean_load_share), axes_statistics(axes)
     fields: dict[str, Any] = {
         "planets": planets,
         "simulated_time": window.end,
@@ -25,9 +25,9 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
         "load_share": with_room(axes.mean_load_share),
     }
     for name in FLANKS:
-        of_sides = found.pop(name).reshape(len(SIDES), planets)
+        of_sides = statistics.pop(name).reshape(len(SIDES), planets)
         fields |= {f"{side}_{name}": with_room(of_sides[k]) for k, side in enumerate(SIDES)}
-    for name, values in found.items():
+    for name, values in statistics.items():
         for body, member in enumerate(MEMBERS):
             fields |= _named(member, name, values[body])
         if len(values) > len(MEMBERS):
@@ -39,14 +39,14 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
 
 
 def largest_of_kind(message: Any, name: str) -> float:
-    """Largest displacement or force of any body, beside which a component may be next to nothing.
+    """Largest displacement or force of any body, to which differences of a component are compared.
 
     Args:
         message: AxesState.
-        name: of a field.
+        name: name of a field.
 
     Returns:
-        Of all bodies and components of the same quantity [m] or [N]; 0 for other fields.
+        Largest value of the same quantity over all bodies [m] or [N]; 0 for other fields.
     """
     for kinds, largest in _OF_KIND.items():
         if any(f"_{kind}" in name for kind in kinds):
@@ -59,7 +59,7 @@ _OF_KIND = {
     ("bearing_force",): [f"{body}_bearing_force_peak" for body in COMPONENTS],
     tuple(FLANKS): [f"{side}_{name}" for side in SIDES for name in FLANKS],
 }
-"""By names of quantities, the fields whose largest value is theirs."""
+"""Fields that have the largest values, by the names of the quantities."""
 
 
 def axes_waveform_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:

@@ -30,7 +30,7 @@ class BagWriter:
     are valid at its start. Data written before the last `flush` survive a kill and a power failure.
 
     Args:
-        folder: to create.
+        folder: folder to create.
         storage: compression, chunk size and limits of a file.
         clocks: returns clock readings, which are written at both ends of each file and once a
             minute.
@@ -90,8 +90,8 @@ class BagWriter:
         """Open a channel.
 
         Args:
-            topic: of the channel.
-            account: of lost messages; its counts are written at the end of each file.
+            topic: topic of the channel.
+            account: account of lost messages; its counts are written at the end of each file.
 
         Returns:
             Number of the channel, for `write`.

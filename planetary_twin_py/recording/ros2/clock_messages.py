@@ -29,7 +29,7 @@ def with_clock(
         playback: the recording.
         begin: start [ns after the first message].
         end: end [ns after the first message].
-        frequency: of /clock per recorded second [Hz].
+        frequency: frequency of /clock, per recorded second [Hz].
     """
     ticks = _Ticks(playback, begin, frequency)
     for message in playback.messages(begin, end):

@@ -97,21 +97,21 @@ class Decoder:
             RecordingError: the encoding of a wanted topic is not supported.
             MessageError: a message does not match its definition.
         """
-        found = self._topics.of(record)
-        if found is None:
+        described = self._topics.of(record)
+        if described is None:
             return None
         try:
-            return found.topic, found.types.deserialize_cdr(record.data, found.kind)
+            return described.topic, described.types.deserialize_cdr(record.data, described.kind)
         except Exception as reason:  # of many kinds: rosbags runs generated code
-            why = one_line(_why(found, record.data, reason), _LONGEST_REASON)
-            text = f"{self._source}: {found.topic}: a message {why}"
-            raise MessageError(found.topic, text) from None
+            why = one_line(_why(described, record.data, reason), _LONGEST_REASON)
+            text = f"{self._source}: {described.topic}: a message {why}"
+            raise MessageError(described.topic, text) from None
 
 
-def _why(found: Described, data: bytes, reason: Exception) -> str:
+def _why(described: Described, data: bytes, reason: Exception) -> str:
     """The error of a message, with the field if it can be determined."""
     try:
-        Layout(found.types.fielddefs, found.kind, data)
+        Layout(described.types.fielddefs, described.kind, data)
     except LayoutError as error:
         return str(error)
     return f"does not match its definition: {reason or type(reason).__name__}"

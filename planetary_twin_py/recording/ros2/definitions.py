@@ -43,7 +43,7 @@ def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -
     """Topics of a twin in `namespace` whose messages follow from its windows.
 
     Args:
-        namespace: of the twin.
+        namespace: namespace of the twin.
         moving_axes: whether its axes move.
         driven: whether torques or motions are given at its ports.
     """
@@ -54,8 +54,8 @@ def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -
 def _topic(name: str, kind: str, latched: bool) -> Topic:
     types = get_typestore(Stores.ROS2_JAZZY)
     definition = definition_of(kind)
-    found = get_types_from_msg(definition, kind)
-    types.register({name: made for name, made in found.items() if name not in types.types})
+    parsed = get_types_from_msg(definition, kind)
+    types.register({name: fields for name, fields in parsed.items() if name not in types.types})
     return Topic(name, kind, types.hash_rihs01(kind), definition, [_offer(latched)])
 
 
@@ -68,9 +68,9 @@ def _text(kind: str) -> str:
     """Text of one .msg file, from this package or from rosbags."""
     package, _, name = kind.split("/")
     if package == "planetary_twin_msgs":
-        own = Path(__file__).parent / "msg" / f"{name}.msg"
+        file = Path(__file__).parent / "msg" / f"{name}.msg"
         # If installed as a ROS package, the files belong to planetary_twin_msgs.
-        return own.read_text(encoding="utf-8") if own.is_file() else installed_definition(kind)
+        return file.read_text(encoding="utf-8") if file.is_file() else installed_definition(kind)
     text, _ = get_typestore(Stores.ROS2_JAZZY).generate_msgdef(kind, ros_version=2)
     return text.partition("=" * 80)[0]
 

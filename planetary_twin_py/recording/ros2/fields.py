@@ -25,24 +25,24 @@ def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
 def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
     """Fields of GearboxState: the general ones, and the per-mesh fields among `names`."""
     planets = len(window.meshes) // 2
-    found: dict[str, Any] = {
+    fields: dict[str, Any] = {
         "planets": planets,
         "simulated_time": window.end,
         "interval": window.end - window.start,
     }
-    found |= {name: float(getattr(window, name)) for name in TRAIN}
+    fields |= {name: float(getattr(window, name)) for name in TRAIN}
     for member in MEMBERS:
         body = window.bodies.index(member)
-        found[f"{member}_angle"] = float(window.angle[body])
-        found[f"{member}_speed"] = float(window.mean_speed[body])
+        fields[f"{member}_angle"] = float(window.angle[body])
+        fields[f"{member}_speed"] = float(window.mean_speed[body])
     first = window.bodies.index("planet_1")
-    found["planet_angle"] = with_room(window.angle[first : first + planets])
-    found["planet_speed"] = with_room(window.mean_speed[first : first + planets])
+    fields["planet_angle"] = with_room(window.angle[first : first + planets])
+    fields["planet_speed"] = with_room(window.mean_speed[first : first + planets])
     for name in names:
         if shown := mesh_field(name, planets):
             statistic, mesh = shown
-            found[name] = with_room(window.mesh[statistic][mesh : mesh + planets])
-    return found
+            fields[name] = with_room(window.mesh[statistic][mesh : mesh + planets])
+    return fields
 
 
 def waveform_fields(window: Window) -> dict[str, Any]:
@@ -76,13 +76,13 @@ def joint_fields_like(window: Window, message: Any) -> dict[str, Any]:
             run, so they are used here, with the remainder from `window`. Earlier versions recorded
             no torques.
     """
-    found, recorded = joint_fields(window), np.asarray(message.position)
+    fields, recorded = joint_fields(window), np.asarray(message.position)
     if not len(message.effort):
-        del found["effort"]
+        del fields["effort"]
     if recorded.shape == window.angle.shape:
         turns = np.rint((recorded - window.angle) / TURN)
-        found["position"] = window.angle + TURN * np.where(np.isfinite(turns), turns, 0.0)
-    return found
+        fields["position"] = window.angle + TURN * np.where(np.isfinite(turns), turns, 0.0)
+    return fields
 
 
 def with_room(values: np.ndarray) -> np.ndarray:

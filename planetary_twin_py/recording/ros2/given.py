@@ -24,16 +24,16 @@ def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
     Other joints, missing values and NaN are ignored, as ros2_control does with interfaces that no
     controller claims.
     """
-    found, names = {}, list(message.name)
+    values_by_name, names = {}, list(message.name)
     for side, joint in zip(SIDES, joints, strict=True):
         if joint not in names:
             continue
-        place = names.index(joint)
+        joint_index = names.index(joint)
         for field, quantity in FIELDS.items():
             values = getattr(message, field)
-            if place < len(values) and not math.isnan(values[place]):
-                found[f"{side}_{quantity}"] = float(values[place])
-    return found
+            if joint_index < len(values) and not math.isnan(values[joint_index]):
+                values_by_name[f"{side}_{quantity}"] = float(values[joint_index])
+    return values_by_name
 
 
 def fields_of(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str, Any]:

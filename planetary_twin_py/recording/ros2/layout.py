@@ -105,35 +105,35 @@ class _Walk:
     def whole(self, kind: str) -> np.dtype[Any]:
         """The message, from its encapsulation to its last byte."""
         fields = self._fields(kind)
-        behind = len(self._message) - self._place
-        if behind > _PADDING:
-            raise LayoutError(f"has {behind} bytes after the last field of {kind}")
+        excess = len(self._message) - self._place
+        if excess > _PADDING:
+            raise LayoutError(f"has {excess} bytes after the last field of {kind}")
         return self._structure(fields, 0, len(self._message))
 
     def _fields(self, kind: str) -> list[_Field]:
-        found: list[_Field] = []
+        fields: list[_Field] = []
         for name, description in self._definitions[kind][1]:
             self._path.append(name)
-            found.append((name, *self._field(description)))
+            fields.append((name, *self._field(description)))
             self._path.pop()
-        return found
+        return fields
 
     def _field(self, description: Any) -> tuple[Any, int]:
         """Format and position of a field."""
         self._count_of_fields += 1
         if self._count_of_fields > _MOST_FIELDS:
-            raise LayoutError(f"has more than {_MOST_FIELDS} fields{self._here()}")
-        sort, of = description
-        if sort == Nodetype.BASE:
-            if of[0] == "string":
+            raise LayoutError(f"has more than {_MOST_FIELDS} fields{self._in_field()}")
+        node_type, detail = description
+        if node_type == Nodetype.BASE:
+            if detail[0] == "string":
                 size = self._count()
                 return f"S{size}", self._skip(size)
-            return self._numbers(of[0], ())
-        if sort == Nodetype.NAME:
+            return self._numbers(detail[0], ())
+        if node_type == Nodetype.NAME:
             begin = self._place
-            return self._structure(self._fields(of), begin, self._place), begin
-        element, size = of
-        if sort == Nodetype.SEQUENCE:
+            return self._structure(self._fields(detail), begin, self._place), begin
+        element, size = detail
+        if node_type == Nodetype.SEQUENCE:
             size = self._count()
         if element[0] == Nodetype.BASE and element[1][0] != "string":
             return self._numbers(element[1][0], (size,))
@@ -143,7 +143,7 @@ class _Walk:
 
     def _numbers(self, name: str, shape: tuple[int, ...]) -> tuple[Any, int]:
         if name not in _NUMBERS:
-            raise LayoutError(f"has a field of the unsupported type {name}{self._here()}")
+            raise LayoutError(f"has a field of the unsupported type {name}{self._in_field()}")
         form = np.dtype(self._order + _NUMBERS[name])
         count = int(np.prod(shape, dtype=int))
         if count:  # an empty sequence has no alignment
@@ -160,10 +160,10 @@ class _Walk:
         place = self._place
         self._place += size
         if self._place > len(self._message):
-            raise LayoutError(f"ends after {len(self._message)} bytes{self._here()}")
+            raise LayoutError(f"ends after {len(self._message)} bytes{self._in_field()}")
         return place
 
-    def _here(self) -> str:
+    def _in_field(self) -> str:
         return f", in its field {'.'.join(self._path)}"
 
     @staticmethod

@@ -85,7 +85,7 @@ class McapFile:
     ) -> None:
         """Append a message, and flush if those since the last flush cover the flush period.
 
-        So the loss of a kill has a limit in time by the stamps, however late a timer is.
+        A kill then loses messages of at most one flush period of log time, even if a timer is late.
         """
         # MCAP stores 32 bits of the sequence number.
         self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
@@ -99,14 +99,14 @@ class McapFile:
         """Write all buffered data to the disk (fsync)."""
         self._unflushed = Extent()
         self._writer.flush()  # type: ignore[no-untyped-call]
-        self._check_place()
+        self._check_path()
         os.fsync(self._stream.fileno())
 
     def finish(self) -> None:
         """Write the indexes and close the file."""
         self._writer.finish()  # type: ignore[no-untyped-call]
         self._stream.flush()
-        self._check_place()
+        self._check_path()
         os.fsync(self._stream.fileno())
         self._stream.close()
         self._indexes.close()
@@ -118,11 +118,11 @@ class McapFile:
         with contextlib.suppress(OSError):
             self._indexes.close()
 
-    def _check_place(self) -> None:
+    def _check_path(self) -> None:
         """Raise `FileNotFoundError` if the file was deleted or moved, but is still writable."""
         try:
-            here = os.path.samestat(os.stat(self.path), os.fstat(self._stream.fileno()))
+            same_file = os.path.samestat(os.stat(self.path), os.fstat(self._stream.fileno()))
         except FileNotFoundError:
-            here = False
-        if not here:
+            same_file = False
+        if not same_file:
             raise FileNotFoundError(errno.ENOENT, "deleted or moved away", str(self.path))

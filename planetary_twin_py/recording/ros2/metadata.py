@@ -56,10 +56,10 @@ def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
     Raises:
         ValueError: the text is not a list of profiles.
     """
-    found = _profiles(text)
-    if isinstance(found, ValueError):
-        raise found
-    return found
+    profiles = _profiles(text)
+    if isinstance(profiles, ValueError):
+        raise profiles
+    return profiles
 
 
 @lru_cache(maxsize=1024)  # most topics of a bag have the same profiles; errors are cached, too
@@ -71,13 +71,13 @@ def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
 
 
 def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
-    found = read_yaml(text, _QOS) or []
-    if not isinstance(found, list) or not all(isinstance(qos, dict) for qos in found):
+    profiles = read_yaml(text, _QOS) or []
+    if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
         raise ValueError(f"{_QOS}: must be a list of mappings")
-    for qos in found:
+    for qos in profiles:
         if not isinstance(qos.get("depth", 0), int):
             raise ValueError(f"{_QOS}: depth = {qos['depth']!r}: must be a whole number")
-    return found
+    return profiles
 
 
 def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:
@@ -95,15 +95,15 @@ class FileEntry(NamedTuple):
 
 def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]) -> dict[str, Any]:
     """Metadata of a bag from its files, and its topics with their message counts."""
-    whole = Extent()
+    extent = Extent()
     for file in files:
         if file.messages:
-            whole.include(file.extent.start)
-            whole.include(file.extent.end)
+            extent.include(file.extent.start)
+            extent.include(file.extent.end)
     return {
         "version": VERSION,
         "storage_identifier": "mcap",
-        **_span(whole, sum(file.messages for file in files)),
+        **_span(extent, sum(file.messages for file in files)),
         "topics_with_message_count": [_topic_entry(topic, count) for topic, count in topics],
         "compression_format": "",
         "compression_mode": "",

@@ -16,7 +16,7 @@ def choose_namespace(counts: Mapping[str, int], wanted: str | None, path: str | 
     Args:
         counts: numbers of messages by topic.
         wanted: namespace; None selects the only one.
-        path: of the recording, for error messages.
+        path: path of the recording, for error messages.
 
     Returns:
         The namespace.
@@ -25,19 +25,19 @@ def choose_namespace(counts: Mapping[str, int], wanted: str | None, path: str | 
         RecordingError: there is no gearbox, not the wanted one, or more than one.
     """
     states = [name for name, count in counts.items() if count and name.endswith("/" + STATE)]
-    found = sorted(name[: -len(STATE) - 1] for name in states)
-    if not found:
+    namespaces = sorted(name[: -len(STATE) - 1] for name in states)
+    if not namespaces:
         no_run = no_run_yet(Path(path), counts)
         raise RecordingError(
             no_run or f"{path}: has no {STATE} messages, so it is not of a gearbox"
         )
     if wanted is None:
-        if len(found) > 1:
+        if len(namespaces) > 1:
             raise RecordingError(
-                f"{path}: has several gearboxes, choose --namespace from {', '.join(found)}"
+                f"{path}: has several gearboxes, choose --namespace from {', '.join(namespaces)}"
             )
-        return found[0]
+        return namespaces[0]
     wanted = "/" + wanted.strip("/") if wanted.strip("/") else ""
-    if wanted not in found:
-        raise RecordingError(f"namespace = {wanted}: {path} has {', '.join(found)}")
+    if wanted not in namespaces:
+        raise RecordingError(f"namespace = {wanted}: {path} has {', '.join(namespaces)}")
     return wanted

@@ -17,7 +17,7 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
     """Return a line if a recording of a twin has no end, and no state or no origin of its run.
 
     Args:
-        path: of the recording.
+        path: path of the recording.
         counts: numbers of messages by topic; 0 for a topic without messages.
 
     Returns:
@@ -25,11 +25,11 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
         if it is of something else than a twin.
     """
     known = {name.rpartition("/")[2] for name in counts}
-    there = {name.rpartition("/")[2] for name, count in counts.items() if count}
-    missing = [name for name in (ORIGIN, STATE) if name not in there]
-    if STATE in there and ORIGIN not in known:  # of a version without it
+    with_messages = {name.rpartition("/")[2] for name, count in counts.items() if count}
+    missing = [name for name in (ORIGIN, STATE) if name not in with_messages]
+    if STATE in with_messages and ORIGIN not in known:  # of a version without it
         return None
-    of_a_twin = STATE in known or there <= _OF_A_TWIN
+    of_a_twin = STATE in known or with_messages <= _OF_A_TWIN
     if not (missing and of_a_twin and any(damaged_summary(file) for file in files_of(path))):
         return None
     return (

@@ -38,7 +38,7 @@ class Playback:
             read.
 
     Args:
-        path: of an .mcap file, or a folder of them.
+        path: path of an .mcap file, or a folder of them.
         chosen: topics to play; all if empty.
 
     Raises:
@@ -51,10 +51,10 @@ class Playback:
         self.counts: Counter[str] = Counter()
         extent = Extent()
         self._segments = [open_segment(file, self._add_remark) for file in files_of(path)]
-        held = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
+        recorded = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
         for name in chosen:
-            if name not in held:
-                raise RecordingError(f"topics: {name}: {path} has {', '.join(sorted(held))}")
+            if name not in recorded:
+                raise RecordingError(f"topics: {name}: {path} has {', '.join(sorted(recorded))}")
         for segment in self._segments:
             for channel, schema in segment.contents.channels.values():
                 if not chosen or channel.topic in chosen:
@@ -63,7 +63,7 @@ class Playback:
             if segment.contents.extent.start:
                 extent.include(segment.contents.extent.start)
                 extent.include(segment.contents.extent.end)
-        self.counts.update(dict.fromkeys(held, 0))
+        self.counts.update(dict.fromkeys(recorded, 0))
         no_run = no_run_yet(path, self.counts)
         if not extent.start:
             raise RecordingError(no_run or f"{path}: has no messages")
@@ -101,15 +101,15 @@ class Playback:
     def _latched(self, before: int) -> list[tuple[str, Message]]:
         """Latched messages that are valid at a log time [ns], oldest first."""
         missing = {name: topic.kept for name, topic in self.topics.items() if topic.kept}
-        found: list[tuple[str, Message]] = []
+        latched: list[tuple[str, Message]] = []
         for segment in reversed(self._segments):
             if not missing or before <= self.start:
                 break
             for name, messages in segment.newest(missing, before).items():
-                found += [(name, message) for message in messages]
+                latched += [(name, message) for message in messages]
                 missing[name] -= len(messages)
             missing = {name: count for name, count in missing.items() if count}
-        return sorted(found, key=lambda pair: pair[1].log_time)
+        return sorted(latched, key=lambda pair: pair[1].log_time)
 
     def _add(self, channel: Channel, schema: Schema | None, path: Path) -> None:
         if schema is None or channel.message_encoding != "cdr":

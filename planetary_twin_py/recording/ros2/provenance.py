@@ -27,10 +27,10 @@ def host_clocks() -> dict[str, str]:
 
 def software(packages: Iterable[str]) -> dict[str, str]:
     """Versions of Python, the operating system and the installed `packages`."""
-    found = {"python": platform.python_version(), "system": platform.platform()}
+    versions = {"python": platform.python_version(), "system": platform.platform()}
     for package in packages:
         try:
-            found[package] = version(package)
+            versions[package] = version(package)
         except PackageNotFoundError:
             continue
-    return found
+    return versions

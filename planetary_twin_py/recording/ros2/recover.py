@@ -28,8 +28,8 @@ def recover(path: Path, folder: Path) -> Recovered:
     """Copy the intact parts of a recording.
 
     Args:
-        path: of an MCAP file, or of a folder of them.
-        folder: of the new recording.
+        path: path of an MCAP file, or of a folder of them.
+        folder: folder of the new recording.
 
     Returns:
         Saved messages and warnings.

@@ -41,10 +41,10 @@ class Repeats:
 
     def known(self, topic: str, message: Message) -> bool:
         """Whether a message of a latched topic has occurred before."""
-        mark = topic, message.publish_time, message.sequence, hash(message.data)
-        if mark in self._seen:
+        identity = topic, message.publish_time, message.sequence, hash(message.data)
+        if identity in self._seen:
             return True
-        self._seen.add(mark)
+        self._seen.add(identity)
         return False
 
 

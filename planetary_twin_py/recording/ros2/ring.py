@@ -49,10 +49,10 @@ class Ring:
         messages.append(Serialised(channel, data, log_time, publish_time, sequence))
         self.size += len(data)
         while messages[0].log_time < log_time - self._duration:
-            old = messages.popleft()
-            self.size -= len(old.data)
-            if old.channel in self._latched:
-                self._latched.keep(old)
+            dropped = messages.popleft()
+            self.size -= len(dropped.data)
+            if dropped.channel in self._latched:
+                self._latched.keep(dropped)
 
     def flush(self) -> None:
         """Do nothing: messages are in memory only."""
@@ -65,10 +65,10 @@ class Ring:
         accounts = [TopicAccount(latched=True) for _ in self._topics]
         channels = [bag.add_topic(*pair) for pair in zip(self._topics, accounts, strict=True)]
         for message in self._window():
-            place = message.channel - 1
-            bag.write(channels[place], *message[1:])
-            senders = partial(len, self._topics[place].offered_qos)
-            accounts[place].receive(message.sequence, senders)
+            channel_index = message.channel - 1
+            bag.write(channels[channel_index], *message[1:])
+            publishers = partial(len, self._topics[channel_index].offered_qos)
+            accounts[channel_index].receive(message.sequence, publishers)
 
     def _window(self) -> Iterator[Serialised]:
         """Latched messages that are valid at the start of the window, then the window."""

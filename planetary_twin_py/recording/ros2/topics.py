@@ -3,7 +3,7 @@
 STATE = "gearbox_state"
 WAVEFORM = "mesh_waveform"
 AXES_STATE = "axes_state"  # only of a twin whose axes move
-AXES_WAVEFORM = "axes_waveform"  # likewise
+AXES_WAVEFORM = "axes_waveform"  # only of a twin whose axes move
 JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"
@@ -18,7 +18,7 @@ def status_name(report: str, namespace: str) -> str:
 
     Args:
         report: kind of report, such as `REAL_TIME`.
-        namespace: of the twin, such as `/left`.
+        namespace: namespace of the twin, such as `/left`.
     """
     return "/".join(filter(None, (namespace.strip("/"), report)))
 

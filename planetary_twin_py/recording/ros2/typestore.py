@@ -48,20 +48,20 @@ def types_of(definition: bytes, kind: str) -> Typestore:
     if len(definition) > _LONGEST:
         raise DefinitionError(f"has {len(definition)} bytes: must be at most {_LONGEST}")
     try:
-        found = get_types_from_msg(definition.decode(), kind)
+        definitions = get_types_from_msg(definition.decode(), kind)
     except UnicodeDecodeError as reason:
         raise DefinitionError(f"must be in UTF-8, byte {reason.start + 1} is not") from None
     except Exception as reason:  # of many kinds, if the text is not a definition
         raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
-    _fields(found, kind, ())
+    _fields(definitions, kind, ())
     if kind in KINDS.values():
-        _compare(found, kind)
+        _compare(definitions, kind)
     types = get_typestore(Stores.EMPTY)
     try:
-        types.register(found)
+        types.register(definitions)
     except Exception as reason:  # of names that are not valid in Python
         raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
-    for name, value in absent(kind, dict(found[kind][1])).items():
+    for name, value in absent(kind, dict(definitions[kind][1])).items():
         setattr(types.types[kind], name, value)
     return types
 
@@ -71,14 +71,14 @@ def absent(kind: str, recorded: Collection[str]) -> dict[str, Any]:
 
     Args:
         kind: name of the type, `pkg/msg/Name`.
-        recorded: names of fields that there are.
+        recorded: names of the fields that the definition has.
 
     Returns:
         By name, NaN of a floating-point field, as of a quantity that does not exist; the default of
-        ROS of any other. Nothing of a type that is not the twin's.
+        ROS of any other. Empty for a type that is not the twin's.
     """
-    own = _own(kind)[kind][1] if kind in KINDS.values() else ()
-    return {name: _empty(*described) for name, described in own if name not in recorded}
+    own_fields = _own(kind)[kind][1] if kind in KINDS.values() else ()
+    return {name: _empty(*described) for name, described in own_fields if name not in recorded}
 
 
 def is_recorded(message: Any, field: str) -> bool:
@@ -86,33 +86,33 @@ def is_recorded(message: Any, field: str) -> bool:
     return field in message.__dataclass_fields__
 
 
-def _empty(sort: Nodetype, of: Any) -> Any:
+def _empty(node_type: Nodetype, detail: Any) -> Any:
     """Value in place of a field of this type."""
-    if sort == Nodetype.BASE:
-        return math.nan if of[0].startswith("float") else "" if of[0] == "string" else 0
-    if sort == Nodetype.ARRAY:
-        return np.full(of[1], _empty(*of[0]))
+    if node_type == Nodetype.BASE:
+        return math.nan if detail[0].startswith("float") else "" if detail[0] == "string" else 0
+    if node_type == Nodetype.ARRAY:
+        return np.full(detail[1], _empty(*detail[0]))
     return np.empty(0)
 
 
-def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
+def _fields(types: Any, kind: str, parents: tuple[str, ...]) -> int:
     """Number of fields of a message of a type, including nested messages."""
     if kind not in types:
         raise DefinitionError(f"does not describe {kind}")
-    if kind in above:
+    if kind in parents:
         raise DefinitionError(f"is recursive: {kind} contains itself")
     count, known = 0, dict[str, int]()
-    for _, (sort, of) in types[kind][1]:
-        times = 1
-        if sort in _BOUNDED:
-            (sort, of), size = of
-            times = size if sort == Nodetype.NAME else 1
-        if sort != Nodetype.NAME:
+    for _, (node_type, detail) in types[kind][1]:
+        repetitions = 1
+        if node_type in _BOUNDED:
+            (node_type, detail), size = detail
+            repetitions = size if node_type == Nodetype.NAME else 1
+        if node_type != Nodetype.NAME:
             count += 1
             continue
-        if of not in known:
-            known[of] = _fields(types, of, (*above, kind))
-        count += max(times, 1) * known[of]
+        if detail not in known:
+            known[detail] = _fields(types, detail, (*parents, kind))
+        count += max(repetitions, 1) * known[detail]
         if count > _MOST_FIELDS:
             raise DefinitionError(f"has more than {_MOST_FIELDS} fields in {kind}")
     return count
@@ -123,11 +123,11 @@ def _compare(types: Any, kind: str) -> None:
     for name, (_, fields) in _own(kind).items():
         if name not in types:
             raise DefinitionError(f"does not describe {name}")
-        there = dict(types[name][1])
+        recorded = dict(types[name][1])
         for field, description in fields:
-            lacking = name == kind and field not in there and field not in _NEEDED
-            if not lacking and there.get(field) != description:
-                wrong = "has another type" if field in there else "is missing"
+            may_be_missing = name == kind and field not in recorded and field not in _NEEDED
+            if not may_be_missing and recorded.get(field) != description:
+                wrong = "has another type" if field in recorded else "is missing"
                 raise DefinitionError(f"does not match this version: {name}.{field} {wrong}")
 
 

@@ -93,22 +93,22 @@ class AxesInMemory:
 
 def axes_samples_of(messages: Iterable[NDArray[Any]]) -> AxesSamples | None:
     """The samples of structured arrays of AxesWaveform; None if there are none."""
-    found = [rows[rows["samples"] > 0] for rows in messages]
-    found = [rows for rows in found if len(rows)]
-    if not found:
+    arrays = [rows[rows["samples"] > 0] for rows in messages]
+    arrays = [rows for rows in arrays if len(rows)]
+    if not arrays:
         return None
     columns = {
         name: np.concatenate(
             [
                 message.reshape(bodies, 2, -1).transpose(2, 0, 1)
-                for rows in found
+                for rows in arrays
                 for message, bodies in zip(rows[name], _bodies(rows)[name], strict=True)
             ],
             dtype=np.float32,
         )
         for name in ("displacement", "bearing_force", "orbit")
     }
-    time, stamp = times(found)
+    time, stamp = times(arrays)
     return AxesSamples(time, stamp, **columns)
 
 

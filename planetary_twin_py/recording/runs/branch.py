@@ -77,7 +77,7 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     later = [interval for interval in intervals if interval.begin / TICKS >= begins]
     sides = {PORT_FIELDS[name] for name in values if name in PORT_FIELDS}
     given = run.given | commanded(run.given, later, sides, branch.commands or NO_COMMANDS)
-    given = {stamp: each for stamp, each in given.items() if each}
+    given = {stamp: commands for stamp, commands in given.items() if commands}
     return begins, RecordedRun(origin, intervals, before + after, given)
 
 
@@ -100,8 +100,10 @@ def commanded(
     """
     waiting, given = deque(commands), dict[int, dict[str, float]]()
     for interval in intervals:
-        kept = recorded.get(interval.stamp, {}).items()
-        values = {name: value for name, value in kept if name.split("_")[0] not in replaced}
+        recorded_values = recorded.get(interval.stamp, {}).items()
+        values = {
+            name: value for name, value in recorded_values if name.split("_")[0] not in replaced
+        }
         while waiting and waiting[0][0] <= interval.begin:
             values |= waiting.popleft()[1].values
         given[interval.stamp] = values
@@ -142,16 +144,16 @@ def _stretched(intervals: list[Interval], duration: float | None) -> list[Interv
     if not 1.0 / TICKS <= duration <= longest:
         raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
     end = round(duration * TICKS)
-    kept = [interval for interval in intervals if interval.begin < end]
+    stretched = [interval for interval in intervals if interval.begin < end]
     length = max(interval.end - interval.begin for interval in intervals)
-    while kept[-1].end < end:
-        last = kept[-1]
+    while stretched[-1].end < end:
+        last = stretched[-1]
         stamp = last.stamp + nanoseconds(length)
         setting = last.tolerance, last.sample_rate
-        kept.append(Interval(last.number + 1, stamp, last.end, last.end + length, *setting))
-    over = kept[-1].end - end
-    kept[-1] = kept[-1]._replace(end=end, stamp=kept[-1].stamp - nanoseconds(over))
-    return kept
+        stretched.append(Interval(last.number + 1, stamp, last.end, last.end + length, *setting))
+    excess = stretched[-1].end - end
+    stretched[-1] = stretched[-1]._replace(end=end, stamp=stretched[-1].stamp - nanoseconds(excess))
+    return stretched
 
 
 def _stamp_at(run: RecordedRun, intervals: list[Interval], time: float) -> int:

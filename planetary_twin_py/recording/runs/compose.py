@@ -39,8 +39,8 @@ class Composer:
 
     Args:
         bag: where to write.
-        topics: to write; topics that are not of the twin are ignored.
-        namespace: of the twin.
+        topics: topics to write; topics that are not of the twin are ignored.
+        namespace: namespace of the twin.
         frame: name of the base frame of the gearbox.
     """
 
@@ -82,7 +82,7 @@ class Composer:
         """Write the messages of a window.
 
         Args:
-            window: of the twin.
+            window: window of the twin.
             stamp: ROS time of its end [ns].
             first: ROS time of its first sample [ns].
         """
@@ -119,9 +119,9 @@ class Composer:
 
     def _given(self, window: Window) -> Row:
         """Fields of the commands at the ports in a window."""
-        input_joint, output_joint = (f"{window.bodies[at]}_joint" for at in window.members[:2])
-        found = fields_of(window.given, (input_joint, output_joint))
-        return found | {field: np.array(found[field], dtype=float) for field in FIELDS}
+        input_joint, output_joint = (f"{window.bodies[body]}_joint" for body in window.members[:2])
+        fields = fields_of(window.given, (input_joint, output_joint))
+        return fields | {field: np.array(fields[field], dtype=float) for field in FIELDS}
 
     def _state(self, window: Window) -> Row:
         if STATE not in self._kinds:
@@ -146,7 +146,13 @@ class Composer:
         return [name for name, _ in self._types.fielddefs[self._kinds[topic]][1]]
 
     def _add(self, name: str, topic: Topic) -> None:
-        found = get_types_from_msg(topic.definition, topic.type)
-        self._types.register({k: v for k, v in found.items() if k not in self._types.types})
+        definitions = get_types_from_msg(topic.definition, topic.type)
+        self._types.register(
+            {
+                name_of_type: fields
+                for name_of_type, fields in definitions.items()
+                if name_of_type not in self._types.types
+            }
+        )
         self._kinds[name] = topic.type
         self._channels[name] = self._bag.add_topic(topic)

@@ -25,8 +25,8 @@ def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Even
     """Read starts, resets, missing messages, changed settings, and loss of contact.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         remarks: warnings are appended.
 
     Raises:
@@ -54,10 +54,10 @@ def _changes(before: Any, state: Any) -> Iterator[str]:
         measured = math.isnan(now)  # only simulated intervals have these settings
         if not measured and (before is None or now != getattr(before, name)):
             yield text.format(now)
-    lost, already = _parted(state), [] if before is None else _parted(before)
-    if lost and not already:
-        yield f"teeth separate in {', '.join(lost)}"
-    if already and not lost:
+    separated, already = _parted(state), [] if before is None else _parted(before)
+    if separated and not already:
+        yield f"teeth separate in {', '.join(separated)}"
+    if already and not separated:
         yield "teeth remain in contact in every mesh"
 
 

@@ -71,28 +71,30 @@ def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followe
     wanted = {f"{namespace}/{name}": name for name in (ESTIMATE, RESIDUALS, EVENT)}
     if f"{namespace}/{ESTIMATE}" not in topics:
         return None
-    found: dict[str, list[Any]] = {name: [] for name in wanted.values()}
+    messages_of: dict[str, list[Any]] = {name: [] for name in wanted.values()}
     for file in files_of(path):
         decoder = Decoder(file, wanted.__contains__)
         for record in records_of(file, []):  # the remarks are those of the reader of the twin
             if (message := decoder.read(record)) is not None:
-                found[wanted[message[0]]].append(message[1])
-    if not found[ESTIMATE]:
+                messages_of[wanted[message[0]]].append(message[1])
+    if not messages_of[ESTIMATE]:
         return None
     # An event is published again if its size changes: the last message counts.
-    events = {one.number: one for one in found[EVENT]}
+    events = {event.number: event for event in messages_of[EVENT]}
     return Followed(
-        _columns(found[ESTIMATE], ESTIMATED),
-        _columns(found[RESIDUALS], BALANCE),
-        tuple((_stamp(one), f"{one.what}: {one.evidence}") for one in events.values()),
+        _columns(messages_of[ESTIMATE], ESTIMATED),
+        _columns(messages_of[RESIDUALS], BALANCE),
+        tuple((_stamp(event), f"{event.what}: {event.evidence}") for event in events.values()),
     )
 
 
 def _columns(messages: Sequence[Any], names: Sequence[str]) -> MessageColumns:
     """Convert messages to columns in the order of their stamps."""
-    stamps = np.array([_stamp(one) for one in messages], dtype=np.int64)
+    stamps = np.array([_stamp(message) for message in messages], dtype=np.int64)
     order = np.argsort(stamps, kind="stable")
-    columns = {name: np.array([getattr(one, name) for one in messages], float) for name in names}
+    columns = {
+        name: np.array([getattr(message, name) for message in messages], float) for name in names
+    }
     return MessageColumns(stamps[order], {name: values[order] for name, values in columns.items()})
 
 

@@ -38,7 +38,7 @@ class TopicInfo:
     lost: int | None = None
     """Messages published but not received, by the recorder's account; None without one."""
     before: int = 0
-    """Of these, published before the first received message."""
+    """Lost messages that were published before the first received one."""
     first: int = 0
     last: int = 0
     longest_gap: int = 0
@@ -119,13 +119,13 @@ def read_info(*paths: Path) -> Info:
     """
     collected = _Collector(Info([file for path in paths for file in files_of(path)]))
     for file in collected.info.files:
-        more = deepcopy(collected)
+        attempt = deepcopy(collected)
         try:
-            more.look_up(file, Index(file))
+            attempt.look_up(file, Index(file))
         except UNSOUND:  # truncated without an index, or damaged
             collected.read(file)
         else:
-            collected = more
+            collected = attempt
     collected.warn_of_missing()
     info = collected.info
     counts = {name: topic.recorded for name, topic in info.topics.items()}
@@ -161,14 +161,14 @@ class _Collector:
                 times.setdefault(names[record.channel_id], []).append(record.log_time)
             elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
                 accounts.append(record.metadata)
-            if found := decoder.read(record):
-                self._learn(*found)
-        for name, taken in times.items():
-            self.info.topics[name].add(taken)
-        self._settle(accounts)
+            if decoded := decoder.read(record):
+                self._add_message(*decoded)
+        for name, log_times in times.items():
+            self.info.topics[name].add(log_times)
+        self._add_losses(accounts)
 
     def look_up(self, file: Path, index: Index) -> None:
-        """The same from the index of a file, and the few messages that are needed."""
+        """Add the contents of a file from its index and the few messages that are needed."""
         decoder = Decoder(file, _is_decoded)
         self._repeats.next_file()
         for schema in index.schemas.values():
@@ -183,18 +183,18 @@ class _Collector:
                 continue
             messages = _Messages(index, number, decoder)
             if channel.topic.endswith(f"/{STATE}") and len(messages):
-                self._follow(channel.topic, messages[0])
-                found = _covered(messages)
-                self.info.simulated += found.time
-                self._missing[channel.topic] += found.missing
+                self._count_missing(channel.topic, messages[0])
+                covered = _cover(messages)
+                self.info.simulated += covered.time
+                self._missing[channel.topic] += covered.missing
                 self._states[channel.topic] = messages[len(messages) - 1]
             elif channel.topic.endswith(f"/{POINT}"):
                 changes += [(times[k], channel.topic, messages[k]) for k in new]
             elif channel.topic == REPORT:
-                self.info.report |= _report(messages)
+                self.info.report |= _newest_report(messages)
         for _, topic, message in sorted(changes, key=lambda change: change[0]):
-            self._learn(topic, message)
-        self._settle(
+            self._add_message(topic, message)
+        self._add_losses(
             [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
         )
 
@@ -204,10 +204,10 @@ class _Collector:
         self._repeats.repeated(index.channels[channel])
         if not self._repeats.is_latched(channel):
             return np.arange(count)
-        fresh = [k for k in range(count) if not self._repeats.repeated(index.message(channel, k))]
-        return np.array(fresh, dtype=np.intp)
+        new = [k for k in range(count) if not self._repeats.repeated(index.message(channel, k))]
+        return np.array(new, dtype=np.intp)
 
-    def _follow(self, topic: str, state: Any) -> None:
+    def _count_missing(self, topic: str, state: Any) -> None:
         """Count the states that are missing between the last one and `state`."""
         if topic in self._states:
             self._missing[topic] += _missing_between(self._states[topic], state)
@@ -223,7 +223,7 @@ class _Collector:
                     "recording contains no count of losses"
                 )
 
-    def _settle(self, accounts: list[Mapping[str, str]]) -> None:
+    def _add_losses(self, accounts: list[Mapping[str, str]]) -> None:
         """Add the losses of a file, which may list topics without messages."""
         for account in accounts:
             try:
@@ -235,13 +235,13 @@ class _Collector:
                 topic.lost = (topic.lost or 0) + lost
                 topic.before += lost - missed
 
-    def _learn(self, topic: str, message: Any) -> None:
+    def _add_message(self, topic: str, message: Any) -> None:
         """Add the contents of a message."""
         if topic.endswith(f"/{STATE}"):
             self.info.simulated += message.interval
-            self._follow(topic, message)
+            self._count_missing(topic, message)
         elif topic == REPORT:
-            self.info.report |= _figures(message)
+            self.info.report |= _report_values(message)
         else:
             last = self._points.get(topic)
             values = values_of_point(message)
@@ -272,7 +272,7 @@ class _Covered(NamedTuple):
     missing: int
 
 
-def _covered(states: Sequence[Any]) -> _Covered:
+def _cover(states: Sequence[Any]) -> _Covered:
     """Time of at least one state, and the states missing between them.
 
     States of one run without missing messages cover the time between the first and the last, so
@@ -280,7 +280,7 @@ def _covered(states: Sequence[Any]) -> _Covered:
     """
 
     def after(first: int, last: int) -> _Covered:
-        """The same, without the time of `first`."""
+        """States after `first`, up to `last`, without the time of `first`."""
         if first == last:
             return _Covered(0.0, 0)
         begin, end = states[first], states[last]
@@ -289,11 +289,13 @@ def _covered(states: Sequence[Any]) -> _Covered:
         if last == first + 1:
             return _Covered(float(end.interval), _missing_between(begin, end))
         middle = (first + last) // 2
-        left, right = after(first, middle), after(middle, last)
-        return _Covered(left.time + right.time, left.missing + right.missing)
+        first_half, second_half = after(first, middle), after(middle, last)
+        return _Covered(
+            first_half.time + second_half.time, first_half.missing + second_half.missing
+        )
 
-    found = after(0, len(states) - 1)
-    return found._replace(time=states[0].interval + found.time)
+    rest_covered = after(0, len(states) - 1)
+    return rest_covered._replace(time=states[0].interval + rest_covered.time)
 
 
 def _missing_between(begin: Any, end: Any) -> int:
@@ -307,17 +309,17 @@ def _same_run(begin: Any, end: Any) -> bool:
     return abs(stamp_of(end) - stamp_of(begin) - simulated * 1e9) < _ROUNDING
 
 
-def _report(reports: Sequence[Any]) -> dict[str, str]:
+def _newest_report(reports: Sequence[Any]) -> dict[str, str]:
     """The newest value of each key of REPORTED, and of other keys that were read on the way."""
     found: dict[str, str] = {}
     for number in reversed(range(len(reports))):
-        found = _figures(reports[number]) | found
+        found = _report_values(reports[number]) | found
         if found.keys() >= REPORTED:
             break
     return found
 
 
-def _figures(report: Any) -> dict[str, str]:
+def _report_values(report: Any) -> dict[str, str]:
     """Values of the real-time status of the simulation; empty for other reports."""
     statuses = [status for status in report.status if is_status(status.name, REAL_TIME)]
     return {item.key: item.value for status in statuses for item in status.values}

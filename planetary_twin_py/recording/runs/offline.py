@@ -37,7 +37,7 @@ def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda tim
     """Simulate and record.
 
     Args:
-        plan: of the run.
+        plan: plan of the run.
         out: a bag folder, or a file that ends in .mcap.
         progress: called with the simulated time [s].
 

@@ -60,13 +60,13 @@ def makers_here() -> Makers:
     """Software and machine of this process."""
     from ..._core import LEVEL, SOURCES
 
-    found = {}
+    versions = {}
     for package in SOFTWARE:
         try:
-            found[package] = version(package)
+            versions[package] = version(package)
         except PackageNotFoundError:
             continue
-    return Makers(SOURCES, f"x86-64-{LEVEL} {' '.join(libc_ver())}", found)
+    return Makers(SOURCES, f"x86-64-{LEVEL} {' '.join(libc_ver())}", versions)
 
 
 def read_origin(text: str) -> Origin:

@@ -55,15 +55,15 @@ class Ramp:
 
 def ramps(changes: Iterable[Changed]) -> list[Ramp]:
     """Group `changes`, in order, into ramps."""
-    found: list[Ramp] = []
+    grouped: list[Ramp] = []
     newest: dict[str, Ramp] = {}
     values: dict[str, dict[str, Any]] = {}
     for change in changes:
         known = values.setdefault(change.namespace, {})
-        under_way = newest.get(change.namespace)
-        if under_way is None or not under_way.add(change):
+        current = newest.get(change.namespace)
+        if current is None or not current.add(change):
             first = {name: known[name] for name in change.values if name in known}
             newest[change.namespace] = Ramp([change.time], first, change.values)
-            found.append(newest[change.namespace])
+            grouped.append(newest[change.namespace])
         known |= change.values
-    return found
+    return grouped

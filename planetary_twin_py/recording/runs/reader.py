@@ -64,7 +64,7 @@ class Recording:
     operating_point: Series
     blocks: Samples
     axes_state: Series
-    """Of axes that move; without rows where they are held."""
+    """States of axes that move; without rows where they are held."""
     axes_blocks: AxesBlocks
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
@@ -100,12 +100,12 @@ class Recording:
         return self.blocks.waveform(begin, end)
 
     def within(self, spans: Sequence[TimeSpan]) -> Recording:
-        """The same with only the samples of these time spans [s], in memory."""
-        found = [self.samples(begin, end) for begin, end in spans]
+        """Recording with only the samples of these time spans [s], in memory."""
+        waveforms = [self.samples(begin, end) for begin, end in spans]
         axes = [self.axes_blocks.samples(begin, end) for begin, end in spans]
         return replace(
             self,
-            blocks=InMemory(joined([part for part in found if part is not None])),
+            blocks=InMemory(joined([part for part in waveforms if part is not None])),
             axes_blocks=AxesInMemory(joined_axes([part for part in axes if part is not None])),
         )
 
@@ -134,8 +134,8 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     """Read a recording.
 
     Args:
-        path: of an .mcap file, or a folder of them.
-        namespace: of the gearbox; None if there is only one.
+        path: path of an .mcap file, or a folder of them.
+        namespace: namespace of the gearbox; None if there is only one.
 
     Returns:
         The recording.
@@ -143,19 +143,23 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     Raises:
         RecordingError: there is nothing to read.
     """
-    found = _Found()
+    collected = _Collector()
     for file in files_of(Path(path)):
-        found.read(file)
-    counts = found.counts()
+        collected.read(file)
+    counts = collected.counts()
     namespace = choose_namespace(counts, namespace, path)
-    found.remarks += filter(None, [no_run_yet(Path(path), counts)])
-    rows = {name: found.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT, AXES_STATE)}
-    blocks = found.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
-    axes_blocks = found.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
+    collected.remarks += filter(None, [no_run_yet(Path(path), counts)])
+    rows = {
+        name: collected.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT, AXES_STATE)
+    }
+    blocks = collected.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
+    axes_blocks = collected.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
     recording = assemble(rows, blocks, axes_blocks, Path(path), namespace)
-    scene = found.scene_yaml or _scene(found.rows.get(f"{namespace}/{ORIGIN}", []), found.remarks)
-    topics = frozenset(found.topics)
-    return replace(recording, scene_yaml=scene, remarks=found.remarks, topics=topics)
+    scene = collected.scene_yaml or _scene(
+        collected.rows.get(f"{namespace}/{ORIGIN}", []), collected.remarks
+    )
+    topics = frozenset(collected.topics)
+    return replace(recording, scene_yaml=scene, remarks=collected.remarks, topics=topics)
 
 
 def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
@@ -179,10 +183,10 @@ def assemble(
 
     Args:
         rows: structured arrays by topic, with at least one state.
-        blocks: of the waveform.
-        axes_blocks: of the waveform of axes that move.
-        path: of the recording, for error messages.
-        namespace: of the gearbox.
+        blocks: blocks of the waveform.
+        axes_blocks: blocks of the waveform of axes that move.
+        path: path of the recording, for error messages.
+        namespace: namespace of the gearbox.
 
     Raises:
         RecordingError: the number of planets is invalid or changes.
@@ -191,9 +195,9 @@ def assemble(
     planets = np.unique(state["planets"])
     room = state["planet_angle"].shape[1]
     if len(planets) != 1 or not 1 <= planets[0] <= room:
-        found = ", ".join(map(str, planets[:3]))
+        listed = ", ".join(map(str, planets[:3]))
         raise RecordingError(
-            f"{path}: {namespace}/{STATE}: planets = {found}: must be one number in all messages, "
+            f"{path}: {namespace}/{STATE}: planets = {listed}: must be one number in all messages, "
             f"within 1 and {room}"
         )
     return Recording(
@@ -218,7 +222,7 @@ def _is_read(topic: str) -> bool:
     return topic.rpartition("/")[2] in (*TOPICS, ORIGIN)
 
 
-class _Found:
+class _Collector:
     """Collects structured arrays and waveform blocks of files, by topic."""
 
     def __init__(self) -> None:
@@ -243,16 +247,16 @@ class _Found:
                 if self._repeats.repeated(record):
                     continue
                 if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
-                    self.scene_yaml = self.scene_yaml or self._text(file, record)
-                elif found := topics.of(record):
+                    self.scene_yaml = self.scene_yaml or self._attachment_text(file, record)
+                elif described := topics.of(record):
                     channel = record.channel_id
                     if channel not in sources:
-                        fields = found.types.fielddefs
+                        fields = described.types.fielddefs
                         self._remark_absent(
-                            found.topic, absent(found.kind, dict(fields[found.kind][1]))
+                            described.topic, absent(described.kind, dict(fields[described.kind][1]))
                         )
-                        layouts = Layouts(fields, found.kind)
-                        sources[channel] = Source(file, channel, found.topic, layouts)
+                        layouts = Layouts(fields, described.kind)
+                        sources[channel] = Source(file, channel, described.topic, layouts)
                     messages.setdefault(channel, []).append(record.data)
             for channel, data in messages.items():
                 self._add(sources[channel], section.place, data)
@@ -269,7 +273,7 @@ class _Found:
         if fields and remark not in self.remarks:
             self.remarks.append(remark)
 
-    def _text(self, file: Path, attached: Attachment) -> str | None:
+    def _attachment_text(self, file: Path, attached: Attachment) -> str | None:
         """Text of an attachment; None and a warning if it is not UTF-8."""
         try:
             return attached.data.decode()
@@ -307,7 +311,7 @@ def _series(parts: list[NDArray[Any]], kind: str) -> Series:
 
 
 def _values(rows: NDArray[Any], name: str, empty: Mapping[str, Any]) -> NDArray[Any]:
-    """Of a field in each row."""
+    """Values of a field in each row."""
     if name in (rows.dtype.names or ()):
         return rows[name]
     value = np.asarray(empty[name])

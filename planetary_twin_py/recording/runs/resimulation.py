@@ -24,7 +24,7 @@ class Resimulation:
         self._stamps = [interval.stamp for run in runs for interval in run.intervals]
         self._begins = [run.origin.begins for run in runs for _ in run.intervals]
         self._windows = _windows(runs, remarks)
-        self._made: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
+        self._cache: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
         self._count = 0
 
     def interval_of(self, topic: str, message: Any) -> tuple[Interval, Window] | None:
@@ -34,26 +34,26 @@ class Resimulation:
         if place == len(self._stamps) or stamp < self._begins[place]:
             return None
         if topic in (WAVEFORM, AXES_WAVEFORM):  # stamped with its first sample
-            for candidate in (place, place + 1):  # it may be rounded to the end of the previous one
-                found = self._at(candidate)
-                if found and _holds(found[1], message):
-                    return found
+            for candidate in (place, place + 1):  # the stamp may be rounded to the interval before
+                simulated = self._simulated(candidate)
+                if simulated and _is_block_of(simulated[1], message):
+                    return simulated
             return None
-        return self._at(place) if self._stamps[place] == stamp else None
+        return self._simulated(place) if self._stamps[place] == stamp else None
 
-    def _at(self, place: int) -> tuple[Interval, Window] | None:
+    def _simulated(self, place: int) -> tuple[Interval, Window] | None:
         while self._count <= place:
-            made = next(self._windows, None)
-            if made is None:
+            simulated = next(self._windows, None)
+            if simulated is None:
                 break
-            self._made[self._count] = made
+            self._cache[self._count] = simulated
             self._count += 1
-            if len(self._made) > KEPT:
-                self._made.popitem(last=False)
-        return self._made.get(place)
+            if len(self._cache) > KEPT:
+                self._cache.popitem(last=False)
+        return self._cache.get(place)
 
 
-def _holds(window: Window, block: Any) -> bool:
+def _is_block_of(window: Window, block: Any) -> bool:
     """Whether a block of samples belongs to a window."""
     time = window.waveform.time
     return len(time) > 0 and bool(time[0] == block.start_time)
@@ -87,9 +87,9 @@ def steps(run: RecordedRun) -> Iterator[Step]:
 def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
     """Simulate every recorded interval, run by run."""
     for run in runs:
-        whole = without_gaps(run, remarks)
-        for interval, _, window in steps(replace(run, intervals=whole)):
+        intervals = without_gaps(run, remarks)
+        for interval, _, window in steps(replace(run, intervals=intervals)):
             if interval.recorded:
                 yield interval, window
-        if whole[-1] != run.intervals[-1]:
+        if intervals[-1] != run.intervals[-1]:
             return

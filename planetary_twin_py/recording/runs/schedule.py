@@ -66,8 +66,8 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
     """Read the runs of a gearbox.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         remarks: warnings about incomplete runs are appended.
 
     Returns:
@@ -94,7 +94,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
     An inferred interval has the length and settings of the next recorded one. Where that is
     inconsistent, the result ends, with a warning in `remarks`.
     """
-    whole: list[Interval] = []
+    intervals: list[Interval] = []
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
     for interval in run.intervals:
         length, missing = interval.end - interval.begin, interval.number - number - 1
@@ -107,10 +107,12 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
         for n in range(1, missing + 1):
             end = reached + n * length
             between = stamp + (interval.stamp - stamp) * n // (missing + 1)
-            whole.append(Interval(number + n, between, end - length, end, *interval[4:6], False))
-        whole.append(interval)
+            intervals.append(
+                Interval(number + n, between, end - length, end, *interval[4:6], False)
+            )
+        intervals.append(interval)
         number, reached, stamp = interval.number, interval.end, interval.stamp
-    return whole
+    return intervals
 
 
 def messages_of(
@@ -119,9 +121,9 @@ def messages_of(
     """Read messages of several topics in file order.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
-        names: of the topics, without namespace.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
+        names: names of the topics, without namespace.
         remarks: warnings are appended.
 
     Yields:
@@ -133,14 +135,14 @@ def messages_of(
         decoder = Decoder(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
             try:
-                found = decoder.read(record)
+                decoded = decoder.read(record)
             except MessageError as reason:
                 if not reason.topic.endswith(f"/{ORIGIN}"):
                     raise
                 remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
                 continue
-            if found:
-                yield wanted[found[0]], found[1]
+            if decoded:
+                yield wanted[decoded[0]], decoded[1]
 
 
 class _Collector:
@@ -181,8 +183,8 @@ class _Collector:
                 stamp_of(message),
                 end - round(message.interval * TICKS),
                 end,
-                _or(message.tolerance, TOLERANCE),
-                _or(message.sample_rate, SAMPLE_RATE),
+                _value_or_default(message.tolerance, TOLERANCE),
+                _value_or_default(message.sample_rate, SAMPLE_RATE),
             )
         )
 
@@ -190,11 +192,11 @@ class _Collector:
         self._commands.append((stamp_of(message), message))
 
     def runs(self, path: Path, remarks: list[str]) -> list[RecordedRun]:
-        runs, skipped = self._started()
+        runs, skipped = self._runs_from_start()
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
-        self._share_changes(runs, remarks)
-        self._share_commands(runs)
+        self._assign_changes(runs, remarks)
+        self._assign_commands(runs)
         for run in runs:
             run.changes = _with_ports(run)
         runs = [run for run in runs if run.intervals]
@@ -208,7 +210,7 @@ class _Collector:
             )
         return runs
 
-    def _started(self) -> tuple[list[RecordedRun], int]:
+    def _runs_from_start(self) -> tuple[list[RecordedRun], int]:
         """Runs that are recorded from their start, and the number of intervals of others."""
         runs: list[RecordedRun] = []
         begins = sorted(self._origins)
@@ -226,7 +228,7 @@ class _Collector:
             before = interval.stamp
         return runs, skipped
 
-    def _share_commands(self, runs: list[RecordedRun]) -> None:
+    def _assign_commands(self, runs: list[RecordedRun]) -> None:
         """Assign commands to runs by their stamps, which are those of the intervals."""
         for stamp, message in self._commands:
             if run := self._run_at(stamp, runs):
@@ -239,10 +241,10 @@ class _Collector:
         """
         begins = sorted(self._origins)
         place = bisect_right(begins, stamp)
-        found = (run for run in runs if place and run.origin.begins == begins[place - 1])
-        return next(found, None)
+        candidates = (run for run in runs if place and run.origin.begins == begins[place - 1])
+        return next(candidates, None)
 
-    def _share_changes(self, runs: list[RecordedRun], remarks: list[str]) -> None:
+    def _assign_changes(self, runs: list[RecordedRun], remarks: list[str]) -> None:
         """Assign the changes to runs by their stamps, which never decrease."""
         for change in self._changes:
             if run := self._run_at(change.stamp, runs):
@@ -253,7 +255,7 @@ class _Collector:
                     f"{after.number - before.number - 1} messages of {POINT} are missing: "
                     f"after {before.time:g} s, that run cannot be simulated again"
                 )
-                _cut(runs, before, after)
+                _remove_uncertain(runs, before, after)
 
 
 def _with_ports(run: RecordedRun) -> list[Change]:
@@ -264,23 +266,25 @@ def _with_ports(run: RecordedRun) -> list[Change]:
     """
     if not run.given or any(PORT_FIELDS.keys() & change.values.keys() for change in run.changes):
         return run.changes
-    waiting, found = deque(run.changes), list[Change]()
+    waiting, changes = deque(run.changes), list[Change]()
     before = of_scene = run.origin.scene.drive.ports
     stamp = run.origin.begins
     for interval in run.intervals:
         begin = interval.begin / TICKS
         while waiting and waiting[0].time <= begin:
-            found.append(waiting.popleft())
+            changes.append(waiting.popleft())
         given = run.given.get(interval.stamp)
         ports = of_scene._replace(**causality(given)) if given else before
         if ports != before:
             values = {name: getattr(ports, side) for name, side in PORT_FIELDS.items()}
-            found.append(Change(0, stamp, begin, (found[-1].values if found else {}) | values))
+            changes.append(
+                Change(0, stamp, begin, (changes[-1].values if changes else {}) | values)
+            )
         before, stamp = ports, interval.stamp
-    return [*found, *waiting]
+    return [*changes, *waiting]
 
 
-def _or(value: float, default: float) -> float:
+def _value_or_default(value: float, default: float) -> float:
     return default if math.isnan(value) else value
 
 
@@ -294,8 +298,10 @@ def stamp_of(message: Any) -> int:
     return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)
 
 
-def _cut(runs: list[RecordedRun], before: Change, after: Change) -> None:
+def _remove_uncertain(runs: list[RecordedRun], before: Change, after: Change) -> None:
     """Remove intervals that may depend on changes missing between two others."""
     for run in runs:
         if run.origin.begins < after.stamp:
-            run.intervals = [kept for kept in run.intervals if kept.stamp <= before.stamp]
+            run.intervals = [
+                interval for interval in run.intervals if interval.stamp <= before.stamp
+            ]

@@ -20,8 +20,8 @@ def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float]
     """Start and end [s] of the longest settled part of a recording; None if there is none.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox; None if there is only one.
+        path: path of the recording.
+        namespace: namespace of the gearbox; None if there is only one.
     """
     try:
         runs = read_runs(path, choose_namespace(Playback(path).counts, namespace, path), [])

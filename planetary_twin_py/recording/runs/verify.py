@@ -80,8 +80,8 @@ def verify(
     """Simulate the runs of a gearbox again and compare all published values.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         progress: called with the simulated time [s] up to which everything is compared.
 
     Returns:
@@ -96,19 +96,19 @@ def verify(
     here = makers_here()
     result.same_makers = all(run.origin.makers == here for run in runs)
     result.not_recorded = sum(_missing(run) for run in runs)
-    again = Resimulation(runs, result.remarks)
+    resimulation = Resimulation(runs, result.remarks)
     strays, balance, loosest = list[tuple[str, int]](), Balance(), 0.0
     newest = 0  # stamp of a state [ns]
     course = Course()
     for topic, message in messages_of(path, namespace, _COMPARED, []):
         newest = max(newest, stamp_of(message)) if topic == STATE else newest
-        if found := again.interval_of(topic, message):
-            _compare(result, topic, message, *found)
+        if simulated := resimulation.interval_of(topic, message):
+            _compare(result, topic, message, *simulated)
             if topic == STATE:
-                balance = balance.joined(balance_of_window(found[1]))
-                course = course.joined(found[1].course)
-                loosest = max(loosest, found[0].tolerance)
-            progress(found[1].end)
+                balance = balance.joined(balance_of_window(simulated[1]))
+                course = course.joined(simulated[1].course)
+                loosest = max(loosest, simulated[0].tolerance)
+            progress(simulated[1].end)
         else:
             strays.append((topic, stamp_of(message)))
     result.ledger = ledger_warning(balance, loosest)
@@ -167,8 +167,8 @@ def _compare(
 def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
     if topic == STATE:
         names = [field.name for field in fields(message)]  # of the version that recorded
-        found = state_fields(window, names)
-        return {name: found[name] for name in names if name in found}
+        fields_of_window = state_fields(window, names)
+        return {name: fields_of_window[name] for name in names if name in fields_of_window}
     if topic == WAVEFORM:
         return waveform_fields(window)
     if topic in OF_AXES:
@@ -187,7 +187,7 @@ def _axes(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
 
 
 def _size_beside(topic: str, message: Any, name: str) -> float:
-    """Size of what a field is a small difference of; 0 if it has a size of its own."""
+    """Size of the quantities whose small difference a field is; 0 for other fields."""
     if topic == AXES_STATE:
         return largest_of_kind(message, name)
     return abs(float(message.input_power)) if name == "stored_power" else 0.0
@@ -202,10 +202,10 @@ def _distance(recorded: np.ndarray, simulated: np.ndarray, least: float = 0.0) -
         return float("inf")
     if not np.array_equal(np.isfinite(recorded), np.isfinite(simulated)):
         return float("inf")
-    sound = np.isfinite(simulated)
-    size = np.abs(simulated[sound]).max(initial=least)
-    apart = np.abs(recorded[sound] - simulated[sound]).max(initial=0.0)
-    return float(apart / size) if size > 0.0 else float("inf") if apart > 0.0 else 0.0
+    finite = np.isfinite(simulated)
+    size = np.abs(simulated[finite]).max(initial=least)
+    difference = np.abs(recorded[finite] - simulated[finite]).max(initial=0.0)
+    return float(difference / size) if size > 0.0 else float("inf") if difference > 0.0 else 0.0
 
 
 def _first(

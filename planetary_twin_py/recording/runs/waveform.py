@@ -209,7 +209,7 @@ class Blocks:
 
 
 def read_stored(batches: Iterable[Stored], begin: float, end: float) -> Iterator[NDArray[Any]]:
-    """Read the messages whose blocks overlap a time span [s] again."""
+    """Read again the messages whose blocks overlap a time span [s]."""
     wanted = {
         (batch.source, batch.place): None
         for batch in batches
@@ -225,19 +225,19 @@ def read_stored(batches: Iterable[Stored], begin: float, end: float) -> Iterator
 
 def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
     """The samples of structured arrays of MeshWaveform; None if there are none."""
-    found = [rows[rows["samples"] > 0] for rows in messages]
-    found = [rows for rows in found if len(rows)]
-    if not found:
+    arrays = [rows[rows["samples"] > 0] for rows in messages]
+    arrays = [rows for rows in arrays if len(rows)]
+    if not arrays:
         return None
-    counts = np.concatenate([rows["samples"] for rows in found]).astype(np.int64)
+    counts = np.concatenate([rows["samples"] for rows in arrays]).astype(np.int64)
     first = np.concatenate(([0], np.cumsum(counts)))
     columns = {
         name: np.concatenate(
-            [mesh.T for rows in found for mesh in _samples(rows, name)], dtype=np.float32
+            [mesh.T for rows in arrays for mesh in _samples(rows, name)], dtype=np.float32
         )
         for name in QUANTITIES
     }
-    time, stamp = times(found)
+    time, stamp = times(arrays)
     return Waveform(time, stamp, first[:-1], **columns)
 
 

@@ -52,10 +52,10 @@ def resimulate(
     bit. A measured run is simulated there, too.
 
     Args:
-        path: of the recording.
-        namespace: of the gearbox.
+        path: path of the recording.
+        namespace: namespace of the gearbox.
         branch: the changes.
-        folder: of the new recording.
+        folder: folder of the new recording.
         progress: called with the simulated time and the end [s].
 
     Returns:
@@ -94,11 +94,11 @@ def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:
     """
     recorded = Playback(path).topics
     moving, driven = run.origin.scene.moving_axes, bool(run.given)
-    own = {topic.name: topic for topic in topics_of(namespace, moving, driven)}
+    topics_here = {topic.name: topic for topic in topics_of(namespace, moving, driven)}
     kinds = (OF_AXES if moving else {}) | (OF_PORTS if driven else {})
-    added = {name: own[name] for name in (f"{namespace}/{kind}" for kind in kinds)}
+    added = {name: topics_here[name] for name in (f"{namespace}/{kind}" for kind in kinds)}
     point = f"{namespace}/{POINT}"
-    return list((added | recorded | {point: own[point]}).values())
+    return list((added | recorded | {point: topics_here[point]}).values())
 
 
 def _chosen(runs: list[RecordedRun], number: int | None, remarks: list[str]) -> RecordedRun:

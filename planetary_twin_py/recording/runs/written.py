@@ -45,6 +45,6 @@ def _stamp_within(interval: Interval, before: int, times: Any) -> int:
         return interval.stamp
     begin, end = interval.begin / TICKS, interval.end / TICKS
     span = interval.stamp - before
-    stood = span - nanoseconds(interval.end - interval.begin) > _PAUSE
-    pace = 1e9 if stood else span / (end - begin)
+    paused = span - nanoseconds(interval.end - interval.begin) > _PAUSE
+    pace = 1e9 if paused else span / (end - begin)
     return interval.stamp + round((times[0] - end) * pace)

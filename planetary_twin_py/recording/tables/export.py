@@ -41,7 +41,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     """Write the tables of a recording.
 
     Args:
-        path: of the recording.
+        path: path of the recording.
         chosen: options.
         progress: called with the completed and the total ROS time [ns].
 
@@ -129,8 +129,8 @@ def _format(chosen: Export) -> tuple[str, bool]:
 
 def _topics(playback: Playback, namespace: str, wanted: Sequence[str]) -> list[str]:
     """Topics to write: those `wanted`, or all."""
-    there = [name for name in TABLES if f"{namespace}/{name}" in playback.topics]
+    recorded = [name for name in TABLES if f"{namespace}/{name}" in playback.topics]
     for name in wanted:
-        if name not in there:
-            raise RecordingError(f"topics = {name}: must be one of {', '.join(there)}")
-    return list(dict.fromkeys(wanted)) or there
+        if name not in recorded:
+            raise RecordingError(f"topics = {name}: must be one of {', '.join(recorded)}")
+    return list(dict.fromkeys(wanted)) or recorded

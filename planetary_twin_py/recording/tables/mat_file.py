@@ -44,7 +44,7 @@ def read_mat(stream: BinaryIO) -> pa.Table:
         UnpackedTooLargeError: unpacking would add more than `MOST_ADDED`.
     """
     try:
-        found = _variables(stream)
+        variables = _variables(stream)
     except UnpackedTooLargeError:
         raise
     except Exception as reason:  # of many kinds, if the file is damaged
@@ -54,7 +54,7 @@ def read_mat(stream: BinaryIO) -> pa.Table:
         raise MatError(f"not a MAT file of version 4 to 7.2 (save -v7): {line}") from None
     columns = {
         name: values
-        for name, values in found.items()
+        for name, values in variables.items()
         if isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype.kind in "iufcb"
     }
     if not columns:
@@ -66,17 +66,17 @@ def read_mat(stream: BinaryIO) -> pa.Table:
                            f"{len(values)}")  # fmt: skip
         if values.dtype.kind == "c":
             raise MatError(f"{name}: must be a vector of real numbers")
-    return pa.table({name: np.ascontiguousarray(one) for name, one in columns.items()})
+    return pa.table({name: np.ascontiguousarray(vector) for name, vector in columns.items()})
 
 
 def _variables(stream: BinaryIO) -> dict[str, Any]:
     """All variables by name, read one by one: each takes memory after its size is checked."""
     from scipy.io import loadmat
 
-    found: dict[str, Any] = {}
+    variables: dict[str, Any] = {}
     for part in _parts(stream):
-        found |= loadmat(part, squeeze_me=True)
-    return found
+        variables |= loadmat(part, squeeze_me=True)
+    return variables
 
 
 def _parts(stream: BinaryIO) -> Iterator[Any]:  # the types of SciPy allow paths only
@@ -98,9 +98,9 @@ def _parts(stream: BinaryIO) -> Iterator[Any]:  # the types of SciPy allow paths
             element = unpack.decompress(body, _HEAD)
             unpacked += _growth(header, element, length, endian)
             check_unpacked(size, unpacked)
-            rest = struct.unpack(f"{endian}I", element[4:_TAG])[0] + _TAG - len(element)
-            if rest > 0:
-                element += unpack.decompress(unpack.unconsumed_tail, rest)
+            missing = struct.unpack(f"{endian}I", element[4:_TAG])[0] + _TAG - len(element)
+            if missing > 0:
+                element += unpack.decompress(unpack.unconsumed_tail, missing)
         else:
             element = tag + body
             unpacked += _growth(header, element[:_HEAD], _TAG + length, endian)

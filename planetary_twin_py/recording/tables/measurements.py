@@ -48,7 +48,7 @@ class Column(NamedTuple):
 
     heading: str
     unit: str | None
-    """In brackets or parentheses in the heading; None without."""
+    """Unit in brackets or parentheses in the heading; None without."""
     values: pa.ChunkedArray
     """(rows,)."""
 
@@ -69,7 +69,7 @@ class Measurements(NamedTuple):
     step: float
     """Length of the interval of each row, which ends at its time stamp [s]."""
     columns: dict[str, Array]
-    """By name, each (rows,) in SI; NaN for missing values."""
+    """Columns by name, each (rows,) in SI; NaN for missing values."""
     labels: Sequence[Any] | None
     """Values of the column `operating_point`; None if there is no such column."""
 
@@ -83,7 +83,7 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
-        path: of the .csv, .parquet or .mat file.
+        path: path of the .csv, .parquet or .mat file.
         units: SI unit of every allowed column, by name.
 
     Returns:
@@ -93,17 +93,17 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
         ValueError: a heading, a value or a time stamp is invalid.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
-    for name, column in found.items():
+    table = read_columns(path)
+    for name, column in table.items():
         if name not in (TIME[0], LABEL, *UNREAD, *units):
             near = did_you_mean(name, [TIME[0], LABEL, *units])
             raise ValueError(f"column {column.heading!r}: no such quantity{near or _NAMES}")
-    if TIME[0] not in found:
+    if TIME[0] not in table:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
-    labels = found.pop(LABEL).values.to_pylist() if LABEL in found else None
+    labels = table.pop(LABEL).values.to_pylist() if LABEL in table else None
     columns = {
         name: column.in_si(name, units.get(name, "s"))
-        for name, column in found.items()
+        for name, column in table.items()
         if name not in UNREAD
     }
     step = time_step(columns.pop(TIME[0]))
@@ -116,8 +116,8 @@ def read_columns(path: Path) -> dict[str, Column]:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
-        path: of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or tabs. The
-            columns of a MAT file are its vectors.
+        path: path of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or
+            tabs. The columns of a MAT file are its vectors.
 
     Returns:
         The columns by name, in order.
@@ -143,13 +143,13 @@ def read_columns(path: Path) -> dict[str, Column]:
         raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
-    found: dict[str, Column] = {}
+    columns: dict[str, Column] = {}
     for heading, values in zip(table.column_names, table.columns, strict=True):
         name, unit = name_and_unit(heading)
-        if name and name in found:
+        if name and name in columns:
             raise ValueError(f"{path}: column {heading!r}: {name} is given twice")
-        found[name] = Column(heading, unit, values)
-    return found
+        columns[name] = Column(heading, unit, values)
+    return columns
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
@@ -188,14 +188,14 @@ def _read_csv(stream: BinaryIO) -> pa.Table:
 def _read_parquet(stream: BinaryIO) -> pa.Table:
     source = pa.OSFile(stream.name)  # not `stream`: see `_read_csv`
     file = parquet.ParquetFile(source)
-    stated, packed = file.metadata, source.size()
-    _check_columns(stated.num_columns)
+    metadata, packed = file.metadata, source.size()
+    _check_columns(metadata.num_columns)
     # Each page states its size again, and each column its number of values: Arrow believes them.
-    check_unpacked(packed, unpacked_size(stream, stated))
-    groups = [stated.row_group(k) for k in range(stated.num_row_groups)]
+    check_unpacked(packed, unpacked_size(stream, metadata))
+    groups = [metadata.row_group(k) for k in range(metadata.num_row_groups)]
     values = sum(g.column(k).num_values for g in groups for k in range(g.num_columns))
-    check_unpacked(packed, _NUMBER * max(values, stated.num_rows * stated.num_columns))
-    for k in range(stated.num_columns):
+    check_unpacked(packed, _NUMBER * max(values, metadata.num_rows * metadata.num_columns))
+    for k in range(metadata.num_columns):
         if file.schema.column(k).max_repetition_level > 0:
             raise ValueError(f"column {file.schema.column(k).path!r}: must be numbers, not lists")
     # Texts stay as they are stored, once each; bytes of a fixed size would be copied for each row.
@@ -221,7 +221,7 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
     """Values of a column.
 
     Args:
-        name: of the column, for messages.
+        name: name of the column, for messages.
         column: numbers, or dates if it is the time.
         given: unit of the column; None means SI.
         unit: SI unit of the result.
@@ -249,7 +249,7 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
 
 
 def _seconds(dates: pa.ChunkedArray) -> Array:
-    """Since the first of `dates` (rows,)."""
+    """Seconds since the first of `dates` (rows,)."""
     stamps = _stamps(dates)
     return np.asarray((stamps - stamps[:1]) / np.timedelta64(1, "s"), dtype=float)
 

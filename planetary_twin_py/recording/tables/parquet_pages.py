@@ -98,8 +98,8 @@ def read_page(data: bytes) -> Page:
     """
     reader = _Reader(data)
     try:
-        found = reader.fields()
-        page = Page(reader.place, found[_PACKED], found[_UNPACKED])
+        fields = reader.fields()
+        page = Page(reader.place, fields[_PACKED], fields[_UNPACKED])
     except (IndexError, KeyError) as reason:
         raise PageError("the header of a page is damaged") from reason
     if min(page.packed, page.unpacked) < 0:
@@ -118,16 +118,16 @@ class _Reader:
         """Whole numbers of the structure that begins here, by field."""
         if depth > _DEEPEST:
             raise PageError("the header of a page has too many levels")
-        found: dict[int, int] = {}
+        values: dict[int, int] = {}
         number = 0
         while head := self._byte():
             kind, step = head & 15, head >> 4
             number = number + step if step else self._signed()
             if kind in _WHOLE:
-                found[number] = self._signed()
+                values[number] = self._signed()
             else:
                 self._skip(kind, depth)
-        return found
+        return values
 
     def _skip(self, kind: int, depth: int) -> None:
         if kind in (_TRUE, _FALSE):  # the value is the kind
@@ -148,8 +148,8 @@ class _Reader:
 
     def _skip_list(self, depth: int) -> None:
         head = self._byte()
-        many = head >> 4 if head >> 4 < 15 else self._varint()
-        for _ in range(min(many, len(self._data))):
+        count = head >> 4 if head >> 4 < 15 else self._varint()
+        for _ in range(min(count, len(self._data))):
             self._byte() if head & 15 in (_TRUE, _FALSE) else self._skip(head & 15, depth + 1)
 
     def _byte(self) -> int:

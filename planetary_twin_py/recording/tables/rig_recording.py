@@ -61,7 +61,7 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
 
     Args:
         table: CSV, Parquet or MAT file.
-        scene: of the gearbox; gives the fields of the operating point that the table lacks.
+        scene: scene of the gearbox; gives the fields of the operating point that the table lacks.
         out: a bag folder, or a file that ends in .mcap.
 
     Returns:

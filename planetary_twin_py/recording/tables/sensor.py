@@ -44,18 +44,18 @@ def read_sensor(
             time stamps are not equally spaced.
         OSError: the file cannot be read.
     """
-    found = read_columns(path)
-    names = [name for name in found if name != TIME[0]]
-    turning = None if speed is None else _chosen(path, "--speed", speed, names)
-    name = _chosen(path, "--column", column, [each for each in names if each != turning])
-    chosen = found[name]
+    columns = read_columns(path)
+    names = [name for name in columns if name != TIME[0]]
+    speed_name = None if speed is None else _chosen(path, "--speed", speed, names)
+    name = _chosen(path, "--column", column, [other for other in names if other != speed_name])
+    chosen = columns[name]
     samples = _complete(path, name, in_si(name, chosen.values, None, ""))
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
         begin, step = 0.0, 1.0 / sample_rate
-    elif TIME[0] in found:
-        time = found[TIME[0]].in_si(TIME[0], "s")
+    elif TIME[0] in columns:
+        time = columns[TIME[0]].in_si(TIME[0], "s")
         begin, step = float(time[0]) if len(time) else 0.0, time_step(time)
     else:
         raise ValueError(
@@ -64,8 +64,8 @@ def read_sensor(
         )
     stamps = begin + step * np.arange(len(samples), dtype=float)
     measured = None
-    if turning is not None:
-        measured = _complete(path, turning, found[turning].in_si(turning, "rad/s"))
+    if speed_name is not None:
+        measured = _complete(path, speed_name, columns[speed_name].in_si(speed_name, "rad/s"))
     return Sensor(name, chosen.unit or "-", stamps, samples, measured)
 
 
@@ -78,9 +78,9 @@ def _complete(path: Path, name: str, values: Array) -> Array:
 
 def _chosen(path: Path, option: str, column: str | None, names: list[str]) -> str:
     """Name of the column that `option` selects."""
-    own = name_and_unit(column)[0] if column is not None else None
-    if own in names:
-        return own
+    column_name = name_and_unit(column)[0] if column is not None else None
+    if column_name in names:
+        return column_name
     if column is None and len(names) == 1:
         return names[0]
     given = (

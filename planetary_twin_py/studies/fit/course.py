@@ -25,7 +25,7 @@ class Course(NamedTuple):
     input_torque: Array
     output_torque: Array
     speed: Array
-    """Of the input."""
+    """Speed of the input [rad/s]."""
     acceleration: Array
     """Acceleration of the input [rad/s^2]."""
     oil_temperature: Array
@@ -40,8 +40,9 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     """Read a manoeuvre from a table.
 
     Args:
-        path: of a .csv, .parquet or .mat table with the columns time, input_torque, output_torque
-            and input_speed or output_speed, with units in brackets unless they are SI.
+        path: path of a .csv, .parquet or .mat table with the columns time, input_torque,
+            output_torque and input_speed or output_speed, with units in brackets unless they are
+            SI.
         train: gear train of the gearbox.
         period: length of the bins [s].
 
@@ -63,17 +64,19 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     columns["oil_temperature"] = np.where(np.isfinite(oil), oil, train.oil_temperature)
     names = ("input_torque", "output_torque", "input_speed", "oil_temperature")
     values = np.stack([columns[name] for name in names])
-    good = np.isfinite(values).all(axis=0) & np.isfinite(time)
-    first = float(time[good].min()) if good.any() else 0.0
-    filled, place = np.unique(np.floor((time[good] - first) / period), return_inverse=True)
-    if len(filled) < FEWEST:
+    complete = np.isfinite(values).all(axis=0) & np.isfinite(time)
+    first = float(time[complete].min()) if complete.any() else 0.0
+    bin_numbers, bin_index = np.unique(
+        np.floor((time[complete] - first) / period), return_inverse=True
+    )
+    if len(bin_numbers) < FEWEST:
         raise ValueError(
-            f"{path}: {len(filled)} bins of {period:g} s with all channels, must be at least "
+            f"{path}: {len(bin_numbers)} bins of {period:g} s with all channels, must be at least "
             f"{FEWEST}"
         )
-    count = np.bincount(place)
-    means = np.stack([np.bincount(place, row) / count for row in values[:, good]])
-    middles = np.asarray(first + (filled + 0.5) * period, dtype=float)
+    count = np.bincount(bin_index)
+    means = np.stack([np.bincount(bin_index, row) / count for row in values[:, complete]])
+    middles = np.asarray(first + (bin_numbers + 0.5) * period, dtype=float)
     acceleration = np.gradient(means[2], middles)
     slope = np.asarray(acceleration, dtype=float)
     return Course(middles, means[0], means[1], means[2], slope, means[3])

@@ -37,13 +37,13 @@ class CourseModel:
     scene: Scene
     free: tuple[str, ...]
     report: Callable[[int], None] = lambda count: None
-    _known: dict[tuple[float, ...], tuple[LossMap, float, float]] = field(default_factory=dict)
+    _cache: dict[tuple[float, ...], tuple[LossMap, float, float]] = field(default_factory=dict)
     _losses: dict[tuple[float, ...], LossMap] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
         """Number of evaluated points so far."""
-        return len(self._known)
+        return len(self._cache)
 
     def at(self, values: Array, course: Course) -> Array | None:
         """Compute the input torque of a manoeuvre.
@@ -56,22 +56,23 @@ class CourseModel:
             Input torque [N m], (n,); None if the scene cannot be simulated.
         """
         try:
-            losses, inertia, ratio = self._at(values)
-            return _torque(course, losses, inertia, ratio)
+            losses, inertia, ratio = self._loss_data(values)
+            return _input_torque(course, losses, inertia, ratio)
         except (ValueError, ArithmeticError):
             return None
 
-    def _at(self, values: Array) -> tuple[LossMap, float, float]:
+    def _loss_data(self, values: Array) -> tuple[LossMap, float, float]:
         key = tuple(values.tolist())
-        if key not in self._known:
+        if key not in self._cache:
             changes: Mapping[str, float] = dict(zip(self.free, key, strict=True))
             scene = self.scene.replace(**changes)
             train = followed_train(scene)
-            lossy = tuple(value for name, value in changes.items() if name not in INERTIAS)
-            losses = self._losses.setdefault(lossy, LossMap(scene))  # filled where it is needed
-            self._known[key] = losses, train.inertia, train.ratio
+            loss_values = tuple(value for name, value in changes.items() if name not in INERTIAS)
+            # The points of a new map are computed when they are needed.
+            losses = self._losses.setdefault(loss_values, LossMap(scene))
+            self._cache[key] = losses, train.inertia, train.ratio
             self.report(self.count)
-        return self._known[key]
+        return self._cache[key]
 
     def residuals(
         self, course: Course, weight: float
@@ -87,25 +88,25 @@ class CourseModel:
         """
 
         def residuals(points: Sequence[Array]) -> list[Array | None]:
-            found = [self.at(point, course) for point in points]
+            torques = [self.at(point, course) for point in points]
             return [
                 None if torque is None else weight * (torque - course.input_torque)
-                for torque in found
+                for torque in torques
             ]
 
         return residuals
 
 
-def _torque(course: Course, losses: LossMap, inertia: float, ratio: float) -> Array:
-    held = -ratio * course.output_torque
+def _input_torque(course: Course, losses: LossMap, inertia: float, ratio: float) -> Array:
+    lossless = -ratio * course.output_torque
     sign = np.sign(course.speed)
-    torque = held
+    torque = lossless
     for _ in range(PASSES):
-        lost = [
-            sum(losses(*at)[::2])
-            for at in zip(
+        loss_torques = [
+            sum(losses(*point)[::2])
+            for point in zip(
                 torque.tolist(), course.speed.tolist(), course.oil_temperature.tolist(), strict=True
             )
         ]
-        torque = held + sign * np.array(lost)
+        torque = lossless + sign * np.array(loss_torques)
     return np.asarray(torque + inertia * course.acceleration)

@@ -56,7 +56,7 @@ def conclude(
     Args:
         residuals: see `least_squares.Residuals`.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         freedom: degrees of freedom of the noise estimate.
         confidence: level of the intervals, within 0 and 1.
 
@@ -65,17 +65,17 @@ def conclude(
     """
     from scipy.stats import t
 
-    left = len(minimum.residuals) - len(parameters)
-    excess = 1.0 if explained(minimum) else minimum.sum / max(left, 1)
+    degrees = len(minimum.residuals) - len(parameters)
+    excess = 1.0 if explained(minimum) else minimum.sum / max(degrees, 1)
     rise = float(t.ppf(0.5 + 0.5 * confidence, freedom)) ** 2 * excess
     linear = split(minimum, parameters, rise**0.5)
-    found = intervals(residuals, parameters, minimum, linear, rise)
+    bounds = intervals(residuals, parameters, minimum, linear, rise)
     for k in range(len(parameters)):
         if (k,) in linear.groups:
             ends = insensitive_range(residuals, parameters, minimum, k, rise)
-            found[k] = ConfidenceInterval(*ends, True)
+            bounds[k] = ConfidenceInterval(*ends, True)
         elif not linear.identifiable(k):
-            found[k] = ConfidenceInterval(math.nan, math.nan, True)
+            bounds[k] = ConfidenceInterval(math.nan, math.nan, True)
     unbounded = minimum.values - linear.covariance @ (minimum.slopes.T @ minimum.residuals)
     bound = tuple(
         bool(value < p.low or value > p.high)
@@ -83,7 +83,7 @@ def conclude(
     )
     return Estimate(
         values=minimum.values,
-        intervals=tuple(found[k] for k in range(len(parameters))),
+        intervals=tuple(bounds[k] for k in range(len(parameters))),
         correlation=correlation(linear),
         not_identifiable=linear.groups,
         covariance=linear.covariance,

@@ -22,6 +22,7 @@ from ...recording.runs.schedule import (
     Interval,
     RecordedRun,
     messages_of,
+    nanoseconds,
     read_runs,
     stamp_of,
 )
@@ -95,7 +96,7 @@ def read_excerpt(
 
     Args:
         path: an .mcap file, or its folder.
-        namespace: of the gearbox, if the recording has several.
+        namespace: namespace of the gearbox, if the recording has several.
         begin: start [s]. Without `begin` and `end`, the longest settled part of any run with a
             constant operating point is used, up to `LONGEST`.
         end: end [s].
@@ -114,7 +115,7 @@ def read_excerpt(
         run, intervals = longest_steady_part(runs)
         within = [i for i in intervals if i.end <= intervals[0].begin + LONGEST * TICKS]
         intervals = intervals[: max(FEWEST, len(within))]
-        remarks.extend(_left_out(run, intervals))
+        remarks.extend(_omitted_points(run, intervals))
     else:
         run = max(runs, key=lambda run: length(run.intervals))
         intervals = between(run, begin or 0.0, math.inf if end is None else end)
@@ -150,7 +151,7 @@ def read_excerpt(
     )
 
 
-def _left_out(run: RecordedRun, intervals: list[Interval]) -> Iterator[str]:
+def _omitted_points(run: RecordedRun, intervals: list[Interval]) -> Iterator[str]:
     """Warning if the longest steady part does not contain all operating points of a run."""
     last = run.intervals[-1].end / TICKS
     points = sum(change.time < last for change in run.changes)
@@ -196,26 +197,28 @@ def _since_start_angles(scene: Scene, state: Any) -> float:
     Every run starts at the same angles, so a run started at that time has the recorded phases. The
     result is 0 if the angles were not measured.
     """
-    first = Twin(scene).advance(1.0 / TICKS)
-    at = {body: first.angle[k] for k, body in enumerate(first.bodies)}
+    first_window = Twin(scene).advance(1.0 / TICKS)
+    start_angle = {body: first_window.angle[k] for k, body in enumerate(first_window.bodies)}
     member = scene.drive.input.member
-    turned = (getattr(state, f"{member}_angle") - at[member]) / (2.0 * math.pi)
+    turned = (getattr(state, f"{member}_angle") - start_angle[member]) / (2.0 * math.pi)
     speed = getattr(state, f"{member}_speed") / (2.0 * math.pi)
-    meshed = state.sun_angle - at["sun"] - state.carrier_angle + at["carrier"]
+    relative_angle = (
+        state.sun_angle - start_angle["sun"] - state.carrier_angle + start_angle["carrier"]
+    )
     rate = state.sun_speed - state.carrier_speed
-    if not np.isfinite([turned, speed, meshed, rate, state.mesh_frequency]).all():
+    if not np.isfinite([turned, speed, relative_angle, rate, state.mesh_frequency]).all():
         return 0.0  # not measured
     if speed == 0.0 or state.mesh_frequency == 0.0:
         return 0.0
     since = (turned * math.copysign(1.0, speed)) % 1.0 / abs(speed)
-    cycles = scene.gearset.teeth.sun * (meshed - rate * since) / (2.0 * math.pi)
+    cycles = scene.gearset.teeth.sun * (relative_angle - rate * since) / (2.0 * math.pi)
     return since + (cycles - round(cycles)) * math.copysign(1.0, rate) / float(state.mesh_frequency)
 
 
 def _blocks(path: Path, namespace: str, intervals: list[Interval]) -> Iterator[Any]:
     """Blocks of the waveform within the intervals."""
     begin, end = intervals[0].begin / TICKS, intervals[-1].end / TICKS
-    stamps = intervals[0].stamp - (intervals[0].end - intervals[0].begin) // 1000, intervals[-1]
+    stamps = intervals[0].stamp - nanoseconds(intervals[0].end - intervals[0].begin), intervals[-1]
     for _, message in messages_of(path, namespace, (WAVEFORM,), []):
         within = stamps[0] <= stamp_of(message) <= stamps[1].stamp
         if within and begin - 1e-9 <= message.start_time <= end:

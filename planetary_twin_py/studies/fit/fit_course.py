@@ -92,8 +92,8 @@ def fit_course(
         OSError: the file cannot be read.
     """
     began = time.process_time()
-    whole = _turning(read_course(path, followed_train(scene)))
-    course = _part(whole, span)
+    manoeuvre = _without_standstill(read_course(path, followed_train(scene)))
+    course = _select_part(manoeuvre, span)
     if hold_out is not None and hold_out[0] < course.time[-1] and hold_out[1] > course.time[0]:
         raise ValueError(
             f"hold_out = {hold_out[0]:g} to {hold_out[1]:g} s: overlaps the fitted part, "
@@ -104,16 +104,16 @@ def fit_course(
     minimum, noise, correlation = _minimise(model, course, parameters)
     weight = _weight(noise, correlation)
     freedom = max(len(course.time) * (1.0 - correlation) / (1.0 + correlation), 2.0)
-    found = conclude(model.residuals(course, weight), parameters, minimum, freedom, CONFIDENCE)
-    simulated = _known(model.at(minimum.values, course))
+    estimate = conclude(model.residuals(course, weight), parameters, minimum, freedom, CONFIDENCE)
+    simulated = _require_torque(model.at(minimum.values, course))
     runs = count_runs(simulated - course.input_torque)
-    other = predicted = reach = None
+    held_out = predicted = reach = None
     if hold_out is not None:
-        other = _part(whole, hold_out)
-        predicted, reach = _predict(model, other, parameters, found, noise, freedom)
+        held_out = _select_part(manoeuvre, hold_out)
+        predicted, reach = _predict(model, held_out, parameters, estimate, noise, freedom)
     return FittedCourse(
-        scene, parameters, found, course, simulated, noise, correlation, runs, other, predicted,
-        reach, model.count, time.process_time() - began,
+        scene, parameters, estimate, course, simulated, noise, correlation, runs, held_out,
+        predicted, reach, model.count, time.process_time() - began,
     )  # fmt: skip
 
 
@@ -125,16 +125,20 @@ def _minimise(
     The weight is the same for all bins, so the minimum does not depend on it.
     """
     start = np.array([p.start for p in parameters])
-    least = minimise(model.residuals(course, 1.0), parameters, start)
-    left = least.residuals
-    square = float(left @ left)
-    noise = max(math.sqrt(square / max(len(left) - len(parameters), 1)), LEAST)
-    along = float(left[1:] @ left[:-1]) / square if square > 0.0 else 0.0
-    correlation = min(max(along, 0.0), LARGEST)
+    minimum = minimise(model.residuals(course, 1.0), parameters, start)
+    residuals = minimum.residuals
+    sum_of_squares = float(residuals @ residuals)
+    noise = max(math.sqrt(sum_of_squares / max(len(residuals) - len(parameters), 1)), LEAST)
+    autocorrelation = (
+        float(residuals[1:] @ residuals[:-1]) / sum_of_squares if sum_of_squares > 0.0 else 0.0
+    )
+    correlation = min(max(autocorrelation, 0.0), LARGEST)
     weight = _weight(noise, correlation)
     return (
-        Minimum(least.values, weight * least.residuals, weight * least.slopes), noise, correlation
-    )  # fmt: skip
+        Minimum(minimum.values, weight * minimum.residuals, weight * minimum.slopes),
+        noise,
+        correlation,
+    )
 
 
 def _weight(noise: float, correlation: float) -> float:
@@ -152,20 +156,20 @@ def _predict(
     """Input torque over another part, and half of its interval [N m]."""
     from scipy.stats import t
 
-    predicted = _known(model.at(found.values, course))
+    predicted = _require_torque(model.at(found.values, course))
     slopes = differentiate(model.residuals(course, 1.0), parameters, found.values)
-    own = np.einsum("mp,pq,mq->m", slopes, found.covariance, slopes)
+    estimate_variance = np.einsum("mp,pq,mq->m", slopes, found.covariance, slopes)
     quantile = float(t.ppf(0.5 + 0.5 * CONFIDENCE, freedom))
-    return predicted, quantile * np.sqrt(own + noise**2)
+    return predicted, quantile * np.sqrt(estimate_variance + noise**2)
 
 
-def _turning(course: Course) -> Course:
+def _without_standstill(course: Course) -> Course:
     """Remove standstill, where the sign of the loss is unknown."""
-    turning = np.abs(course.speed) > SLOW * float(np.abs(course.speed).max())
-    return Course(*(values[turning] for values in course))
+    moving = np.abs(course.speed) > SLOW * float(np.abs(course.speed).max())
+    return Course(*(values[moving] for values in course))
 
 
-def _part(course: Course, span: tuple[float, float]) -> Course:
+def _select_part(course: Course, span: tuple[float, float]) -> Course:
     part = course.between(*span)
     if len(part.time) < FEWEST:
         raise ValueError(
@@ -175,17 +179,17 @@ def _part(course: Course, span: tuple[float, float]) -> Course:
     return part
 
 
-def _known(found: Array | None) -> Array:
-    if found is None:
+def _require_torque(torque: Array | None) -> Array:
+    if torque is None:
         raise ArithmeticError("the manoeuvre cannot be simulated with these parameters")
-    return found
+    return torque
 
 
 def course_remarks(found: FittedCourse) -> Iterator[str]:
     """Warn about parameters and residuals.
 
     Args:
-        found: from `fit_course`.
+        found: result of `fit_course`.
 
     Returns:
         A line per warning.
@@ -195,9 +199,9 @@ def course_remarks(found: FittedCourse) -> Iterator[str]:
         names = " and ".join(found.parameters[k].name for k in members)
         yield f"{names}: not identifiable from this manoeuvre"
     for k, parameter in enumerate(found.parameters):
-        value, near = float(estimate.values[k]), NEAR * parameter.scale
-        if value - parameter.low <= near or parameter.high - value <= near:
-            end = parameter.low if value - parameter.low <= near else parameter.high
+        value, margin = float(estimate.values[k]), NEAR * parameter.scale
+        if value - parameter.low <= margin or parameter.high - value <= margin:
+            end = parameter.low if value - parameter.low <= margin else parameter.high
             yield (
                 f"{parameter.name}: is at the end of its range, {end:.3g} {parameter.unit}".rstrip()
                 + "; the model lacks a loss, or another field is wrong"

@@ -41,7 +41,7 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
     deviations of the noise, for a change of the parameters by their own magnitude.
 
     Args:
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         parameters: the free parameters.
         quantile: singular value below which a direction is not identifiable.
 
@@ -50,18 +50,20 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
     """
     size = magnitudes(minimum, parameters)
     _, strength, directions = np.linalg.svd(minimum.slopes * size, full_matrices=False)
-    seen = strength > quantile
-    known = directions[seen] / strength[seen, None]
+    identifiable = strength > quantile
+    known = directions[identifiable] / strength[identifiable, None]
     covariance = (known.T @ known) * np.outer(size, size)
-    lost = tuple(tuple(np.flatnonzero(np.abs(v) > PART).tolist()) for v in directions[~seen])
-    return LinearAnalysis(covariance, lost)
+    groups = tuple(
+        tuple(np.flatnonzero(np.abs(v) > PART).tolist()) for v in directions[~identifiable]
+    )
+    return LinearAnalysis(covariance, groups)
 
 
 def magnitudes(minimum: Minimum, parameters: Sequence[Parameter]) -> Array:
     """Magnitudes (p,) that scale changes of the parameters.
 
     Args:
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         parameters: the p free parameters.
     """
     return np.maximum(np.abs(minimum.values), [0.1 * p.scale for p in parameters])
@@ -79,7 +81,7 @@ def insensitive_range(
     Args:
         residuals: see `least_squares.Residuals`.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         place: index of the parameter.
         rise: increase of the sum of squares at the ends of the range.
 
@@ -94,8 +96,11 @@ def insensitive_range(
         for point, value in zip(points, tried, strict=True):
             point[place] = value
         end = centre
-        for value, there in zip(tried, residuals(points), strict=True):
-            if there is None or float(there @ there) - minimum.sum > rise:
+        for value, trial_residuals in zip(tried, residuals(points), strict=True):
+            if (
+                trial_residuals is None
+                or float(trial_residuals @ trial_residuals) - minimum.sum > rise
+            ):
                 break
             end = value
         ends.append(end)
@@ -113,7 +118,7 @@ def correlation(linear: LinearAnalysis) -> Array:
     """Correlation of the estimates (p, p); NaN for parameters that are not identifiable.
 
     Args:
-        linear: from `split`.
+        linear: result of `split`.
     """
     deviation = np.sqrt(np.diag(linear.covariance))
     deviation[[not linear.identifiable(k) for k in range(len(deviation))]] = math.nan

@@ -64,7 +64,7 @@ class Identified:
     missing_loss: MissingLoss | None
     """A loss absent from the model that would explain the residuals, or None."""
     predictions: tuple[Predicted, ...]
-    """Of the part that was held out, an entry for each observable; empty without one."""
+    """Predictions of the part that was held out, by observable; empty without such a part."""
     simulations: int
     wall_time: float
     """[s]"""
@@ -85,7 +85,7 @@ def identify(
     Args:
         path: an .mcap file, or its folder.
         search: free parameters, observables and noise.
-        namespace: of the gearbox, if the recording has several.
+        namespace: namespace of the gearbox, if the recording has several.
         begin: start of the part of the longest run to use [s]; None: see `read_excerpt`.
         end: its end [s].
         threads: threads that simulate; None uses all cores.
@@ -103,12 +103,14 @@ def identify(
     _check(search)
     excerpt = read_excerpt(Path(path), namespace, begin, end, HARMONICS in search.observe)
     parameters = read_parameters(excerpt.scene, search.free, search.start)
-    data = _data(search, excerpt)
+    data = _read_data(search, excerpt)
     model = Model(excerpt, tuple(search.free), tuple(search.observe))
     runs = Simulations(model, threads or Threads(), report)
 
     def weigh(values: Array) -> WeightedReadings:
-        return measure_noise(data, _known(runs, values).readings, excerpt.tolerance, search.noise)
+        return measure_noise(
+            data, _require_output(runs, values).readings, excerpt.tolerance, search.noise
+        )
 
     weighted = weigh(np.array([p.start for p in parameters]))
     if weighted.count < len(parameters):
@@ -118,31 +120,33 @@ def identify(
         )
     parameters = with_initial_magnitudes(runs.residuals(weighted), parameters)
     weighted, minimum = _minimise(runs, weigh, weighted, parameters)
-    found = conclude(
+    estimate = conclude(
         runs.residuals(weighted), parameters, minimum, weighted.freedom, search.confidence
     )
-    closest = _known(runs, minimum.values)
+    output = _require_output(runs, minimum.values)
     predictions: tuple[Predicted, ...] = ()
     if hold_out is not None:
         _check_apart(excerpt, hold_out)
         other = read_excerpt(Path(path), namespace, *hold_out, HARMONICS in search.observe)
-        there = Simulations(Model(other, model.free, model.observables), runs.threads, report)
-        fitted = Fitted(parameters, found, weighted, search.confidence)
-        predictions = predict(there, _data(search, other), fitted)
+        held_out_runs = Simulations(
+            Model(other, model.free, model.observables), runs.threads, report
+        )
+        fitted = Fitted(parameters, estimate, weighted, search.confidence)
+        predictions = predict(held_out_runs, _read_data(search, other), fitted)
     return Identified(
         parameters=parameters,
-        estimate=found,
+        estimate=estimate,
         excerpt=excerpt,
-        contact_fraction=closest.contact_fraction,
-        course=closest.course,
+        contact_fraction=output.contact_fraction,
+        course=output.course,
         weighted=weighted,
         confidence=search.confidence,
         sum=minimum.sum,
         residuals=tuple(
-            means_of(s) - means_of(r) for s, r in zip(closest.readings, data, strict=True)
+            means_of(s) - means_of(r) for s, r in zip(output.readings, data, strict=True)
         ),
         predictions=predictions,
-        missing_loss=_missing_loss(runs, weighted, parameters, minimum, found),
+        missing_loss=_missing_loss(runs, weighted, parameters, minimum, estimate),
         simulations=runs.count,
         wall_time=time.perf_counter() - began,
     )
@@ -189,7 +193,7 @@ def _check_apart(excerpt: Excerpt, hold_out: tuple[float, float]) -> None:
         )
 
 
-def _data(search: Search, excerpt: Excerpt) -> tuple[Readings, ...]:
+def _read_data(search: Search, excerpt: Excerpt) -> tuple[Readings, ...]:
     data = read_all(search.observe, recorded(excerpt), excerpt)
     for readings in data:
         if not np.all(np.isfinite(readings.values)):
@@ -204,11 +208,11 @@ def _missing_loss(
     weighted: WeightedReadings,
     parameters: Sequence[Parameter],
     minimum: Minimum,
-    found: Estimate,
+    estimate: Estimate,
 ) -> MissingLoss | None:
     """Missing loss, if noise does not explain the residuals or an estimate is at its bound."""
     enough = len(minimum.residuals) > len(parameters)
-    if not enough or (explained(minimum) and not any(found.at_bound)):
+    if not enough or (explained(minimum) and not any(estimate.at_bound)):
         return None
 
     def trial(field: str, value: float) -> Array | None:
@@ -218,7 +222,7 @@ def _missing_loss(
     return find_missing_loss(runs.scene, parameters, minimum, trial)
 
 
-def _known(runs: Simulations, values: Array) -> ModelOutput:
+def _require_output(runs: Simulations, values: Array) -> ModelOutput:
     output = runs.at([values])[0]
     if output is None:
         raise ArithmeticError(f"the excerpt cannot be simulated with free parameters = {values}")

@@ -43,7 +43,7 @@ def intervals(
     Args:
         residuals: see `least_squares.Residuals`.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         linear: identifiability at the minimum.
         rise: increase of the least sum of squares at the ends.
 
@@ -53,7 +53,7 @@ def intervals(
     covariance = linear.covariance
     places = [k for k in range(len(parameters)) if linear.identifiable(k)]
     doubtful = _doubtful(residuals, parameters, minimum, covariance, places, rise)
-    found = {}
+    by_index = {}
     for k in places:
         parameter = parameters[k]
         half = math.sqrt(rise * covariance[k, k])
@@ -65,8 +65,8 @@ def intervals(
             else:
                 ends.append(float(minimum.values[k] + sign * half))
         low, high = max(ends[0], parameter.low), min(ends[1], parameter.high)
-        found[k] = ConfidenceInterval(low, high, any(doubtful[k]))
-    return found
+        by_index[k] = ConfidenceInterval(low, high, any(doubtful[k]))
+    return by_index
 
 
 def _doubtful(
@@ -85,11 +85,17 @@ def _doubtful(
         for sign in (-1.0, 1.0)
     ]
     inside = [bool(np.all((point >= low) & (point <= high))) for point in points]
-    found = iter(residuals([point for point, sound in zip(points, inside, strict=True) if sound]))
+    evaluated = iter(
+        residuals([point for point, within in zip(points, inside, strict=True) if within])
+    )
     doubts = []
-    for sound in inside:
-        there = next(found) if sound else None
-        risen = math.inf if there is None else float(there @ there) - minimum.sum
+    for within in inside:
+        end_residuals = next(evaluated) if within else None
+        risen = (
+            math.inf
+            if end_residuals is None
+            else float(end_residuals @ end_residuals) - minimum.sum
+        )
         doubts.append(not abs(risen - rise) <= DOUBTFUL * rise)
     return {k: doubts[2 * n : 2 * n + 2] for n, k in enumerate(places)}
 
@@ -105,7 +111,7 @@ class _Profile:
         covariance: Array,
         place: int,
     ) -> None:
-        self._all, self._minimum, self._place = residuals, minimum, place
+        self._residuals, self._minimum, self._place = residuals, minimum, place
         self._others = [k for k in range(len(parameters)) if k != place]
         self._parameters = parameters
         self._ridge = covariance[:, place] / covariance[place, place]
@@ -135,14 +141,14 @@ class _Profile:
     def _rise(self, away: float) -> float:
         """Rise of the least sum of squares with the parameter fixed `away` from its estimate."""
         start = self._minimum.values + away * self._ridge
-        held = float(self._minimum.values[self._place] + away)
+        fixed_value = float(self._minimum.values[self._place] + away)
         if not self._others:
-            found = self._all([np.array([held])])[0]
-            return math.inf if found is None else float(found @ found) - self._minimum.sum
+            values = self._residuals([np.array([fixed_value])])[0]
+            return math.inf if values is None else float(values @ values) - self._minimum.sum
         others = [self._parameters[k] for k in self._others]
 
         def residuals(points: Sequence[Array]) -> list[Array | None]:
-            return self._all([np.insert(point, self._place, held) for point in points])
+            return self._residuals([np.insert(point, self._place, fixed_value) for point in points])
 
         low, high = bounds_of(others)
         try:

@@ -53,7 +53,7 @@ def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0)
     Args:
         residuals: see `Residuals`.
         parameters: the p free parameters.
-        seed: of the random starts.
+        seed: seed of the random starts.
 
     Returns:
         The lowest minimum found.
@@ -62,14 +62,14 @@ def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0)
         ArithmeticError: the residuals cannot be computed at any start.
     """
     starts = _starts(parameters, seed)
-    heights = [_sum(there) for there in residuals(starts)]
-    sound = [start for start, height in zip(starts, heights, strict=True) if height < math.inf]
-    if not sound:
+    sums = [_sum(start_residuals) for start_residuals in residuals(starts)]
+    feasible = [start for start, total in zip(starts, sums, strict=True) if total < math.inf]
+    if not feasible:
         raise ArithmeticError("the excerpt cannot be simulated at any start value")
-    tried = [starts[int(np.argmin(heights))]]
+    tried = [starts[int(np.argmin(sums))]]
     best = minimise(residuals, parameters, tried[0])
-    while not explained(best) and len(tried) < min(SEARCHES, len(sound)):
-        tried.append(_farthest(sound, tried, parameters))
+    while not explained(best) and len(tried) < min(SEARCHES, len(feasible)):
+        tried.append(_farthest(feasible, tried, parameters))
         other = minimise(residuals, parameters, tried[-1])
         best = min(best, other, key=lambda minimum: minimum.sum)
     return best
@@ -93,8 +93,8 @@ def _farthest(
     scale = np.array([p.scale for p in parameters])
 
     def distance(start: Array) -> float:
-        ways = [np.arcsinh(start / scale) - np.arcsinh(other / scale) for other in tried]
-        return min(float(way @ way) for way in ways)
+        differences = [np.arcsinh(start / scale) - np.arcsinh(other / scale) for other in tried]
+        return min(float(difference @ difference) for difference in differences)
 
     return max(starts, key=distance)
 
@@ -114,17 +114,21 @@ def with_initial_magnitudes(
     Returns:
         The parameters with their new starts.
     """
-    found = list(parameters)
+    updated = list(parameters)
     for k, parameter in enumerate(parameters):
         if parameter.start != 0.0 or parameter.low != 0.0 or parameter.high == math.inf:
             continue
         tried = [parameter.high * 10.0**-n for n in range(1, DECADES + 1)]
-        starts = [np.array([p.start for p in found])]
+        starts = [np.array([p.start for p in updated])]
         starts += [np.insert(np.delete(starts[0], k), k, value) for value in tried]
-        heights = [_sum(there) for there in residuals(starts)]
-        sound = [v for v, h in zip(tried, heights[1:], strict=True) if h <= min(heights) + NO_WORSE]
-        found[k] = parameter._replace(start=max(sound, default=0.0))
-    return tuple(found)
+        sums = [_sum(start_residuals) for start_residuals in residuals(starts)]
+        candidates = [
+            trial
+            for trial, total in zip(tried, sums[1:], strict=True)
+            if total <= min(sums) + NO_WORSE
+        ]
+        updated[k] = parameter._replace(start=max(candidates, default=0.0))
+    return tuple(updated)
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
@@ -139,21 +143,21 @@ def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array
 
     scale = np.array([p.scale for p in parameters])
     low, high = bounds_of(parameters)
-    width = len(_one(residuals, start))
+    width = len(_residuals_at(residuals, start))
 
     def at(scaled: Array) -> Array:
-        found = residuals([scaled * scale])[0]
-        return np.full(width, math.inf) if found is None else found
+        values = residuals([scaled * scale])[0]
+        return np.full(width, math.inf) if values is None else values
 
     def slopes(scaled: Array) -> Array:
         return differentiate(residuals, parameters, scaled * scale) * scale
 
-    inside = np.clip(start, low, high)
-    done = least_squares(
-        at, inside / scale, slopes, bounds=(low / scale, high / scale),
+    clipped = np.clip(start, low, high)
+    solution = least_squares(
+        at, clipped / scale, slopes, bounds=(low / scale, high / scale),
         xtol=CLOSE, ftol=FLAT, gtol=None, max_nfev=MOST_STEPS,
     )  # fmt: skip
-    return Minimum(done.x * scale, done.fun, np.asarray(done.jac) / scale)
+    return Minimum(solution.x * scale, solution.fun, np.asarray(solution.jac) / scale)
 
 
 def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values: Array) -> Array:
@@ -177,10 +181,10 @@ def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values:
             point = values.copy()
             point[k] = end
             points.append(point)
-    found = residuals(points)
-    if any(r is None for r in found):
+    values_at_points = residuals(points)
+    if any(point_values is None for point_values in values_at_points):
         raise ArithmeticError("the excerpt cannot be simulated near the estimated values")
-    pairs = np.array(found).reshape(len(parameters), 2, -1)
+    pairs = np.array(values_at_points).reshape(len(parameters), 2, -1)
     return np.asarray((pairs[:, 1] - pairs[:, 0]).T / widths)
 
 
@@ -205,8 +209,8 @@ def _starts(parameters: Sequence[Parameter], seed: int) -> list[Array]:
     return [first, *np.clip(others, low, high)]
 
 
-def _one(residuals: Residuals, point: Array) -> Array:
-    found = residuals([point])[0]
-    if found is None:
+def _residuals_at(residuals: Residuals, point: Array) -> Array:
+    values = residuals([point])[0]
+    if values is None:
         raise ArithmeticError("the excerpt cannot be simulated at the start")
-    return found
+    return values

@@ -85,7 +85,7 @@ def measure_noise(
     Args:
         recorded: readings of the recording.
         readings: the same readings of a simulation.
-        tolerance: of the simulation.
+        tolerance: tolerance of the simulation.
         given: known standard deviations of a reading by observable, in SI.
 
     Returns:
@@ -99,39 +99,43 @@ def measure_noise(
 
 def _noise(recorded: Readings, readings: Readings, tolerance: float, given: float | None) -> Noise:
     rows = min(len(recorded.values), len(readings.values))
-    left = recorded.values[:rows] - readings.values[:rows]
-    segments, place, count = np.unique(
+    differences = recorded.values[:rows] - readings.values[:rows]
+    segments, segment_index, count = np.unique(
         recorded.segment[:rows], return_inverse=True, return_counts=True
     )
     means = means_of(recorded)
     for s in range(len(segments)):
-        left[place == s] -= left[place == s].mean(axis=0)
-    scatter, size, repeat = np.empty(left.shape[1]), np.empty(means.shape), np.empty(left.shape[1])
+        differences[segment_index == s] -= differences[segment_index == s].mean(axis=0)
+    scatter, size, correlations = (
+        np.empty(differences.shape[1]),
+        np.empty(means.shape),
+        np.empty(differences.shape[1]),
+    )
     freedom = math.inf
     for kind in np.unique(recorded.kinds):
         same = recorded.kinds == kind
-        repeat[same] = _correlation(left[:, same], place)
+        correlations[same] = _correlation(differences[:, same], segment_index)
         degrees = (rows - len(segments)) * int(same.sum())
-        freedom = min(freedom, degrees / _repeats(repeat[same][0]))
-        scatter[same] = math.sqrt((left[:, same] ** 2).sum() / degrees)
+        freedom = min(freedom, degrees / _repeats(correlations[same][0]))
+        scatter[same] = math.sqrt((differences[:, same] ** 2).sum() / degrees)
         size[:, same] = np.abs(means[:, same]).max(axis=1, keepdims=True)
     if given is not None:
         scatter[:], freedom = given, math.inf
-    sampling = scatter * np.sqrt(_repeats(repeat) / count[:, None])
+    sampling = scatter * np.sqrt(_repeats(correlations) / count[:, None])
     floor = EXACTNESS * tolerance * size
-    correlation = float(repeat.max(initial=0.0, where=(sampling > floor).any(axis=0)))
+    correlation = float(correlations.max(initial=0.0, where=(sampling > floor).any(axis=0)))
     return Noise(scatter, np.hypot(sampling, floor), freedom, correlation)
 
 
-def _correlation(left: Array, place: NDArray[np.int64]) -> float:
+def _correlation(differences: Array, segment_index: NDArray[np.int64]) -> float:
     """Correlation of successive rows of `left` (readings, channels); 0 if not significant."""
-    same = place[1:] == place[:-1]
-    products = (left[1:] * left[:-1])[same]
-    square = float((left**2).sum())
+    same = segment_index[1:] == segment_index[:-1]
+    products = (differences[1:] * differences[:-1])[same]
+    square = float((differences**2).sum())
     if square == 0.0 or not products.size:
         return 0.0
-    found = float(products.sum()) / square * left.size / products.size
-    return min(found, LARGEST) if found > CHANCE / math.sqrt(products.size) else 0.0
+    coefficient = float(products.sum()) / square * differences.size / products.size
+    return min(coefficient, LARGEST) if coefficient > CHANCE / math.sqrt(products.size) else 0.0
 
 
 def _repeats(correlation: Any) -> Any:
@@ -144,7 +148,7 @@ def means_of(readings: Readings) -> Array:
     """Means over each operating point.
 
     Args:
-        readings: of one observable.
+        readings: readings of one observable.
 
     Returns:
         Means, shape (segments, channels).

@@ -42,7 +42,7 @@ def find_missing_loss(
     Args:
         scene: the model.
         parameters: the free parameters.
-        minimum: of the sum of squares.
+        minimum: minimum of the sum of squares.
         trial: see `Trial`.
 
     Returns:
@@ -53,18 +53,18 @@ def find_missing_loss(
 
     low, high = bounds_of(parameters)
     size = np.array([p.scale for p in parameters])
-    found = []
+    losses = []
     for field, unit, drag in _candidates(scene):
-        there = None if any(p.name == field for p in parameters) else trial(field, drag)
-        if there is None:
+        trial_residuals = None if any(p.name == field for p in parameters) else trial(field, drag)
+        if trial_residuals is None:
             continue
-        slopes = np.column_stack([minimum.slopes * size, there - minimum.residuals])
+        slopes = np.column_stack([minimum.slopes * size, trial_residuals - minimum.residuals])
         ends = np.append((low - minimum.values) / size, 0.0), (high - minimum.values) / size
-        done = lsq_linear(slopes, -minimum.residuals, (ends[0], np.append(ends[1], np.inf)))
-        left = 2.0 * float(done.cost)
-        if minimum.sum - left > max(PART * minimum.sum, NOISE):
-            found.append(MissingLoss(field, float(done.x[-1]) * drag, unit, left))
-    return min(found, key=lambda candidate: candidate.sum, default=None)
+        solution = lsq_linear(slopes, -minimum.residuals, (ends[0], np.append(ends[1], np.inf)))
+        remaining = 2.0 * float(solution.cost)
+        if minimum.sum - remaining > max(PART * minimum.sum, NOISE):
+            losses.append(MissingLoss(field, float(solution.x[-1]) * drag, unit, remaining))
+    return min(losses, key=lambda candidate: candidate.sum, default=None)
 
 
 def _candidates(scene: Scene) -> Iterator[tuple[str, str, float]]:

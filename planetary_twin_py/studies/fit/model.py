@@ -77,9 +77,9 @@ def read_all(
     """Readings of every observable `names` over these intervals.
 
     Args:
-        names: of the observables, see `readings.OBSERVABLES`.
+        names: names of the observables, see `readings.OBSERVABLES`.
         intervals: recorded or simulated.
-        excerpt: of which the intervals are a part.
+        excerpt: excerpt that contains the intervals.
     """
     return tuple(read(name, intervals, excerpt) for name in names)
 
@@ -93,15 +93,17 @@ def _windows(
     change is included.
     """
     first = (*excerpt.before, *excerpt.intervals)[0]
-    held = {name: value for name, value in overrides.items() if name in TUNABLES}
+    tunable_values = {name: value for name, value in overrides.items() if name in TUNABLES}
     at_once = excerpt.held_from == excerpt.begins
-    fixed = {name: value for name, value in overrides.items() if at_once or name not in held}
-    twin = Twin(excerpt.scene.replace(**fixed), UNUSED, first.tolerance)
+    start_values = {
+        name: value for name, value in overrides.items() if at_once or name not in tunable_values
+    }
+    twin = Twin(excerpt.scene.replace(**start_values), UNUSED, first.tolerance)
     begins = round(excerpt.begins * TICKS)
     changes = deque(
         (
             round(change.time * TICKS) - begins,
-            change.values | (held if change.time >= excerpt.held_from else {}),
+            change.values | (tunable_values if change.time >= excerpt.held_from else {}),
         )
         for change in excerpt.changes
     )

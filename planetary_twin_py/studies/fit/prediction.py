@@ -74,24 +74,23 @@ def predict(
     from scipy.stats import t
 
     values, estimate, weighted = fitted.estimate.values, fitted.estimate, fitted.weighted
-    left = max(weighted.count - len(values), 1)
-    freedom = weighted.freedom if estimate.excess == 1.0 else min(weighted.freedom, left)
+    degrees = max(weighted.count - len(values), 1)
+    freedom = weighted.freedom if estimate.excess == 1.0 else min(weighted.freedom, degrees)
     quantile = float(t.ppf(0.5 + 0.5 * fitted.confidence, freedom))
     output = runs.at([values])[0]
     if output is None:
         raise ArithmeticError("the operating points that are held out cannot be simulated")
-    found = []
-    for place, readings in enumerate(held_out):
-        predicted = means_of(output.readings[place])
-
-        slopes = differentiate(_means_at(runs, place), fitted.parameters, values)
-        own = np.einsum("mp,pq,mq->m", slopes, estimate.covariance, slopes)
-        scatter = np.mean(weighted.noise[place].mean ** 2, axis=0)
-        variance = estimate.excess * (own.reshape(predicted.shape) + scatter)
-        found.append(
+    predictions = []
+    for k, readings in enumerate(held_out):
+        predicted = means_of(output.readings[k])
+        slopes = differentiate(_means_at(runs, k), fitted.parameters, values)
+        estimate_variance = np.einsum("mp,pq,mq->m", slopes, estimate.covariance, slopes)
+        scatter = np.mean(weighted.noise[k].mean ** 2, axis=0)
+        variance = estimate.excess * (estimate_variance.reshape(predicted.shape) + scatter)
+        predictions.append(
             Predicted(readings.name, means_of(readings), predicted, quantile * np.sqrt(variance))
         )
-    return tuple(found)
+    return tuple(predictions)
 
 
 def _means_at(runs: Simulations, place: int) -> Residuals:

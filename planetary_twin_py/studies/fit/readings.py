@@ -54,7 +54,7 @@ def check_observables(names: Sequence[str]) -> None:
     """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice.
 
     Args:
-        names: of the observables.
+        names: names of the observables.
     """
     if not names:
         raise ValueError("no observable: name at least one, e.g. dte_rms")
@@ -97,7 +97,7 @@ def read(name: str, intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> 
     Args:
         name: one of `OBSERVABLES`.
         intervals: recorded or simulated.
-        excerpt: that the intervals are part of.
+        excerpt: excerpt that contains the intervals.
 
     Returns:
         The readings.
@@ -171,14 +171,16 @@ def _mesh_phase(intervals: Sequence[IntervalReadings], excerpt: Excerpt, time: A
     teeth = excerpt.scene.gearset.teeth.sun
     first = intervals[0]
     phase = teeth * (first.fields[sun] - first.fields[carrier]) / (2.0 * math.pi) % 1.0
-    at, phases = [first.end - first.length], [0.0]
+    times, phases = [first.end - first.length], [0.0]
     for before, interval in zip([None, *intervals], intervals, strict=False):
         if before and interval.end - interval.length > before.end + 1e-9:
-            raise ValueError(f"observe = {HARMONICS}: intervals are missing before {interval.end}")
+            raise ValueError(
+                f"observe = {HARMONICS}: intervals are missing before {interval.end:g} s"
+            )
         rate = interval.fields["sun_speed"] - interval.fields["carrier_speed"]
-        at.append(interval.end)
+        times.append(interval.end)
         phases.append(phases[-1] + teeth * rate / (2.0 * math.pi) * interval.length)
-    turned = np.interp(time, at, phases) - phases[1] + phase
+    turned = np.interp(time, times, phases) - phases[1] + phase
     return np.asarray(turned if phases[-1] >= 0.0 else -turned)
 
 
@@ -186,8 +188,8 @@ def _amplitudes(phase: Array, dte: Array) -> Array:
     """Cosine and sine amplitudes of `dte` (samples, meshes) over one cycle, mesh by mesh."""
     angle = 2.0 * math.pi * phase[:, None] * np.arange(1, ORDERS + 1)
     waves = np.concatenate([np.ones((len(phase), 1)), np.cos(angle), np.sin(angle)], axis=1)
-    found: Array = np.linalg.lstsq(waves, dte, rcond=None)[0][1:]
-    return found.T.ravel()
+    coefficients: Array = np.linalg.lstsq(waves, dte, rcond=None)[0][1:]
+    return coefficients.T.ravel()
 
 
 def _joined(parts: Iterable[Array]) -> Array:

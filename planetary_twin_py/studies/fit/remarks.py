@@ -15,7 +15,7 @@ def remarks(found: Identified) -> Iterator[str]:
     """Warn about parameters that are not identifiable or at a bound, and about model errors.
 
     Args:
-        found: from `identify`.
+        found: result of `identify`.
 
     Returns:
         A line per warning.

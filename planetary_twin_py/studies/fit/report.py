@@ -41,7 +41,7 @@ def report_of_course(found: FittedCourse) -> Report:
     """Report on a manoeuvre.
 
     Args:
-        found: from `fit_course`.
+        found: result of `fit_course`.
     """
     held_out = None
     facts = [
@@ -71,25 +71,29 @@ def report_of_points(found: Identified) -> Report:
     """Report on operating points of a recording.
 
     Args:
-        found: from `identify`.
+        found: result of `identify`.
     """
-    predictions = {one.name: one for one in found.predictions}
+    predictions = {prediction.name: prediction for prediction in found.predictions}
     facts = [
         f"{found.excerpt.start:g} to {found.excerpt.end:g} s; sum of squares {found.sum:.4g}, "
         f"{found.estimate.excess:.3g} times the expected one.",
         f"{found.simulations} simulations in {found.wall_time:.1f} s.",
     ]
     facts += [
-        f"Held out: {one.name} at {len(one.measured)} operating points, rms error "
-        f"{100.0 * one.rms:.3g} %, {100.0 * one.inside:.3g} % within their intervals."
-        for one in found.predictions
+        f"Held out: {prediction.name} at {len(prediction.measured)} operating points, rms error "
+        f"{100.0 * prediction.rms:.3g} %, {100.0 * prediction.inside:.3g} % within their intervals."
+        for prediction in found.predictions
     ]
     figures = []
     with applied():
         for readings, residuals in zip(found.weighted.recorded, found.residuals, strict=True):
-            one = predictions.get(readings.name)
-            other = None if one is None else (one.predicted - one.measured, one.reach)
-            figures.append(points_figure(readings.name, residuals, other))
+            matching = predictions.get(readings.name)
+            held_out = (
+                None
+                if matching is None
+                else (matching.predicted - matching.measured, matching.reach)
+            )
+            figures.append(points_figure(readings.name, residuals, held_out))
     return Report(
         f"Fit of {found.excerpt.scene.name}", found.parameters, found.estimate, found.confidence,
         facts, list(remarks(found)), figures,

@@ -38,7 +38,7 @@ def count_runs(residuals: Array) -> Runs | None:
     """Count runs above and below the median.
 
     Args:
-        residuals: in the order of the readings, (n,).
+        residuals: residuals in the order of the readings, (n,).
 
     Returns:
         The runs; None if there are too few values.

@@ -35,7 +35,7 @@ class Simulations:
         return self._model.excerpt.scene
 
     def freeing(self, field: str) -> Simulations:
-        """The same with `field` as a further free parameter, the last entry of a point."""
+        """Simulations with `field` as a further free parameter, the last entry of a point."""
         wider = replace(self._model, free=(*self._model.free, field))
         return Simulations(wider, self.threads, self._report)
 

@@ -30,15 +30,15 @@ def steady_points(
     Yields:
         The window of each interval, and the time at which its twin started [s].
     """
-    held = {name: value for name, value in overrides.items() if name in TUNABLES}
-    others = {name: value for name, value in overrides.items() if name not in TUNABLES}
+    tunable_values = {name: value for name, value in overrides.items() if name in TUNABLES}
+    model_values = {name: value for name, value in overrides.items() if name not in TUNABLES}
     times = [change.time for change in excerpt.changes]
-    scene = excerpt.scene.replace(**others)
-    for place, intervals in groupby(
-        excerpt.intervals, lambda one: bisect_right(times, one.begin / TICKS) - 1
+    scene = excerpt.scene.replace(**model_values)
+    for change_index, intervals in groupby(
+        excerpt.intervals, lambda interval: bisect_right(times, interval.begin / TICKS) - 1
     ):
-        change = excerpt.changes[place]
-        fixed = held if change.time >= excerpt.held_from else {}
+        change = excerpt.changes[change_index]
+        fixed = tunable_values if change.time >= excerpt.held_from else {}
         rows = list(intervals)
         length = (rows[0].end - rows[0].begin) / TICKS
         rate = min(rows[0].sample_rate, most_samples / length)

@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 import zstandard
 from hostile import messages_of, of, rewritten, string
+from mcap.reader import make_reader
 from mcap.records import Attachment, Message
 from mcap.stream_reader import StreamReader
+from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 from tiers import first_rows
@@ -128,3 +130,22 @@ def test_a_bad_message_of_one_origin_leaves_the_other_run_to_verify(sound, tmp_p
     assert verdict.messages["gearbox_state"] == 10  # of the second run
     assert any("run_origin" in remark for remark in verdict.remarks)
     assert any("31 intervals of a run whose start or origin" in line for line in verdict.remarks)
+
+
+def test_a_file_whose_summary_repeats_no_channels_is_read(sound, tmp_path):
+    path, ids = tmp_path / "short_summary.mcap", {}
+    with path.open("wb") as file:
+        writer = McapWriter(file, repeat_channels=False)
+        writer.start("ros2")
+        for schema, channel, message in make_reader(sound.open("rb")).iter_messages():
+            if channel.topic not in ids:
+                number = writer.register_schema(schema.name, schema.encoding, schema.data)
+                ids[channel.topic] = writer.register_channel(
+                    channel.topic, channel.message_encoding, number, channel.metadata
+                )
+            writer.add_message(
+                ids[channel.topic], message.log_time, message.data, message.publish_time
+            )
+        writer.finish()
+    published = [message.data for message in Playback(sound).messages()]
+    assert [message.data for message in Playback(path).messages()] == published
