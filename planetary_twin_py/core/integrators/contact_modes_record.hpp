@@ -122,10 +122,10 @@ private:
 struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t successor;  // the state that came next the last time
-    double step;            // accepted step when this state started the last time, 0: none yet [s]
-    double contraction[2];  // contraction factor of a sweep per step length, without and with
-                            // friction [1/s]
-    bool varies;            // whether a stiffness changes within its segment
+    double step;             // accepted step when this state started the last time, 0: none yet [s]
+    double contraction[2];   // contraction factor of a sweep per step length, without and with
+                             // friction [1/s]
+    bool varies;             // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     ModeMatrices matrices;
     alignas(64) double square[BODIES];           // w^2 [1/s^2]
