@@ -119,11 +119,13 @@ std::int64_t end_on_flank_event(const Model& model, Integrator& integrator, doub
 }
 
 // First trial: the step that was accepted when this contact state started the last time, or the
-// step that follows from the last one.
-double first_trial(Integrator& integrator, double longest, double event) {
+// step that follows from the last one. Shorter ones than those that are resolved are not tried.
+double first_trial(const Integrator& integrator, std::int64_t bodies, double longest,
+                   double event) {
     const ContactState& contacts = contacts_of(integrator.run);
     bool known = integrator.control.changed && contacts.step > 0.0;
     double h = known ? contacts.step : integrator.control.next_step;
+    h = shortest_resolved(integrator.run, bodies, h);
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
 }
 
@@ -136,14 +138,14 @@ struct Accepted {
 };
 
 template <int L>
-Accepted accepted_step(const Model& model, Integrator& integrator, double h, bool fresh) {
+Accepted accepted_step(const Model& model, Integrator& integrator, double first, bool fresh) {
     Control& control = integrator.control;
+    double h = first;
     const double order = static_cast<double>(integrator.run.nodes.count);
     int unconverged = 0;
     while (true) {
         if (control.method != COLLOCATION && !resolves(integrator.run, model.train.bodies, h))
-            return {0.0, 0.0,
-                    has_contact_lines(model.train) ? BRIEF_FALLBACK_STEPS : FALLBACK_STEPS};
+            return {0.0, 0.0, h < first ? FALLBACK_STEPS : BRIEF_FALLBACK_STEPS};
         Outcome tried = collocate<L>(model, integrator, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < DIVERGED))
             return {h, tried.error};
@@ -178,7 +180,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     enter<L>(model, integrator);
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
-    double first = first_trial(integrator, longest, event.time);
+    double first = first_trial(integrator, model.train.bodies, longest, event.time);
     auto [h, error, fallback_steps] = accepted_step<L>(model, integrator, first, fresh);
     if (h == 0.0) {
         control.fallback_steps = fallback_steps;

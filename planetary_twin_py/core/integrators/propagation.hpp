@@ -23,6 +23,7 @@
 namespace gearbox {
 
 inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h): ten digits are accurate
+inline constexpr double ROUNDED_UP = 1.0 + 1e-12;
 
 // Relative change of the damping times below which the damping of the modes is not updated.
 inline constexpr double DAMPING_KEPT = 5e-3;
@@ -195,6 +196,16 @@ inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
         if (!is_free(square, damping, h) && damping > LONGEST_MEMORY * square * h) return false;
     }
     return true;
+}
+
+// The shortest step of at least h seconds that loses no accuracy by cancellation.
+inline double shortest_resolved(const Propagation& run, std::int64_t bodies, double h) {
+    for (std::int64_t m = 0; m < bodies; ++m) {
+        double square = run.motion.square[m], damping = run.motion.damping[m];
+        if (!is_free(square, damping, h))
+            h = std::max(h, ROUNDED_UP * damping / (LONGEST_MEMORY * square));
+    }
+    return h;
 }
 
 // Coefficients of (t/h)^k in the polynomials through the remainder of all modes.

@@ -27,7 +27,8 @@ inline constexpr std::int64_t FAILED = -2;      // the step failed
 inline constexpr double SHORTEST_STEP = 1e-13;  // [s] below it two events count as one
 // Number of Rosenbrock steps before collocation is tried again.
 inline constexpr std::int64_t FALLBACK_STEPS = 20;
-// The same where only this step is too short: between close edges of helical teeth.
+// The same where only this step is too short: up to an event, for example between close edges of
+// helical teeth.
 inline constexpr std::int64_t BRIEF_FALLBACK_STEPS = 1;
 inline constexpr double SAFETY = 0.8, SHRINK = 0.25, GROW = 2.0;  // of steps
 inline constexpr double LARGEST_ERROR = 1e100;                    // in tolerances
