@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from itertools import count
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
@@ -37,11 +38,18 @@ class PolledSubscription:
         """Return the requested reliability."""
         return self._subscription.qos_profile.reliability
 
-    def take(self) -> list[tuple[int, Any]]:
-        """Return time of arrival by the system clock [ns] and contents of the queued messages."""
+    def take(self, most: int | None = None) -> list[tuple[int, Any]]:
+        """
+        Return time of arrival by the system clock [ns] and contents of the queued messages.
+
+        `most` limits their number: a publisher may be faster than this thread.
+        """
         found = []
         with self._subscription.handle:
-            while taken := self._subscription.handle.take_message(self._kind, False):
+            for _ in count() if most is None else range(most):
+                taken = self._subscription.handle.take_message(self._kind, False)
+                if taken is None:
+                    break
                 message, info = taken
                 found.append((info["received_timestamp"] or time.time_ns(), message))
         return found

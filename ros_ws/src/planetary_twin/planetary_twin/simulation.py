@@ -79,7 +79,7 @@ class Simulation(ManagedNode):
         self._pick_dynamics()
         self._telemetry = Telemetry(self, self._given, self._before)
         self._inlet = PolledSubscription(self, JointState, "~/command", QOS)
-        self._commands = ShaftCommands(self._given, self._time_of_stamps, self._inlet.take)
+        self._commands = ShaftCommands(self._given, self._time_of_stamps, self._take_commands)
         self._wait = SubscriptionWait(self, self._given.wait_for)
         # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * self._given.rate)
@@ -234,6 +234,10 @@ class Simulation(ManagedNode):
     def stamp(self, instant: float) -> int:
         """Return the ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
+
+    def _take_commands(self) -> list[tuple[int, JointState]]:
+        """Return the commands that have arrived, as many as the subscription holds at most."""
+        return self._inlet.take(QOS.depth)
 
     def _time_of_stamps(self) -> int:
         """Return the ROS time [ns]; a source of /clock does not wait for its own messages."""
