@@ -53,6 +53,8 @@ CASES = (
     Case("planar, in phase", "planar, 4 planets in phase", 1e-3, 0.05, 0.2),
     Case("planar, helical", "planar, helical", 1e-3, 0.05, 0.2),
     Case("spatial", "spatial", 1e-3, 0.05, 0.2),
+    Case("wind turbine stage", "wind turbine stage", 1e-3, 0.1, 2.0),
+    Case("helical stage", "helical stage", 1e-3, 0.1, 1.0),
 )
 
 
@@ -66,9 +68,9 @@ class Timed(NamedTuple):
 def scene_of(case: Case) -> Any:
     """The case of `planetary_twin_benchmark.cases`."""
     from planetary_twin_benchmark.cases import CASES as HELD
-    from planetary_twin_benchmark.cases import PLANAR_CASES
+    from planetary_twin_benchmark.cases import PLANAR_CASES, STAGE_CASES
 
-    return next(each for each in (*HELD, *PLANAR_CASES) if each.name == case.of)
+    return next(each for each in (*HELD, *PLANAR_CASES, *STAGE_CASES) if each.name == case.of)
 
 
 def timed(case: Case, sampled: bool) -> Timed:

@@ -20,10 +20,11 @@ class Case(NamedTuple):
     repeats: int  # largest ratio of the timed to the compared interval
     # Changes that start the run at the compared interval; such a case is timed as a whole.
     stretch: dict[str, Any] | None = None
+    base: str = "paper"  # packaged scene
 
     def scene(self) -> Scene:
-        """The scene of the paper with the changes of the case."""
-        return load_scene("paper").replace(**self.changes)
+        """The packaged scene with the changes of the case."""
+        return load_scene(self.base).replace(**self.changes)
 
     def compared(self) -> Scene:
         """The scene that is compared with the reference."""
@@ -104,4 +105,9 @@ PLANAR_CASES = (
     Case("planar, 4 planets in phase", PLANAR | IN_PHASE, 0.01, 40),
     Case("planar, helical", PLANAR | HELICAL, 0.01, 40),
     Case("spatial", SPATIAL, 0.01, 40),
+)
+# Slow shafts, whose damping decays over milliseconds.
+STAGE_CASES = (
+    Case("wind turbine stage", {}, 0.2, 40, base="wind_turbine_stage"),
+    Case("helical stage", {}, 0.2, 40, base="helical_stage"),
 )
