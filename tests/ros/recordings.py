@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import zlib
-from collections import Counter
-from itertools import pairwise
+from collections import Counter, defaultdict
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,12 +25,14 @@ def counts(folder: Path) -> dict[str, int]:
         return {connection.topic: read[connection.topic] for connection in reader.connections}
 
 
-def disorder(file: Path) -> float:
-    """Share of messages that follow one that was received later."""
+def times_received(file: Path) -> dict[int, list[int]]:
+    """Times at which the messages of each channel were received [ns], as they stand in the file."""
+    times = defaultdict(list)
     with file.open("rb") as stream:
-        records = StreamReader(stream, emit_chunks=False).records
-        times = [record.log_time for record in records if isinstance(record, Message)]
-    return sum(later < earlier for earlier, later in pairwise(times)) / len(times)
+        for record in StreamReader(stream, emit_chunks=False).records:
+            if isinstance(record, Message):
+                times[record.channel_id].append(record.log_time)
+    return times
 
 
 def unfinished_states(file: Path) -> list[GearboxState]:

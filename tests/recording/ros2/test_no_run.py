@@ -1,5 +1,6 @@
 """A recording that was cut off before its run says so, and what to do, in every command."""
 
+import io
 import random
 import struct
 from pathlib import Path
@@ -18,7 +19,7 @@ from planetary_twin_py.recording.ros2.no_run import no_run_yet
 from planetary_twin_py.recording.ros2.playback import Playback
 
 SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
-CHUNK = 6  # opcode
+RUN = {"run_origin", "gearbox_state"}  # topics
 NO_RUN = "holds no run yet: it ends before the first"
 ADVICE = "if it is still being written, try again later; if its recorder was killed, record again"
 REFUSING = {
@@ -30,30 +31,28 @@ REFUSING = {
 
 
 def cuts(data, count):
-    """Places within and at the ends of records, up to the end of the fourth chunk."""
-    chance, found, place, chunks = random.Random(17), {0, 4, 8}, 8, 0
-    while chunks < 4:
-        opcode, length = struct.unpack_from("<BQ", data, place)
+    """Places within and at the ends of records, up to the end of the chunk with the first state."""
+    chance, found, place = random.Random(17), {0, 4, 8}, 8
+    while not topics_in(data[:place]) >= RUN:
+        (length,) = struct.unpack_from("<Q", data, place + 1)
         end = place + 9 + length
         found |= {place + 1, place + 9, (place + end) // 2, end - 1, end}
-        chunks += opcode == CHUNK
         place = end
     found |= {chance.randrange(place) for _ in range(count)}
     return sorted(found)
 
 
-def topics_in(file):
+def topics_in(data):
     """Last parts of the topics with messages, by a reader that knows nothing of damage."""
     names, there = {}, set()
-    with file.open("rb") as stream:
-        try:
-            for record in StreamReader(stream).records:
-                if isinstance(record, Channel):
-                    names[record.id] = record.topic
-                elif isinstance(record, Message):
-                    there.add(names[record.channel_id].rpartition("/")[2])
-        except (McapError, struct.error, EOFError):
-            pass
+    try:
+        for record in StreamReader(io.BytesIO(data)).records:
+            if isinstance(record, Channel):
+                names[record.id] = record.topic
+            elif isinstance(record, Message):
+                there.add(names[record.channel_id].rpartition("/")[2])
+    except (McapError, struct.error, EOFError):
+        pass
     return there
 
 
@@ -83,7 +82,7 @@ def test_every_command_says_that_there_is_no_run_and_what_to_do(
     file, tried = tmp_path / "cut.mcap", 0
     for place in places[::every]:
         file.write_bytes(data[:place])
-        if {"run_origin", "gearbox_state"} <= topics_in(file):
+        if topics_in(data[:place]) >= RUN:
             break
         tried += 1
         for command, options in REFUSING.items():
@@ -100,7 +99,7 @@ def test_every_command_says_that_there_is_no_run_and_what_to_do(
         assert len([line for line in remarks if NO_RUN in line and line.endswith(ADVICE)]) == 1
         code, lines, output = says("recover", file, "--out", f"saved_{place}")
         assert len(lines) == 1, (place, output)
-        assert (code == 0) == bool(topics_in(file))
+        assert (code == 0) == bool(topics_in(data[:place]))
         for saved in tmp_path.glob(f"saved_{place}/*"):
             saved.unlink()
         for folder in tmp_path.glob(f"saved_{place}"):
@@ -113,7 +112,7 @@ def test_a_recording_with_its_run_says_nothing_of_it(whole, tmp_path):
     file, tried = tmp_path / "cut.mcap", 0
     for place in places:
         file.write_bytes(data[:place])
-        if {"run_origin", "gearbox_state"} <= topics_in(file):
+        if topics_in(data[:place]) >= RUN:
             tried += 1
             _, lines, _ = says("info", file)
             assert lines == []

@@ -173,7 +173,7 @@ class Telemetry:
         Fill the messages that describe `window`.
 
         They are sent in the order of their topics' names, in which recorders take messages, so
-        that a recording is in the order of reception.
+        that a recorder that keeps up writes them in the order of reception.
         """
         if self._joints_message is None:
             self._joints_message = JointsMessage(window.bodies, self._continuous)
