@@ -9,6 +9,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from .tolerance import LIVE_TOLERANCE
+
 # The error of a step is of third order in its length at least (Rosenbrock: fourth order).
 DEARER = (10.0 / 3.0) ** (1.0 / 3.0)  # largest cost ratio of successive tolerances
 HALVINGS = 3  # of the sample rate, at most
@@ -98,6 +100,18 @@ class QualityControl:
     def full_sample_rate(self) -> float:
         """Full rate of the waveform [Hz]."""
         return self._ladder[-1].sample_rate
+
+    def without_deadline(self) -> QualityControl:
+        """Quality control for windows that may take any time.
+
+        Returns:
+            One with a single setting, so that results do not depend on the load of the computer:
+            the tolerance of this one, or LIVE_TOLERANCE if it is selected automatically, and the
+            full sample rate.
+        """
+        tolerance = LIVE_TOLERANCE if self.automatic else self._ladder[-1].tolerance
+        only = Setting(tolerance, self.full_sample_rate)
+        return QualityControl([only], self._share, self._period, only)
 
     def relearn(self) -> None:
         """Reset what was learned about costs, after a change of the operating point."""

@@ -312,3 +312,11 @@ def test_a_new_choice_of_tolerances_begins_with_the_waveform_as_it_is():
     ladder = settings_of(ladder_of(2e-5), FULL)
     policy = QualityControl(ladder, SHARE, PERIOD, Setting(1e-2, 12.5e3))
     assert policy.setting == Setting(2e-5, 12.5e3)
+
+
+@pytest.mark.parametrize(("tolerance", "used"), [(0.0, LIVE_TOLERANCE), (1e-5, 1e-5)])
+def test_without_a_deadline_the_setting_does_not_depend_on_the_load(tolerance, used):
+    policy = of(tolerance, begin=1e-2).without_deadline()
+    for load in (0.01, 0.5, 3.0):
+        assert chosen(policy, lambda tolerance, load=load: load, 3.0) == [used] * 300
+        assert policy.setting.sample_rate == FULL

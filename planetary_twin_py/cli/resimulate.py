@@ -58,6 +58,7 @@ def resimulate(
     from ..recording.runs.branch import Branch
     from ..recording.runs.what_if import resimulate as simulate_again
     from ..recording.tables.command_table import read_commands
+    from ..scene.unused import without_effect
 
     folder = out or file.with_name(f"{file.stem}_again")
     check_recording("--out", folder)
@@ -79,7 +80,7 @@ def resimulate(
     except (ValueError, OSError) as error:
         fail(error)
     say_units(made.scene, changes)
-    for line in made.remarks:
+    for line in (*without_effect(made.scene, changes), *made.remarks):
         remark(line)
     line = f"{made.file}: as recorded until {made.begins:g} s, then as set until {made.end:g} s"
     console.print(line, highlight=False, soft_wrap=True)

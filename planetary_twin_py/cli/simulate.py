@@ -198,9 +198,9 @@ def _table(meshes: dict[str, dict[str, float]]) -> Table:
 
 # Text and SI unit of what a run shows of each axis, by JSON name.
 _AXES = {
-    "displacement_mean_m": ("displacement, magnitude of its mean", "m"),
+    "displacement_magnitude_m": ("displacement, mean of its magnitude", "m"),
     "displacement_peak_m": ("displacement, peak", "m"),
-    "bearing_force_mean_N": ("force on the bearing, magnitude of its mean", "N"),
+    "bearing_force_magnitude_N": ("force on the bearing, mean of its magnitude", "N"),
     "bearing_force_peak_N": ("force on the bearing, peak", "N"),
 }
 
@@ -208,10 +208,10 @@ _AXES = {
 # The same where axes tilt.
 _TILTING = {
     "axial_displacement_mean_m": ("axial displacement, mean", "m"),
-    "tilt_mean_rad": ("tilt, magnitude of its mean", "rad"),
+    "tilt_magnitude_rad": ("tilt, mean of its magnitude", "rad"),
     "thrust_mean_N": ("thrust on the bearing, mean", "N"),
     "thrust_peak_N": ("thrust on the bearing, peak", "N"),
-    "tilting_moment_mean_Nm": ("tilting moment on the bearing, magnitude of its mean", "N m"),
+    "tilting_moment_magnitude_Nm": ("tilting moment on the bearing, mean of its magnitude", "N m"),
     "tilting_moment_peak_Nm": ("tilting moment on the bearing, peak", "N m"),
 }
 
@@ -226,17 +226,21 @@ def _axes(motion: AxesMotion, seen: AxesStatistics) -> dict[str, Any]:
 
     found: dict[str, Any] = {
         "displacement_mean_m": of_bodies(seen.displacement_mean),
+        "displacement_magnitude_m": of_bodies(seen.displacement_magnitude),
         "displacement_peak_m": of_bodies(seen.displacement_peak),
         "bearing_force_mean_N": of_bodies(seen.bearing_force_mean),
+        "bearing_force_magnitude_N": of_bodies(seen.bearing_force_magnitude),
         "bearing_force_peak_N": of_bodies(seen.bearing_force_peak),
     }
     if seen.tilting is not None:
         found |= {
             "axial_displacement_mean_m": of_bodies(seen.tilting.axial_displacement_mean),
             "tilt_mean_rad": of_bodies(seen.tilting.tilt_mean),
+            "tilt_magnitude_rad": of_bodies(seen.tilting.tilt_magnitude),
             "thrust_mean_N": of_bodies(seen.tilting.axial_force_mean),
             "thrust_peak_N": of_bodies(seen.tilting.axial_force_peak),
             "tilting_moment_mean_Nm": of_bodies(seen.tilting.tilting_moment_mean),
+            "tilting_moment_magnitude_Nm": of_bodies(seen.tilting.tilting_moment_magnitude),
             "tilting_moment_peak_Nm": of_bodies(seen.tilting.tilting_moment_peak),
         }
     planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
@@ -250,7 +254,7 @@ def _axes(motion: AxesMotion, seen: AxesStatistics) -> dict[str, Any]:
 def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
     from rich.table import Table
 
-    table = Table("", title="Axes, in the frame of the carrier")
+    table = Table("", title="Axes")
     for body in motion.bodies:
         table.add_column(body, justify="right")
     rows = _AXES if motion.tilting is None else _AXES | _TILTING

@@ -46,6 +46,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         log_schlenk=log_schlenk_factor(width, viscosity, data.composite_roughness, data.oil_factor),
         contact_modulus=modulus,
         face_width=width,
+        line_length=1.0 / math.cos(scene.gearset.base_helix),
         log_speed_group=math.log(viscosity / (2.0 * modulus)),
         log_material=math.log(data.pressure_viscosity * 2.0 * modulus),
         log_load_group=-math.log(2.0 * modulus * width),

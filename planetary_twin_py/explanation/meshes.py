@@ -95,7 +95,9 @@ def describe_meshes(scene: Scene) -> Meshes:
             static_force=force,
             axial_force=force * abs(math.tan(gearset.base_helix)),
             pitch_pressure=pressure[kind],
-            loss_factor=tooth_loss_factor(paths[kind], teeth[first], teeth[second], kind == 1),
+            loss_factor=tooth_loss_factor(
+                paths[kind], teeth[first], teeth[second], kind == 1, gearset.base_helix
+            ),
             backlash=2.0 * float(load.half_backlash),
             **friction_figures(scene, kind, (force, pressure[kind]), frequency),
         )
@@ -107,11 +109,13 @@ def describe_meshes(scene: Scene) -> Meshes:
 def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
     """Largest pressure [Pa] of one pair at the pitch point under `force` [N].
 
-    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha).
+    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha),
+    over cos(beta_b) of helical teeth, with the same load per length of their contact lines.
     """
     gearset, oil = scene.gearset, scene.lubrication
     first, second = gearset.geometry.meshes[kind].curvatures
     radius = 1.0 / (1.0 / first + (-1.0 if kind == 1 else 1.0) / second)
+    radius /= math.cos(gearset.base_helix)
     modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
     width = gearset.face_width
     return 0.5 * modulus * half_width(force, radius, width, modulus) / radius

@@ -22,14 +22,22 @@ _MOST_AT_ONCE = 20_000  # samples in memory
 
 
 class AxesStatistics(NamedTuple):
-    """Statistics of all axes over a run, with the directions of `AxesMotion`."""
+    """Statistics of all axes over a run, with the directions of `AxesMotion`.
+
+    A load that stands still in the housing, such as weight, turns in the frame of the carrier, so
+    it is not part of the mean vectors of sun, ring and carrier, but of the mean magnitudes.
+    """
 
     displacement_mean: np.ndarray
     """Mean displacement [m], (bodies, 2)."""
+    displacement_magnitude: np.ndarray
+    """Mean magnitude of the displacement [m], (bodies,)."""
     displacement_peak: np.ndarray
     """Largest displacement [m], (bodies,)."""
     bearing_force_mean: np.ndarray
     """Mean force on the bearing [N], (bodies, 2)."""
+    bearing_force_magnitude: np.ndarray
+    """Mean magnitude of the force on the bearing [N], (bodies,)."""
     bearing_force_peak: np.ndarray
     """Largest force on the bearing [N], (bodies,)."""
     tilting: TiltingStatistics | None
@@ -43,12 +51,16 @@ class TiltingStatistics(NamedTuple):
     """Mean axial displacement [m], (bodies,)."""
     tilt_mean: np.ndarray
     """Mean tilt about two directions [rad], (bodies, 2)."""
+    tilt_magnitude: np.ndarray
+    """Mean magnitude of the tilt [rad], (bodies,)."""
     axial_force_mean: np.ndarray
     """Mean thrust on the bearing [N], (bodies,)."""
     axial_force_peak: np.ndarray
     """Largest thrust on the bearing [N], (bodies,)."""
     tilting_moment_mean: np.ndarray
     """Mean moment on the bearing about two directions [N m], (bodies, 2)."""
+    tilting_moment_magnitude: np.ndarray
+    """Mean magnitude of the moment on the bearing [N m], (bodies,)."""
     tilting_moment_peak: np.ndarray
     """Largest moment on the bearing [N m], (bodies,)."""
 
@@ -59,7 +71,7 @@ class AxesSums:
     def __init__(self) -> None:
         self._count = 0
         self._moved, self._tilting = np.zeros(()), np.zeros(())
-        self._peaks = np.zeros(())
+        self._sizes, self._peaks = np.zeros(()), np.zeros(())  # magnitudes: sum, and largest
         self._last: np.ndarray | None = None  # squares of the last two samples
 
     def add(self, samples: Samples) -> None:
@@ -72,8 +84,15 @@ class AxesSums:
         self._moved = self._moved + samples.moved.sum(axis=0)
         self._tilting = self._tilting + samples.tilting.sum(axis=0)
         moved, tilting = samples.moved, samples.tilting
-        vectors = moved[:, :, :2], moved[:, :, 2:], tilting[:, :, 3:4], tilting[:, :, 4:]
+        vectors = (
+            moved[:, :, :2],
+            moved[:, :, 2:],
+            tilting[:, :, 3:4],
+            tilting[:, :, 4:],
+            tilting[:, :, 1:3],
+        )
         squares = np.stack([(part * part).sum(axis=2) for part in vectors], axis=1)
+        self._sizes = self._sizes + np.sqrt(squares).sum(axis=0)
         joined = squares if self._last is None else np.concatenate([self._last, squares])
         self._last = joined[-2:]
         self._peaks = np.maximum(self._peaks, np.sqrt(_peaks(joined)))
@@ -81,13 +100,23 @@ class AxesSums:
     def statistics(self) -> AxesStatistics:
         """Statistics of all samples added, of which there is at least one."""
         moved, tilted = self._moved / self._count, self._tilting / self._count
-        displaced, force, thrust, moment = self._peaks
+        displaced, force, thrust, moment, _ = self._peaks
+        displaced_mean, force_mean, _, moment_mean, tilt_mean = self._sizes / self._count
         tilting = None
         if tilted.shape[1]:
             tilting = TiltingStatistics(
-                tilted[:, 0], tilted[:, 1:3], tilted[:, 3], thrust, tilted[:, 4:], moment
+                tilted[:, 0],
+                tilted[:, 1:3],
+                tilt_mean,
+                tilted[:, 3],
+                thrust,
+                tilted[:, 4:],
+                moment_mean,
+                moment,
             )
-        return AxesStatistics(moved[:, :2], displaced, moved[:, 2:], force, tilting)
+        return AxesStatistics(
+            moved[:, :2], displaced_mean, displaced, moved[:, 2:], force_mean, force, tilting
+        )
 
 
 def _peaks(values: np.ndarray) -> np.ndarray:

@@ -24,6 +24,8 @@ def test_means_and_peaks_of_axes_do_not_depend_on_the_samples_kept(make, monkeyp
     assert found.displacement_peak == pytest.approx(moved.max(axis=0), rel=1e-3)
     force = np.linalg.norm(axes.bearing_force, axis=2)
     assert found.bearing_force_peak == pytest.approx(force.max(axis=0), rel=1e-3)
+    assert found.displacement_magnitude == pytest.approx(moved.mean(axis=0), rel=1e-3)
+    assert found.bearing_force_magnitude == pytest.approx(force.mean(axis=0), rel=1e-3)
     mean = axes.bearing_force.mean(axis=0)
     assert np.abs(found.bearing_force_mean - mean).max() < 1e-3 * force.max()
     tilting = found.tilting
@@ -31,8 +33,11 @@ def test_means_and_peaks_of_axes_do_not_depend_on_the_samples_kept(make, monkeyp
     if tilting is not None:
         thrust = axes.tilting.axial_force
         assert np.abs(tilting.axial_force_mean - thrust.mean(axis=0)).max() < 1e-3 * thrust.max()
-        moment = np.linalg.norm(axes.tilting.tilting_moment, axis=2).max(axis=0)
-        assert tilting.tilting_moment_peak == pytest.approx(moment, rel=1e-3)
+        moment = np.linalg.norm(axes.tilting.tilting_moment, axis=2)
+        assert tilting.tilting_moment_peak == pytest.approx(moment.max(axis=0), rel=1e-3)
+        assert tilting.tilting_moment_magnitude == pytest.approx(moment.mean(axis=0), rel=1e-3)
+        tilt = np.linalg.norm(axes.tilting.tilt, axis=2).mean(axis=0)
+        assert tilting.tilt_magnitude == pytest.approx(tilt, rel=1e-3)
     monkeypatch.setattr(axes_sums, "_MOST_AT_ONCE", 97)
     parts = pt.simulate(scene, SPAN, 700.0, settling=SETTLING)
     assert np.array_equal(parts.axes.displacement, few.axes.displacement)

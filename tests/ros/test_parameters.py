@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from planetary_twin_msgs.msg import OperatingPoint
+from planetary_twin_msgs.srv import SetOperatingPoint
 from pydantic import BaseModel
 from rcl_interfaces.msg import ParameterDescriptor
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
@@ -109,6 +110,20 @@ def test_a_refusal_names_field_value_and_range_and_changes_nothing(
     assert user.set(NODE, torque_ripple=0.5).successful
     user.until(lambda: len(points) == 2)
     assert points[-1].changed == "torque_ripple"
+
+
+def test_a_quantity_without_effect_in_the_scene_is_accepted_with_a_remark(
+    peer: Peer, start: Start
+) -> None:
+    start("planetary_twin.simulation", "--ros-args", "-p", "scene:=wind_turbine_stage")
+    remark = "lambda_ratio: has no effect: the scene computes it"
+    result = peer.set(NODE, lambda_ratio=1.2)
+    assert result.successful and result.reason.startswith(remark)
+    assert peer.set(NODE, oil_temperature=330.0).reason == ""
+    peer.until(lambda: peer.state(NODE) == "active")
+    request = SetOperatingPoint.Request(names=["lambda_ratio"], values=[1.3])
+    answer = peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    assert answer.success and answer.message.startswith(remark)
 
 
 def test_a_start_value_of_the_geometry_must_equal_that_of_the_scene(start: Start) -> None:

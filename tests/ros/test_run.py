@@ -84,6 +84,20 @@ def test_a_run_records_every_message_it_publishes(
     assert working_in(tmp_path) == []
 
 
+def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
+    run: Callable[..., subprocess.Popen[str]],
+) -> None:
+    process = run("--duration", "0.5", "--no-tour", "--param", "publish_rate=200", "--json", "-")
+    output, errors = process.communicate(timeout=180)
+    assert process.returncode == 0, errors
+    states = json.loads(output)["topics"][f"{TWIN}/gearbox_state"]
+    assert states["published"] >= 100  # 50 at the default rate
+    refused = run("--param", "rate_factor=2")
+    _, errors = refused.communicate(timeout=180)
+    assert refused.returncode == 2
+    assert "--param 'rate_factor=2': must be NAME=VALUE, with NAME of" in " ".join(errors.split())
+
+
 def test_an_endless_run_has_the_usual_tour() -> None:
     assert tour_of("paper", math.inf) == tour_of("paper", LENGTH)
 

@@ -30,8 +30,9 @@ ALWAYS_INLINE PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
             load_lanes(pairs.speed2 + k),   load_lanes(pairs.load + k) / part_of_face(pairs, k)};
 }
 
-ALWAYS_INLINE void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int k) {
-    const Lanes face = part_of_face(pairs, k);
+ALWAYS_INLINE void store_friction(const Oil& oil, const PairFriction<Lanes>& found,
+                                  ToothPairs& pairs, int k) {
+    const Lanes face = part_of_face(pairs, k) * oil.line_length;
     store_lanes(pairs.friction + k, found.friction * face);
     store_lanes(pairs.boundary + k, found.boundary * face);
     store_lanes(pairs.viscous + k, found.viscous * face);
@@ -52,7 +53,7 @@ void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
     Contact<Lanes> contact[PAIR_CAPACITY / WIDTH];
     Friction<Lanes> full[PAIR_CAPACITY / WIDTH];
     for (int r = 0; r < registers; ++r)
-        flanks[r] = flanks_of(load_motion(pairs, r * WIDTH), oil.sliding_threshold, slowest);
+        flanks[r] = flanks_of(load_motion(pairs, r * WIDTH), oil, slowest);
     for (int r = 0; r < registers; ++r) logarithms[r] = logarithms_of(flanks[r]);
     for (int r = 0; r < registers; ++r) {
         contact[r] = contact_of(oil, factor, flanks[r], logarithms[r]);
@@ -61,7 +62,7 @@ void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
     for (int r = 0; r < registers; ++r) {
         PairFriction<Lanes> found = sliding_friction<laws>(oil, flanks[r], contact[r], full[r]);
         if constexpr (laws.rolling) add_rolling(oil, flanks[r], contact[r], found);
-        store_friction(found, pairs, r * WIDTH);
+        store_friction(oil, found, pairs, r * WIDTH);
     }
 }
 

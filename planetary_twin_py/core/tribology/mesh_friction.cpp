@@ -118,7 +118,7 @@ void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, 
         auto column = [k](const Number* from) { return load_register<Real>(from + k); };
         flanks[r] = flanks_of(column(pairs.rho1), column(pairs.rho2), column(pairs.external),
                               {column(pairs.sliding), column(pairs.sum)}, column(pairs.load),
-                              oil.sliding_threshold, slowest);
+                              oil.line_length, oil.sliding_threshold, slowest);
     }
     for (int r = 0; r < registers; ++r)
         contact[r] = contact_of(oil, factor, flanks[r], logarithms_of(flanks[r]));
@@ -141,8 +141,8 @@ void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, 
 // Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears, u1
 // and u2 the surface speeds.
 template <int L, class Number>
-ALWAYS_INLINE void add_up(const Train& train, const StepConstants& step,
-                          const Columns<Number>& pairs, std::int64_t first, bool rolling,
+ALWAYS_INLINE void add_up(const Train& train, const StepConstants& step, const Oil& oil,
+                          const Columns<Number>& pairs, std::int64_t first,
                           const FrictionInstant& instant) {
     using V = Row<L>;
     MeshFriction& out = *instant.found;
@@ -152,10 +152,10 @@ ALWAYS_INLINE void add_up(const Train& train, const StepConstants& step,
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
         auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
-        const V face = face_in_contact<L>(step, p, instant.meshes->advance);
+        const V face = oil.line_length * face_in_contact<L>(step, p, instant.meshes->advance);
         V friction = face * get<L>(pairs.friction + k), resistance(0.0);
         lost += friction * sliding;
-        if (rolling) {
+        if (oil.rolling) {
             resistance = face * get<L>(pairs.rolling + k);
             lost += face * get<L>(pairs.rolling_power + k);
         }
@@ -193,8 +193,7 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
             find_pair_friction<laws>(oil, slowest_rolling(train, step), pairs,
                                      static_cast<int>(count * of_instant));
     });
-    for (int n = 0; n < count; ++n)
-        add_up<L>(train, step, pairs, n * of_instant, oil.rolling, instants[n]);
+    for (int n = 0; n < count; ++n) add_up<L>(train, step, oil, pairs, n * of_instant, instants[n]);
 }
 
 // Call `function` with the number of lanes that the closed meshes need. If each flank has an entry,

@@ -16,6 +16,7 @@ struct alignas(64) Oil {
     double log_schlenk;      // see `log_schlenk_factor`
     double contact_modulus;  // E* [Pa]
     double face_width;       // L [m]
+    double line_length;      // of a contact line over the whole face, in face widths [-]
     double log_speed_group;  // logarithm of U R/V = eta0/E' in SI units
     double log_material;     // of G
     double log_load_group;   // of W R/F = 1/(E' L)

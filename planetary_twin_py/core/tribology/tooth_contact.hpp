@@ -1,6 +1,12 @@
 #pragma once
 
 // Film and friction of one tooth pair: the combination of the laws.
+//
+// Loads of pairs are components in the transverse plane. Contact lines of helical teeth are
+// inclined by the base helix angle beta_b to the axes: the normal load and the length of the line
+// are those of the transverse section over cos(beta_b), so the load per length is the same, and the
+// radius of curvature is larger by 1/cos(beta_b) (ISO/TS 6336-22:2018, sec. 5). So the laws have
+// the transverse load on the face width, and their forces count `Oil::line_length` times.
 
 #include "tribology/boundary.hpp"
 #include "tribology/bristles.hpp"
@@ -146,28 +152,30 @@ ALWAYS_INLINE SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& r
     return {u1 + u2, u1 - u2};
 }
 
-// `slowest_rolling` [m/s] sets the least width of the layer in which friction reverses.
+// `line_length` is that of the contact line in face widths. `slowest_rolling` [m/s] sets the least
+// width of the layer in which friction reverses.
 template <class Real>
 ALWAYS_INLINE Flanks<Real> flanks_of(Real rho1, Real rho2, Real external,
                                      const SurfaceSpeeds<Real>& speeds, Real load,
-                                     double sliding_threshold, double slowest_rolling) {
+                                     double line_length, double sliding_threshold,
+                                     double slowest_rolling) {
     // One division for three, since divisions are the slowest operations of the loop over pairs.
     Real distance = rho2 + external * rho1, loaded = load + LIGHTEST_LOAD;
     Real threshold = sliding_threshold * at_least(magnitude(0.5 * speeds.sum), slowest_rolling);
     Real inverse = 1.0 / (distance * loaded * threshold);
-    return {speeds.sliding, speeds.sum, rho1 * rho2 * (loaded * threshold * inverse),
+    return {speeds.sliding, speeds.sum, rho1 * rho2 * (loaded * threshold * inverse) * line_length,
             at_least(load, LIGHTEST_LOAD), distance * loaded * inverse,
             // A jump at the start of contact would cause chatter: repeated short contacts.
             load * (distance * threshold * inverse)};
 }
 
 template <class Real>
-ALWAYS_INLINE Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshold,
+ALWAYS_INLINE Flanks<Real> flanks_of(const PairMotion<Real>& pair, const Oil& oil,
                                      double slowest_rolling) {
     SurfaceSpeeds<Real> speeds =
         surface_speeds(pair.rho1, pair.rho2, pair.external, pair.speed1, pair.speed2);
-    return flanks_of(pair.rho1, pair.rho2, pair.external, speeds, pair.load, sliding_threshold,
-                     slowest_rolling);
+    return flanks_of(pair.rho1, pair.rho2, pair.external, speeds, pair.load, oil.line_length,
+                     oil.sliding_threshold, slowest_rolling);
 }
 
 // Logarithms of a pair: of the reduced radius in m, of the mean surface speed in m/s, of the load
@@ -257,7 +265,7 @@ template <Laws laws, class Real>
 ALWAYS_INLINE PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
                                                const PairMotion<Real>& pair,
                                                double slowest_rolling) {
-    Flanks<Real> flanks = flanks_of(pair, oil.sliding_threshold, slowest_rolling);
+    Flanks<Real> flanks = flanks_of(pair, oil, slowest_rolling);
     Contact<Real> contact = contact_of(oil, area_factor, flanks, logarithms_of(flanks));
     Friction<Real> full = mixed_friction<laws>(oil, contact);
     PairFriction<Real> found = sliding_friction<laws>(oil, flanks, contact, full);

@@ -18,6 +18,7 @@ void bind_tribology_records(nb::module_& m) {
         .FIELD(Oil, log_schlenk)
         .FIELD(Oil, contact_modulus)
         .FIELD(Oil, face_width)
+        .FIELD(Oil, line_length)
         .FIELD(Oil, log_speed_group)
         .FIELD(Oil, log_material)
         .FIELD(Oil, log_load_group)

@@ -49,6 +49,14 @@ def run(  # noqa: PLR0913 (options of the command line)
     tolerance: Annotated[
         float, typer.Option(help="Relative error of a step; 0: the tightest that time allows.")
     ] = 0.0,
+    param: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=VALUE",
+            help="Parameter of the node simulation that is fixed while it runs: "
+            "continuous_joints=true, publish_rate=200, command_timeout=0.3; repeatable.",
+        ),
+    ] = None,
     tour: Annotated[
         bool, typer.Option(help="Change the operating point during the run, as a demonstration.")
     ] = True,
@@ -81,8 +89,8 @@ def run(  # noqa: PLR0913 (options of the command line)
         fail(f"--duration = {duration:g} s: must be at least {SHORTEST:g} s")
     interrupt_on_signals()
     if plant is not None:
-        if set_ or rate_factor != 1.0 or tolerance:
-            fail("--plant: --set, --rate-factor and --tolerance are options of a simulation")
+        if set_ or param or rate_factor != 1.0 or tolerance:
+            fail("--plant: --set, --param, --rate-factor and --tolerance are for simulations")
         _follow_plant(plant, duration, record, (hidden, sensors), json_)
         return
     if hidden is not None or sensors is not None:
@@ -94,7 +102,7 @@ def run(  # noqa: PLR0913 (options of the command line)
         "tolerance": tolerance,
     }
     try:
-        _run(options, record, set_ or [], tour, json_)
+        _run(options, record, (set_ or [], param or []), tour, json_)
     except KeyboardInterrupt:
         remark("interrupted before the recording started")
     except ValueError as mistake:
@@ -106,13 +114,15 @@ def run(  # noqa: PLR0913 (options of the command line)
 def _run(
     options: Mapping[str, Any],
     record: str | None,
-    given: list[str],
+    given: tuple[list[str], list[str]],
     tour: bool,
     target: str | None,
 ) -> None:
+    """Run with the `given` values of --set and --param."""
     # Imported here: ROS and the model take a second to load, and Ctrl-C must end that cleanly.
     from planetary_twin_py.tolerance import ladder_of
 
+    from .running.node_settings import node_settings
     from .running.outcome import print_outcome
     from .running.session import Plan, run_session
     from .running.tour import tour_of
@@ -124,7 +134,8 @@ def _run(
     plan = Plan(
         **options,
         folder=_folder(record, scene),
-        values=_values(scene, given),
+        values=_values(scene, given[0]),
+        settings=node_settings(given[1]),
         stops=tour_of(scene, duration) if tour else [],
     )
     console = console_beside(target)

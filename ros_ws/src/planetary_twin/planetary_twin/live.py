@@ -104,7 +104,8 @@ class LiveTwin:
         Advance a paused twin by `duration` [s] for each of `commands`, as fast as possible.
 
         Each command acts at the ports from the start of its step. `show` is called with the twin
-        at the end of each step, in its thread.
+        at the end of each step, in its thread. Steps have no deadline, so their results do not
+        depend on the load of the computer, see `QualityControl.without_deadline`.
         """
         return self._commands.put(lambda: self._steps(duration, commands, show))
 
@@ -177,23 +178,27 @@ class LiveTwin:
         try:
             given = self._given(self._interval)
             self._announce()
-            return self._advance(self._interval, self._pace.wait, given)
+            return self._advance(self._interval, self._pace.wait, given, self.quality)
         except ValueError as refusal:
+            self._port_commands.refuse()
             self._listener.refused(f"a command has no effect: {refusal}")
-            return self._advance(self._interval, self._pace.wait, {})
+            return self._advance(self._interval, self._pace.wait, {}, self.quality)
 
     def _advance(
-        self, duration: float, wait: Callable[[], None], given: Mapping[str, float]
+        self,
+        duration: float,
+        wait: Callable[[], None],
+        given: Mapping[str, float],
+        quality: QualityControl,
     ) -> bool:
         """
         Compute one interval and publish it after `wait`; returns False if the twin fails.
 
         Raises `ValueError` if the twin does not accept `given`; then no time has passed.
 
-        The quality control chooses the setting beforehand and then observes the computing time,
-        which does not include the wait.
+        `quality` chooses the setting beforehand and then observes the computing time, which does
+        not include the wait.
         """
-        quality = self.quality
         self._tune(quality)
         begin, cpu = time.monotonic(), time.thread_time()
         try:
@@ -291,12 +296,14 @@ class LiveTwin:
 
     def _step(self, duration: float, given: Mapping[str, float]) -> None:
         count = math.ceil(duration / self._interval - 1e-9)
+        quality = self.quality.without_deadline()
         for n in range(count):
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
             self._wait_for_room()
-            self._advance(min(self._interval, left), lambda: None, given if n == 0 else {})
+            commands = given if n == 0 else {}
+            self._advance(min(self._interval, left), lambda: None, commands, quality)
             self.progress = self._present()
             self._refuse_after_failure()
 

@@ -78,5 +78,8 @@ class PortCommands(Protocol):
         For a step of a paused twin, the interval is 0.
         """
 
+    def refuse(self) -> None:
+        """Count commands that the twin has refused."""
+
     def release(self, twin: Twin) -> None:
         """End a brake, which has changed the ports."""

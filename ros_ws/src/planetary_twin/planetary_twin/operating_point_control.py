@@ -76,19 +76,23 @@ class OperatingPointControl:
         self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
     ) -> SetOperatingPoint.Response:
         try:
-            instant = self._change(request.names, request.values, request.ramp)
+            instant, remark = self._change(request.names, request.values, request.ramp)
         except (ValueError, TimeoutError) as refusal:
             response.success, response.message = False, str(refusal)
             return response
-        response.success = True
+        response.success, response.message = True, remark
         response.simulated_time = instant
         response.stamp.sec, response.stamp.nanosec = divmod(
             self._simulation.stamp(instant), 1_000_000_000
         )
         return response
 
-    def _change(self, names: list[str], values: list[float], ramp: float) -> float:
-        """Set parameters and return the instant [s] from which they apply."""
+    def _change(self, names: list[str], values: list[float], ramp: float) -> tuple[float, str]:
+        """
+        Set parameters; return the instant [s] from which they apply, and a remark.
+
+        The remark names quantities that have no effect in the scene.
+        """
         _check(names, values, ramp)
         if self._simulation.live is None:
             raise ValueError("the simulation is not active")
@@ -103,7 +107,8 @@ class OperatingPointControl:
             self._ramp = 0.0
         if not result.successful or self._submitted is None:
             raise ValueError(result.reason)
-        return self._submitted.result(timeout=self._simulation.longest_wait)
+        instant = self._submitted.result(timeout=self._simulation.longest_wait)
+        return instant, str(result.reason)
 
 
 def _check(names: list[str], values: list[float], ramp: float) -> None:

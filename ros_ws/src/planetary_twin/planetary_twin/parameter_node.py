@@ -85,9 +85,16 @@ class ParameterNode(LifecycleNode):
                 check_settable(self, parameter)
             if parameter_list and not changing:
                 return SetParametersResult(successful=True)
-            return super().set_parameters_atomically(changing)
+            result = super().set_parameters_atomically(changing)
+            if result.successful:
+                result.reason = self.remark(changing)
+            return result
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
+
+    def remark(self, parameters: list[Parameter]) -> str:
+        """Return what a client should know of `parameters` that were set, or an empty text."""
+        return ""
 
     def _take_overrides(self) -> dict[str, Any]:
         """Undeclare the parameters that rclpy declared from overrides; the node declares them."""

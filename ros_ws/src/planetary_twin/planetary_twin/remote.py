@@ -71,8 +71,12 @@ class Remote(Client):
             raise ValueError(_unknown(f"{name}: no such parameter", name, found))
         return found[name]
 
-    def set(self, name: str, typed: str) -> None:
-        """Set the parameter `name` to the text `typed`, which may have a unit."""
+    def set(self, name: str, typed: str) -> str:
+        """
+        Set the parameter `name` to the text `typed`, which may have a unit.
+
+        Returns a remark: whether the parameter has no effect in the scene.
+        """
         names = self._names()
         if name not in names:
             raise ValueError(_unknown(f"{name}: no such parameter", name, names))
@@ -82,12 +86,14 @@ class Remote(Client):
         answer = self._call(SetParametersAtomically, "set_parameters_atomically", request)
         if not answer.result.successful:
             raise ValueError(answer.result.reason)
+        return str(answer.result.reason)
 
-    def operate(self, typed: Mapping[str, str], ramp: float = 0.0) -> float:
+    def operate(self, typed: Mapping[str, str], ramp: float = 0.0) -> tuple[float, str]:
         """
-        Change several quantities at one simulated instant [s], which is returned.
+        Change several quantities at one simulated instant.
 
-        `typed` are values by name, as text. With a `ramp` [s], its end reaches them.
+        `typed` are values by name, as text. With a `ramp` [s], its end reaches them. Returns the
+        instant [s], and a remark on quantities without effect in the scene.
         """
         for name in typed:
             if name not in TUNABLES:
@@ -97,7 +103,7 @@ class Remote(Client):
         answer = self._call(SetOperatingPoint, "set_operating_point", request)
         if not answer.success:
             raise ValueError(answer.message)
-        return float(answer.simulated_time)
+        return float(answer.simulated_time), str(answer.message)
 
     def _names(self) -> list[str]:
         listed = self._call(ListParameters, "list_parameters", ListParameters.Request())

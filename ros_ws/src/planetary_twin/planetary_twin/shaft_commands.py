@@ -23,6 +23,7 @@ SILENCE = ("hold", "zero", "brake")
 """Reaction to missing commands: hold the last one, remove it, or brake the input shaft."""
 _QUANTITIES = {"machine": (), "torque": ("torque",), "motion": ("speed", "position")}  # by port
 _TURN = 2.0 * math.pi
+_OUT_OF_RANGE = "out of range"
 _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
 QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
 """QoS of ~/command: it matches reliable and best-effort publishers, and holds what several fast
@@ -99,7 +100,10 @@ class ShaftCommands:
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
         values, now = values_of(message, self.joints), self._now() - waited if stamp else 0
         reasons = set[str]()
-        if not values:
+        if _has_surplus(message):
+            values = {}
+            reasons.add("more values than names")
+        elif not values:
             reasons.add(f"no effort, velocity or position of {' or '.join(self.joints)}")
         with self._lock:
             for side in SIDES:
@@ -172,6 +176,11 @@ class ShaftCommands:
             given |= for_ports(dict.fromkeys(names, 0.0), twin)
         return given
 
+    def refuse(self) -> None:
+        """Count the commands that `given` has returned last: the twin has refused them."""
+        with self._lock:
+            self.ignored[_OUT_OF_RANGE] += 1
+
     def release(self, twin: Twin) -> None:
         """End a brake: restore the ports of `twin`."""
         self._brake.release(twin)
@@ -191,6 +200,12 @@ class ShaftCommands:
                 with self._lock:
                     self.ignored[f"{joint}: drive.{side}.port = {port}"] += 1
         return taken if self._continuous else nearest_turn(taken, twin)
+
+
+def _has_surplus(message: JointState) -> bool:
+    """Return whether `message` has values without a name; ros2_control sends fewer, never more."""
+    longest = max(len(message.position), len(message.velocity), len(message.effort))
+    return longest > len(message.name)
 
 
 class _Brake:

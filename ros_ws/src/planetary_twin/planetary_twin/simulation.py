@@ -12,6 +12,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
@@ -203,6 +204,10 @@ class Simulation(ManagedNode):
         """Apply the parameter `tolerance` to the live twin."""
         if self._live is not None:
             self._live.quality = self._given.quality(self._running_twin())
+
+    def remark(self, parameters: list[Parameter]) -> str:
+        """Return which of `parameters` have no effect in the scene, and why."""
+        return self._given.remark(parameters)
 
     def running(self) -> LiveTwin:
         """Return the live twin."""

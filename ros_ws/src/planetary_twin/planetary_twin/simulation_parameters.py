@@ -12,7 +12,8 @@ from planetary_twin_py.dynamics_choice import AUTO
 from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 from planetary_twin_py.run import check_point
 from planetary_twin_py.scene.live import LIVE, PORT_FIELDS
-from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
+from planetary_twin_py.scene.unused import without_effect
+from planetary_twin_py.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 
 from .pacing import check_rate_factor
 from .parameter_node import ParameterNode
@@ -38,7 +39,7 @@ TOLERANCE = pt.Tunable(
 # Changes after which the speed loop may not be stable.
 _CONTROLLED = ("input_speed", "second_input_speed", *PORT_FIELDS)
 _GEARSET = "gearset"
-_SETTINGS = (
+SETTINGS = (
     "frame_id",
     "frame_prefix",
     "tf",
@@ -52,6 +53,7 @@ _SETTINGS = (
     "command_timeout",
     "command_silence",
 )
+"""Parameters that may be set until the node is configured."""
 
 
 class SimulationParameters:
@@ -87,7 +89,7 @@ class SimulationParameters:
 
     def read(self) -> None:
         """Read the parameters, which may have been set while the node was unconfigured."""
-        value = {name: self._node.get_parameter(name).value for name in _SETTINGS}
+        value = {name: self._node.get_parameter(name).value for name in SETTINGS}
         self.frame: str = value["frame_id"]
         self.frame_prefix: str = value["frame_prefix"]
         self.tf: bool = value["tf"]
@@ -114,6 +116,11 @@ class SimulationParameters:
         """Return operating point and ports of the parameters, by the arguments of `Twin.set`."""
         return {name: self._node.get_parameter(name).value for name in LIVE}
 
+    def remark(self, parameters: list[Parameter]) -> str:
+        """Return which of `parameters` have no effect in the scene, and why."""
+        names = [p.name for p in parameters if p.name in LIVE]
+        return "; ".join(without_effect(self.scene_now(), names))
+
     def scene_now(self) -> pt.Scene:
         """Return the scene at that operating point, with those ports."""
         return self.scene.replace(**self.live_values())
@@ -130,11 +137,9 @@ class SimulationParameters:
         """Return the quality control for the parameters, starting at the twin's setting."""
         wanted = self._node.get_parameter(TOLERANCE.name).value
         begin = Setting(twin.tolerance, twin.sample_rate)
-        if self.rate_factor:
-            settings = settings_of(ladder_of(wanted), self.sample_rate)
-        else:  # nothing to keep up with
-            settings = [Setting(wanted or LIVE_TOLERANCE, self.sample_rate)]
-        return QualityControl(settings, self._compute_share, self.period, begin)
+        settings = settings_of(ladder_of(wanted), self.sample_rate)
+        quality = QualityControl(settings, self._compute_share, self.period, begin)
+        return quality if self.rate_factor else quality.without_deadline()
 
     def _declare_scene(self) -> None:
         """Declare operating point, ports and geometry of the scene."""

@@ -11,7 +11,7 @@ import typer
 
 from planetary_twin_py.terminal.arguments import complete_parameter
 from planetary_twin_py.terminal.console import make_console
-from planetary_twin_py.terminal.messages import fail, note
+from planetary_twin_py.terminal.messages import fail, note, remark
 from planetary_twin_py.terminal.settings import in_words
 
 if TYPE_CHECKING:
@@ -88,7 +88,9 @@ def set_(
     Example: planetary-twin param set backlash "0.3 um"
     """
     with _twin(namespace) as twin:
-        twin.set(name, value)
+        without_effect = twin.set(name, value)
+        if without_effect:
+            remark(f"warning: {without_effect}")
         print(_in_words(name, twin.setting(name).value))
 
 
@@ -108,8 +110,10 @@ def op(
     """
     typed = dict(_pair(change) for change in changes)
     with _twin(namespace) as twin:
-        instant = twin.operate(typed, ramp)
+        instant, without_effect = twin.operate(typed, ramp)
         _say_units(typed)
+        if without_effect:
+            remark(f"warning: {without_effect}")
         print(f"{', '.join(typed)} from {instant:g} s of simulated time on")
 
 

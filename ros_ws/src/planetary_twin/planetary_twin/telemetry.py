@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -34,7 +35,7 @@ from .simulation_parameters import SimulationParameters
 from .stamps import Stamps, StrictClock
 from .transforms import TransformsMessage
 
-_DEPTH = 10
+_WAIT = 30  # [s] of wall time: longest wait for a recorder, with a margin
 _COUNTED = (
     "_state_message",
     "_waveform_message",
@@ -92,7 +93,7 @@ class Telemetry:
         self._point = create(msg.OperatingPoint, "operating_point", latched)
         self._description = create(String, "robot_description", newest)
         self._origin_of_run = create(String, "run_origin", latched)
-        self._diagnostics = create(DiagnosticArray, "/diagnostics", _DEPTH)
+        self._diagnostics = create(DiagnosticArray, "/diagnostics", _reports_kept(given))
         self._tf = create(TFMessage, "/tf", kept) if given.tf else None
         self._clock = create(Clock, "/clock", kept) if given.clock else None
         moving = given.scene.moving_axes
@@ -242,3 +243,9 @@ class Telemetry:
     def _send(self, publisher: LifecyclePublisher, message: Any) -> None:
         publisher.publish(message)
         self._published[publisher] += 1
+
+
+def _reports_kept(given: SimulationParameters) -> int:
+    """Return the depth of /diagnostics, one per second of wall time, also while the twin waits."""
+    slowest = min(given.rate_factor or 1.0, 1.0)
+    return math.ceil(STALL / slowest) + _WAIT

@@ -31,7 +31,12 @@ SILENCE = 10.0  # [s] longest silence of a running twin
 
 @dataclass(frozen=True)
 class Plan:
-    """What to run; `values` are start values of the simulation's parameters."""
+    """
+    What to run.
+
+    `values` are start values of the operating point, `settings` those of other parameters of the
+    simulation.
+    """
 
     scene: str
     duration: float  # [s] simulated
@@ -39,6 +44,7 @@ class Plan:
     rate_factor: float = 1.0
     tolerance: float = AUTOMATIC
     values: Mapping[str, float] = field(default_factory=dict)
+    settings: Mapping[str, str] = field(default_factory=dict)
     stops: list[Stop] = field(default_factory=list)
     namespace: str = "/planetary_twin"
 
@@ -107,6 +113,7 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
         "autostart": "false",
         "wait_for": "logger",
         **plan.values,
+        **plan.settings,
     }
 
 

@@ -1,0 +1,27 @@
+"""Parameters of the simulation node from the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..simulation_parameters import SETTINGS
+
+_OF_THE_RUN = ("rate_factor", "wait_for")  # set by the command itself
+NAMES = tuple(name for name in SETTINGS if name not in _OF_THE_RUN)
+
+
+def node_settings(given: Sequence[str]) -> dict[str, str]:
+    """
+    Return the values of `given`, each NAME=VALUE, by name; the node checks the values.
+
+    Raises `ValueError` for a name that is not in `NAMES`.
+    """
+    settings = {}
+    for text in given:
+        name, equals, value = text.partition("=")
+        if name not in NAMES or not equals or not value:
+            raise ValueError(
+                f"--param {text!r}: must be NAME=VALUE, with NAME of {', '.join(NAMES)}"
+            )
+        settings[name] = value
+    return settings
