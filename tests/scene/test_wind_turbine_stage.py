@@ -81,7 +81,7 @@ PITCH_POINT = {
 
 def test_schlenks_regression_pair_by_pair_is_near_its_value_at_the_pitch_point():
     found = loss_coefficients("schlenk")
-    assert found["planet_ring"][1] == pytest.approx(8.2e3, rel=0.02)
+    assert found["planet_ring"][1] == pytest.approx(8.4e3, rel=0.02)
     for side, (mu, _) in found.items():
         assert mu == pytest.approx(PITCH_POINT[side], rel=0.15)
 
