@@ -12,7 +12,11 @@ from numpy.typing import NDArray
 
 LARGEST = 2.0**53
 """Magnitude in SI of a measured value, up to which counts are exact and sums of squares finite."""
-_QUANTITY = re.compile(r"([-+]?[\d._]+(?:[eE][-+]?\d+)?)\s*(\S.*)")
+_QUANTITY = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?![\d.])\s*([^\s:_].*)")
+_OTHER_BASE = re.compile(r"[-+]?0[box][\da-f]+", re.IGNORECASE)
+_NUMBER = re.compile(
+    r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|[-+]?(?:inf|infinity|nan)", re.ASCII | re.IGNORECASE
+)
 _POWER = re.compile(r"(?<=[^\W\d_])(-?\d)")  # of mm2, min-1
 _INSTEAD = (  # a common wrong unit, the expected unit, and advice
     ("1/s", "rad/s", "write rpm or rev/s for turns"),
@@ -107,7 +111,7 @@ def to_si(value: object, unit: str) -> object:
         return float(value)
     parts = _QUANTITY.fullmatch(value.strip())
     # Number and unit are parsed separately, because pint drops unknown characters in expressions.
-    if parts is None or not is_number(parts[1]):
+    if parts is None or not is_number(parts[1]) or _OTHER_BASE.fullmatch(value.strip()):
         raise ValueError(f"{value!r} is not a number with a unit")
     return float(column_to_si(np.array(float(parts[1])), parts[2], unit))
 
@@ -131,16 +135,14 @@ def customary(value: float, unit: str, digits: int = 4) -> str:
 
 
 def is_number(text: str) -> bool:
-    """Whether a text is a number without a unit.
+    """Whether a text is a decimal number without a unit.
+
+    Underscores and digits of other scripts, which `float` of Python accepts, are not.
 
     Args:
         text: any text.
     """
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return _NUMBER.fullmatch(text.strip()) is not None
 
 
 def has_unit(text: str) -> bool:

@@ -18,7 +18,9 @@ _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
     "tuple_type": "must be a list",
     "string_type": "must be text",
-    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
+    **dict.fromkeys(
+        ("int_type", "int_parsing", "int_parsing_size", "int_from_float"), "must be a whole number"
+    ),
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
 }
 

@@ -34,13 +34,16 @@ def load_scene(name_or_path: str | Path) -> Scene:
         The scene.
 
     Raises:
-        SceneError: the scene does not exist, or a field is invalid.
+        SceneError: the scene does not exist, or a field is invalid; the message names the file.
     """
     if str(name_or_path) in packaged_scenes():
-        text = (resources.files(__package__) / "packaged" / f"{name_or_path}.yaml").read_text()
-    else:
-        text = _read(Path(name_or_path))
-    return parse_scene(text)
+        file = resources.files(__package__) / "packaged" / f"{name_or_path}.yaml"
+        return parse_scene(file.read_text())
+    text = _read(Path(name_or_path))
+    try:
+        return parse_scene(text)
+    except SceneError as error:
+        raise SceneError(f"{name_or_path}: {error}") from None
 
 
 def _read(path: Path) -> str:

@@ -10,10 +10,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validat
 from pydantic.fields import FieldInfo
 
 from ..printable import one_line
-from ..units import UnitError, to_si
+from ..units import UnitError, is_number, to_si
 
 _MOST_LINES = 30  # of a message
 _LONGEST_LINE = 400  # characters
+_WHOLE = (int, int | None)  # types of fields without a unit
 
 
 class SceneError(ValueError):
@@ -49,6 +50,8 @@ class Section(BaseModel):
             raise ValueError("must not be true or false")  # Python would convert them to 1 and 0
         unit = unit_of(field)
         if unit is None:
+            if field.annotation in _WHOLE and isinstance(value, str) and not is_number(value):
+                raise ValueError("must be a whole number")  # pydantic would accept 1_0
             return value
         if isinstance(value, (list, tuple)):
             return tuple(to_si(item, unit) for item in value)

@@ -1,7 +1,8 @@
 """Parses YAML text within limits that no scene exceeds.
 
 Duplicate keys, of which YAML would use the last, are rejected, and so are aliases that expand a
-small text to a large one, and deep nesting.
+small text to a large one, and deep nesting. Numbers are decimal: what YAML 1.1 would read as octal
+(010), hexadecimal, binary, in base 60 (1:30) or with underscores is text.
 """
 
 from __future__ import annotations
@@ -11,13 +12,13 @@ from typing import Any
 
 import yaml
 
+from .decimal_loader import DecimalLoader
 from .quantity import SceneError, listed
 
-# That of libyaml, which every wheel of PyYAML holds, is ten times as fast.
-_Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 LONGEST = 100_000  # characters of a text
 _MOST_VALUES = 5_000  # with aliases expanded
 _DEEPEST = 50  # nested mappings and lists
+_UNNAMED = 'in "<unicode string>", '  # before a line, in messages of PyYAML
 
 
 def read_yaml(text: str, what: str = "scene") -> Any:
@@ -34,16 +35,17 @@ def read_yaml(text: str, what: str = "scene") -> Any:
         SceneError: the text is not YAML, is too large, or has a duplicate key.
     """
     if len(text) > LONGEST:
-        raise SceneError(f"{what} has {len(text)} characters: must be at most {LONGEST}")
+        raise SceneError(f"{what} has more than {LONGEST} characters, the most that are read")
     try:
         _check_size(text, what)
-        loader = _Loader(text)
+        loader = DecimalLoader(text)
         root = loader.get_single_node()
         if repeated := list(_repeated(root, "", set())):
             raise SceneError(listed(repeated, f"the {what}"))
         return None if root is None else loader.construct_document(root)
     except yaml.YAMLError as error:
-        raise SceneError(f"{what} is not YAML: {' '.join(str(error).split())}") from None
+        reason = str(error).replace(_UNNAMED, "at ")
+        raise SceneError(f"{what} is not YAML: {' '.join(reason.split())}") from None
     except SceneError:
         raise
     except Exception as error:  # of many kinds, if a value does not match a tag such as !!int
@@ -55,7 +57,7 @@ def _check_size(text: str, what: str) -> None:
     """Raise `SceneError` if a text is nested too deeply, or too large with aliases expanded."""
     values, sizes = 0, dict[str | None, int]()
     opened: list[tuple[str | None, int]] = []  # anchor of each collection, and values before it
-    for event in yaml.parse(text, Loader=_Loader):
+    for event in yaml.parse(text, Loader=DecimalLoader):
         if isinstance(event, yaml.CollectionStartEvent):
             opened.append((event.anchor, values))
             values += 1
