@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..printable import one_line
-from ..recording.tables.measurements import TIME, Column, in_si, read_columns
+from ..recording.tables.measurements import TIME, Column, read_columns
 from ..units import LARGEST
 from .bins import CHANNELS
 from .follower import EncoderSamples, Readings
@@ -141,7 +141,7 @@ def read_vibration(
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
     excluded = {*TIME, ARRIVAL, SAMPLE, *COUNTS, *CHANNELS, *names.values()}
     sensors = {
-        column.heading: in_si(column.heading, column.values, None, "")
+        column.heading: column.as_given(column.heading)
         for name, column in columns.items()
         if not excluded & {name, column.heading}
     }

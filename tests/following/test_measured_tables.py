@@ -191,8 +191,9 @@ def test_vibration_is_every_column_that_is_no_reading(write):
     ],
 )
 def test_a_table_that_is_no_vibration_is_refused(write, lines, message):
-    with pytest.raises(ValueError, match=message):
-        read_vibration(write(*lines), {})
+    with pytest.raises(ValueError, match=message) as error:
+        read_vibration(table := write(*lines), {})
+    assert str(error.value).startswith(f"{table}: ")
 
 
 def test_dates_of_several_tables_count_from_the_same_second(tmp_path):

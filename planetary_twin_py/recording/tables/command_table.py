@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...commands import NAMES, UNITS, Commands
 from ...scene.names import did_you_mean
-from .measurements import TIME, read_columns
+from .measurements import TIME, naming, read_columns
 
 
 def read_commands(path: Path) -> Commands:
@@ -35,4 +35,5 @@ def read_commands(path: Path) -> Commands:
         raise ValueError(f"{path}: has no column of commands; possible: {', '.join(NAMES)}")
     units = {TIME[0]: "s"} | {name: UNITS[name.split("_")[1]] for name in NAMES}
     columns = {name: column.in_si(name, units[name]) for name, column in table.items()}
-    return Commands(**columns)
+    with naming(path):
+        return Commands(**columns)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -43,6 +44,20 @@ _NAMES = (
 _HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\]|\(([^()]*)\))?", re.DOTALL)
 
 
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Context in which the message of every `ValueError` starts with the path of a table.
+
+    Args:
+        path: of the table; a message that starts with it stays as it is.
+    """
+    try:
+        yield
+    except ValueError as reason:
+        named = str(reason).startswith(f"{path}: ")
+        raise ValueError(str(reason) if named else f"{path}: {reason}") from None
+
+
 class Column(NamedTuple):
     """A column of a table."""
 
@@ -51,10 +66,18 @@ class Column(NamedTuple):
     """Unit in brackets or parentheses in the heading; None without."""
     values: pa.ChunkedArray
     """(rows,)."""
+    path: Path
+    """Of the table, for messages."""
 
     def in_si(self, name: str, unit: str) -> Array:
         """Values in the SI unit `unit`, see `in_si`; `name` is for messages."""
-        return in_si(name, self.values, self.unit, unit)
+        with naming(self.path):
+            return in_si(name, self.values, self.unit, unit)
+
+    def as_given(self, name: str) -> Array:
+        """Values in the unit of the heading; `name` is for messages."""
+        with naming(self.path):
+            return in_si(name, self.values, None, "")
 
     @property
     def begin(self) -> np.datetime64 | None:
@@ -97,7 +120,7 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
     for name, column in table.items():
         if name not in (TIME[0], LABEL, *UNREAD, *units):
             near = did_you_mean(name, [TIME[0], LABEL, *units])
-            raise ValueError(f"column {column.heading!r}: no such quantity{near or _NAMES}")
+            raise ValueError(f"{path}: column {column.heading!r}: no such quantity{near or _NAMES}")
     if TIME[0] not in table:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
     labels = table.pop(LABEL).values.to_pylist() if LABEL in table else None
@@ -106,7 +129,8 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
         for name, column in table.items()
         if name not in UNREAD
     }
-    step = time_step(columns.pop(TIME[0]))
+    with naming(path):
+        step = time_step(columns.pop(TIME[0]))
     if not any(np.isfinite(values).any() for values in columns.values()):
         raise ValueError(f"{path}: has no value besides the time")
     return Measurements(step, columns, labels)
@@ -148,7 +172,7 @@ def read_columns(path: Path) -> dict[str, Column]:
         name, unit = name_and_unit(heading)
         if name and name in columns:
             raise ValueError(f"{path}: column {heading!r}: {name} is given twice")
-        columns[name] = Column(heading, unit, values)
+        columns[name] = Column(heading, unit, values, path)
     return columns
 
 

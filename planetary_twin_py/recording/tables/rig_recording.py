@@ -28,7 +28,7 @@ from ..runs.offline import NAMESPACE
 from ..runs.origin import Measured, Origin
 from ..runs.reader import SCENE_ATTACHMENT
 from ..runs.schedule import nanoseconds
-from .measurements import Array, Measurements, read_measurements
+from .measurements import Array, Measurements, naming, read_measurements
 
 TOPICS = (ORIGIN, DESCRIPTION, POINT, STATE)
 PARTS = 4  # of an operating point, whose means are compared
@@ -78,9 +78,12 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
     units = {name: tunable.unit for name, tunable in TUNABLES.items()}
     units |= {column: shown[field] for column, (field, _) in places.items()}
     measured = read_measurements(table, units)
-    if measured.step > LONGEST_WINDOW:
-        raise ValueError(f"a row every {measured.step:g} s: must be at most {LONGEST_WINDOW:g} s")
-    points = list(_points(measured, scene))
+    with naming(table):
+        if measured.step > LONGEST_WINDOW:
+            raise ValueError(
+                f"a row every {measured.step:g} s: must be at most {LONGEST_WINDOW:g} s"
+            )
+        points = list(_points(measured, scene))
 
     def write(folder: Path) -> Path:
         bag = BagWriter(folder)

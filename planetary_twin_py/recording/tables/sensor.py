@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...printable import one_line
-from .measurements import TIME, Array, in_si, name_and_unit, read_columns, time_step
+from .measurements import TIME, Array, name_and_unit, naming, read_columns, time_step
 
 
 class Sensor(NamedTuple):
@@ -49,14 +49,15 @@ def read_sensor(
     speed_name = None if speed is None else _chosen(path, "--speed", speed, names)
     name = _chosen(path, "--column", column, [other for other in names if other != speed_name])
     chosen = columns[name]
-    samples = _complete(path, name, in_si(name, chosen.values, None, ""))
+    samples = _complete(path, name, chosen.as_given(name))
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
         begin, step = 0.0, 1.0 / sample_rate
     elif TIME[0] in columns:
         time = columns[TIME[0]].in_si(TIME[0], "s")
-        begin, step = float(time[0]) if len(time) else 0.0, time_step(time)
+        with naming(path):
+            begin, step = float(time[0]) if len(time) else 0.0, time_step(time)
     else:
         raise ValueError(
             f"{path}: column {TIME[0]!r}: missing; rename the column of times, or give "

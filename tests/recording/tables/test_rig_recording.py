@@ -201,6 +201,7 @@ def test_an_invalid_table_is_refused_in_one_line_and_nothing_is_written(tmp_path
     done = bring_in(tmp_path, columns)
     assert done.exit_code == 2, done.output
     assert reason in done.output and done.output.count("\n") == 1
+    assert done.output.startswith(f"planetary-twin: {tmp_path}/")
     assert not (tmp_path / "rig").exists()
 
 
