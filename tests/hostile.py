@@ -76,6 +76,12 @@ REFUSED: dict[str, Alter] = {
     "an array of 4 billion messages": state_of(
         data=lambda s: b"std_msgs/Header[4000000000] more\n" + s.data
     ),
+    "an array of 2^64 numbers": state_of(
+        data=lambda s: s.data.replace(b"float64 simulated_time", b"float64[18446744073709551616] q")
+    ),
+    "a constant of 50 000 digits": state_of(
+        data=lambda s: b"int32 MORE=" + b"9" * 50_000 + b"\n" + s.data
+    ),
     "a definition that is not UTF-8": state_of(data=lambda s: b"# \xff\xfe\n" + s.data),
     "a definition of 1 MB": state_of(data=lambda s: b"#" * 1_000_000 + b"\n" + s.data),
     "a definition without its fields": state_of(data=b"float64 value\n"),

@@ -6,6 +6,7 @@ Messages with equal lengths are therefore rows of one structured array.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
@@ -145,7 +146,7 @@ class _Walk:
         if name not in _NUMBERS:
             raise LayoutError(f"has a field of the unsupported type {name}{self._in_field()}")
         form = np.dtype(self._order + _NUMBERS[name])
-        count = int(np.prod(shape, dtype=int))
+        count = math.prod(shape)  # of a definition, so perhaps larger than any integer of NumPy
         if count:  # an empty sequence has no alignment
             self._skip(-(self._place - _ENCAPSULATION) % form.itemsize)
         return (form, shape), self._skip(count * form.itemsize)

@@ -52,7 +52,7 @@ def types_of(definition: bytes, kind: str) -> Typestore:
     except UnicodeDecodeError as reason:
         raise DefinitionError(f"must be in UTF-8, byte {reason.start + 1} is not") from None
     except Exception as reason:  # of many kinds, if the text is not a definition
-        raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
+        raise DefinitionError(f"is invalid: {_in_words(reason)}") from None
     _fields(definitions, kind, ())
     if kind in KINDS.values():
         _compare(definitions, kind)
@@ -60,10 +60,17 @@ def types_of(definition: bytes, kind: str) -> Typestore:
     try:
         types.register(definitions)
     except Exception as reason:  # of names that are not valid in Python
-        raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
+        raise DefinitionError(f"is invalid: {_in_words(reason)}") from None
     for name, value in absent(kind, dict(definitions[kind][1])).items():
         setattr(types.types[kind], name, value)
     return types
+
+
+def _in_words(reason: Exception) -> str:
+    """The reason of an error, without advice on how to program."""
+    if isinstance(reason, ValueError) and "set_int_max_str_digits" in str(reason):
+        return "a number has thousands of digits"
+    return str(reason) or type(reason).__name__
 
 
 def absent(kind: str, recorded: Collection[str]) -> dict[str, Any]:
