@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
+from .printable import one_line
 from .result import Result
 from .scene import Scene
 from .simulation import check_run, simulate
@@ -35,7 +36,8 @@ class Outcome:
         """
         if isinstance(self.found, Result):
             return self.found
-        raise ValueError(f"scene {self.place} ({self.scene.name}): {self.found}") from self.found
+        name = one_line(self.scene.name, 100)
+        raise ValueError(f"scene {self.place} ({name}): {self.found}") from self.found
 
 
 def simulate_many(

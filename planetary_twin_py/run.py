@@ -15,6 +15,7 @@ from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train, held_axes
 from .energy_books import EnergyBooks
 from .integrators.interpolant import Samples, Waves
+from .printable import one_line
 from .quasi_static.engine import QuasiStaticEngine
 from .scene import OperatingPoint, Scene, SceneError
 from .window_jobs import WindowJobs
@@ -91,9 +92,10 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
         ValueError: an argument is out of range, or the scene cannot be built.
     """
     if scene.dynamics == "auto":
+        name = one_line(scene.name, 100)
         raise SceneError(
             "dynamics = 'auto': must be selected first: use `choose_dynamics(scene).scene`, or "
-            f"give torsional, planar or quasi_static; `planetary-twin explain {scene.name}` "
+            f"give torsional, planar or quasi_static; `planetary-twin explain {name}` "
             "compares them"
         )
     check_planet_bearings(scene, scene.operating_point)

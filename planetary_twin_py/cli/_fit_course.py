@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..terminal.messages import remark
+from ..terminal.names import shown
 from ._fitted import Fitted, Part
 
 if TYPE_CHECKING:
@@ -73,7 +74,9 @@ def _print(console: Console, found: FittedCourse) -> None:
     from rich.table import Table
 
     course, estimate = found.course, found.estimate
-    table = Table(title=f"{found.scene.name}, {course.time[0]:.4g} to {course.time[-1]:.4g} s")
+    table = Table(
+        title=f"{shown(found.scene.name)}, {course.time[0]:.4g} to {course.time[-1]:.4g} s"
+    )
     for heading in ("field", "estimate", "95 % interval", "unit"):
         table.add_column(heading, justify="right")
     for k, parameter in enumerate(found.parameters):

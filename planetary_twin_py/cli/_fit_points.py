@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from ..terminal.messages import remark
+from ..terminal.names import shown
 from ._fitted import Fitted, Part
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def _print(console: Console, found: Identified) -> None:
     from rich.table import Table
 
     excerpt, estimate = found.excerpt, found.estimate
-    table = Table(title=f"{excerpt.scene.name}, {excerpt.start:g} to {excerpt.end:g} s")
+    table = Table(title=f"{shown(excerpt.scene.name)}, {excerpt.start:g} to {excerpt.end:g} s")
     for heading in (
         "field",
         "estimate",

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 from ..terminal.messages import remark
+from ..terminal.names import shown
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -30,13 +31,13 @@ def print_state(console: Console, name: str, state: Following) -> None:
     """
     from rich.table import Table
 
-    table = Table(title=f"{name}, {_instant(state.time)}")
+    table = Table(title=f"{shown(name)}, {_instant(state.time)}")
     for heading in ("quantity", "estimate", "95 % interval", "unit", "status", REMEDY):
         table.add_column(heading, justify="left" if heading == REMEDY else "right")
     for one in state.estimates:
-        shown = one.status in ("ESTIMATED", "STALE")
-        value = f"{one.value:.4g}" if shown else "-"
-        span = f"{one.low:.4g} to {one.high:.4g}" if shown else "-"
+        known = one.status in ("ESTIMATED", "STALE")
+        value = f"{one.value:.4g}" if known else "-"
+        span = f"{one.low:.4g} to {one.high:.4g}" if known else "-"
         status = one.status.replace("_", " ")
         table.add_row(one.name, value, span, one.unit or "-", status, one.remedy)
     console.print(table)

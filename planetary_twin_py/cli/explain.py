@@ -14,6 +14,7 @@ from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, remark
+from ..terminal.names import shown
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
@@ -37,6 +38,8 @@ def explain(
     Example: planetary-twin explain cracked_tooth --duration 0.2
     """
 
+    from rich.markup import escape
+
     from ..accuracy import AccuracyWarning
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
@@ -57,8 +60,8 @@ def explain(
             )
     except ValueError as error:
         fail(error)
-    description = f": {loaded.description}" if loaded.description else ""
-    console.print(f"[bold]{loaded.name}[/bold]{description}\n")
+    description = f": {escape(loaded.description)}" if loaded.description else ""
+    console.print(f"[bold]{shown(loaded.name)}[/bold]{description}\n")
     print_list(console, "gears", gears(loaded))
     console.print()
     console.print(_mesh_table(loaded, meshes))

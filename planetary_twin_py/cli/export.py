@@ -53,4 +53,4 @@ def export(
         remark(line)
     for path, rows in done.rows.items():
         line = f"{path}: {rows} rows, {path.stat().st_size / 1e6:.1f} MB"
-        console.print(line, highlight=False, soft_wrap=True)
+        console.print(line, highlight=False, soft_wrap=True, markup=False)

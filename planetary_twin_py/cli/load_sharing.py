@@ -11,6 +11,7 @@ from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
+from ..terminal.names import shown
 from ..terminal.output_files import PICTURES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 
@@ -78,7 +79,7 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     pins = np.linalg.norm(found.planet_bearing, axis=2)
     rolling = not np.isnan(found.element_load[:, len(CENTRAL) :]).all()
     table = Table(
-        title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
+        title=f"{shown(scene.name)}: static load sharing, {len(found.turns)} positions",
         caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
         "flanks and coast flanks of the sun mesh, on the pin"
         + ", on an element of a rolling bearing"

@@ -12,6 +12,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
+from ..terminal.names import shown
 from ..terminal.output_files import output_file, writing
 from ..terminal.settings import changed_scene, settings
 
@@ -68,7 +69,7 @@ def modal(
     limit = loaded.drive.speed_limit
     found = resonances(loaded, mean, limit)
     console = console_beside(json_)
-    title = f"{loaded.name}, {model} model{_turning(speed)}"
+    title = f"{shown(loaded.name)}, {model} model{_turning(speed)}"
     console.print(_mode_table(title, single, mean, None if speed else springs))
     _print_resonances(console, found, limit)
     if campbell is not None:

@@ -10,6 +10,7 @@ import typer
 from ..terminal.arguments import FileArgument
 from ..terminal.console import busy, make_console
 from ..terminal.messages import fail, need, remark
+from ..terminal.names import shown
 from ..terminal.output_files import check_recording
 
 
@@ -48,7 +49,7 @@ def recover(
         remark(line)
     table = Table("topic", "messages saved", box=None)
     for topic, count in saved.messages.items():
-        table.add_row(topic, str(count))
+        table.add_row(shown(topic), str(count))
     console = make_console()
     console.print(table)
     console.print(f"{saved.file}", highlight=False, soft_wrap=True)

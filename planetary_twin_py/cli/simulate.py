@@ -21,6 +21,7 @@ from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
+from ..terminal.names import shown
 from ..terminal.output_files import check_file, check_recording
 from ..terminal.settings import changed_scene, settings
 
@@ -73,7 +74,7 @@ def simulate(
             _check(out)
         changes = settings(set_ or [])
         loaded = changed_scene(scene, changes)
-        with console.status(f"simulating {duration:g} s of {loaded.name}"):
+        with console.status(f"simulating {duration:g} s of {shown(loaded.name)}"):
             result = interruptible(
                 lambda: run(loaded, duration, sample_rate, tolerance=tolerance, settling=settling)
             )

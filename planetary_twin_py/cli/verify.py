@@ -55,7 +55,9 @@ def _print(console: Console, result: Comparison) -> None:
     from ..recording.runs.verify import BOUND
 
     for remark in filter(None, (*result.remarks, result.ledger, *result.accuracy)):
-        console.print(f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False)
+        console.print(
+            f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False, markup=False
+        )
     counts = ", ".join(f"{count} {topic}" for topic, count in result.messages.items())
     console.print(f"compared          {counts}: {result.values} values", highlight=False)
     if result.not_recorded:

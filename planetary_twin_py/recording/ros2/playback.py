@@ -10,12 +10,15 @@ from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
 
+from ...printable import one_line
 from ..container.extent import Extent
 from ..container.records import RecordingError, files_of
 from ..container.segment import DISORDER, open_segment
 from .metadata import Topic, read_offered_qos
 from .no_run import no_run_yet
 from .repeats import Repeats
+
+_LONGEST = 100  # characters of a topic in a remark
 
 
 class TimedMessage(NamedTuple):
@@ -135,7 +138,8 @@ class Playback:
             offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
         except ValueError as reason:
             offered_qos = []
-            self._add_remark(f"{path}: {channel.topic}: assumed to be volatile: {reason}")
+            name = one_line(channel.topic, _LONGEST)
+            self._add_remark(f"{path}: {name}: assumed to be volatile: {reason}")
         return Topic(
             name=channel.topic,
             type=schema.name,

@@ -1,0 +1,21 @@
+"""Names of unknown origin, of topics and scenes, in text that Rich prints."""
+
+from __future__ import annotations
+
+_LONGEST = 100  # characters; those of names in ROS have at most 255, most have 40
+
+
+def shown(name: str) -> str:
+    """A name as a part of one line, without control characters and markup.
+
+    Args:
+        name: any text.
+
+    Returns:
+        The name; of a longer one than 100 characters the middle is omitted.
+    """
+    from rich.markup import escape
+
+    from ..printable import one_line
+
+    return escape(one_line(name, _LONGEST))

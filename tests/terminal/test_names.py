@@ -1,0 +1,36 @@
+"""Names in lines and tables are one line without control characters and markup."""
+
+import pytest
+from rich.text import Text
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.terminal.names import shown
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("/planetary_twin/gearbox_state", "/planetary_twin/gearbox_state"),
+        ("a\nplanetary-twin: fake\r\tb", "a\\nplanetary-twin: fake\\r b"),
+        ("\x1b[31mred", "\\x1b[31mred"),
+        ("[bold]x[/y]", "[bold]x[/y]"),
+        ("", ""),
+    ],
+)
+def test_a_name_is_shown_as_one_plain_line(name, line):
+    assert Text.from_markup(shown(name)).plain == line
+
+
+def test_a_long_name_is_shortened_in_its_middle():
+    line = shown(f"/begin{'x' * 60_000}/end")
+    assert line.startswith("/begin") and " ... " in line and line.endswith("/end")
+    assert len(line) <= 100
+
+
+def test_a_line_end_or_markup_in_the_name_of_a_scene_is_escaped(tmp_path):
+    file = tmp_path / "scene.yaml"
+    file.write_text('base: paper\nname: "a\\nplanetary-twin: fake [/x]"\n', "utf-8")
+    answer = CliRunner().invoke(build_app(), ["modal", str(file)])
+    assert answer.exit_code == 0, answer.output
+    assert "a\\nplanetary-twin: fake [/x], " in " ".join(answer.output.split())
