@@ -11,6 +11,7 @@ from ..terminal.arguments import FileArgument, JsonOption
 from ..terminal.console import busy
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
+from ..terminal.names import shown
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -28,6 +29,8 @@ def info(
     json_: JsonOption = None,
 ) -> None:
     """Show the contents of FILE: topics, rates, lost messages, longest gaps, parameter changes.
+
+    The exit code is 1 if nothing can be read of a file to which no recorder can be writing.
 
     Example: planetary-twin info recordings/paper_20260101_120000
     """
@@ -47,7 +50,7 @@ def info(
     console = console_beside(json_)
     _print(console, found)
     for namespace, event in happened or []:
-        text = f"{namespace} run {event.run:<3} {event.time:10.4f} s  {event.text}"
+        text = f"{shown(namespace)} run {event.run:<3} {event.time:10.4f} s  {event.text}"
         console.print(text, highlight=False, soft_wrap=True)
     if json_ is not None:
         figures = found.figures()
@@ -55,6 +58,8 @@ def info(
             figures["changes"] = [change._asdict() for change in found.changes]
             figures["events"] = [{"namespace": n, **event._asdict()} for n, event in happened]
         write_json(figures, json_)
+    if found.is_empty:
+        fail(f"{file}: has no message that can be read", code=1)
 
 
 def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
@@ -85,7 +90,7 @@ def _print(console: Console, found: Info) -> None:
             rate = gap = "-"
         counts = str(topic.recorded), lost, str(topic.before)
         missing = topic.lost is not None and topic.lost > topic.before
-        row = name, *counts, rate, gap, topic.type.rpartition("/")[2]
+        row = shown(name), *counts, rate, gap, shown(topic.type.rpartition("/")[2])
         table.add_row(*row, style="red" if missing else None)
     console.print(table)
     console.print()
@@ -125,7 +130,7 @@ def _described(ramp: Ramp) -> str:
 
 def _shown(name: str, value: float | str) -> str:
     """A value with its unit."""
-    return value if isinstance(value, str) else f"{value:.6g} {_unit(name)}".rstrip()
+    return shown(value) if isinstance(value, str) else f"{value:.6g} {_unit(name)}".rstrip()
 
 
 def _unit(name: str) -> str:

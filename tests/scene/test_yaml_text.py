@@ -133,7 +133,7 @@ def test_a_number_that_is_not_plain_and_decimal_is_refused_with_its_field_and_fi
     assert "must be a number within -1e+09 and 1e+09 N m" in line
     with pytest.raises(pt.SceneError, match=r"^gearset\.teeth\.sun = .*: must be a whole number"):
         pt.parse_scene(f"base: paper\ngearset: {{teeth: {{sun: {number}}}}}")
-    with pytest.raises(pt.SceneError, match="^input_torque = "):
+    with pytest.raises(pt.SceneError, match=r"^input_torque = "):
         pt.load_scene("paper").replace(input_torque=number.strip("'"))
 
 

@@ -61,6 +61,8 @@ def end_of_data(file: Path) -> int | None:
 
     It follows from the footer or, in a file that has lost bytes, from the summary's checksum.
     """
+    if file.stat().st_size == 0:  # which cannot be mapped
+        return None
     with file.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
         footer = len(data) - _FOOTER.size - len(MAGIC)
         if footer < _DATA_END.size or data[footer + _FOOTER.size :] != MAGIC:

@@ -1,12 +1,13 @@
-"""Recognises a recording that was cut off before its run began."""
+"""Recognises a recording that was cut off before its run began, or whose run is damaged."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..container.integrity import damaged_summary
-from ..container.records import files_of
+from ..container.integrity import damaged_summary, end_of_data
+from ..container.progress import may_be_written
+from ..container.records import files_of, records_of
 from .definitions import KINDS, OF_PORTS
 from .topics import ORIGIN, STATE
 
@@ -14,15 +15,17 @@ _OF_A_TWIN = {*KINDS, *OF_PORTS, "tf", "diagnostics"}
 
 
 def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
-    """Return a line if a recording of a twin has no end, and no state or no origin of its run.
+    """Return a line if a recording of a twin lacks its states or the origin of its run.
+
+    Either the recording was cut off, and so has no end, or what it lacks was lost in damage.
 
     Args:
         path: path of the recording.
         counts: numbers of messages by topic; 0 for a topic without messages.
 
     Returns:
-        What is missing and what to do; None if nothing is missing, if the recording is finished, or
-        if it is of something else than a twin.
+        What is missing and what to do; None if nothing is missing, if the recording is finished and
+        undamaged, or if it is of something else than a twin.
     """
     known = {name.rpartition("/")[2] for name in counts}
     with_messages = {name.rpartition("/")[2] for name, count in counts.items() if count}
@@ -30,9 +33,35 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
     if STATE in with_messages and ORIGIN not in known:  # of a version without it
         return None
     of_a_twin = STATE in known or with_messages <= _OF_A_TWIN
-    if not (missing and of_a_twin and any(damaged_summary(file) for file in files_of(path))):
+    if not (missing and of_a_twin):
         return None
+    files = files_of(path)
+    finished = all(end_of_data(file) is not None for file in files)
+    if finished or STATE in with_messages:
+        return _lost(path, missing) if any(map(_is_damaged, files)) else None
+    if not any(map(damaged_summary, files)):
+        return None
+    if not any(map(may_be_written, files)):
+        return _lost(path, missing)
     return (
         f"{path}: holds no run yet: it ends before the first {' and '.join(missing)}; if it is "
         "still being written, try again later; if its recorder was killed, record again"
     )
+
+
+def _lost(path: Path, missing: Sequence[str]) -> str:
+    """What was lost of a run, and what follows."""
+    if STATE in missing:
+        return f"{path}: its run was lost in the damage: no {' and '.join(missing)} can be read"
+    return (
+        f"{path}: the origin of its run ({ORIGIN}) was lost in the damage, so its states cannot be "
+        "verified"
+    )
+
+
+def _is_damaged(file: Path) -> bool:
+    """Whether a part of a file is lost; this reads all of it."""
+    remarks: list[str] = []
+    for _ in records_of(file, remarks):
+        pass
+    return bool(remarks)

@@ -43,8 +43,7 @@ def recover(path: Path, folder: Path) -> Recovered:
     bag = BagWriter(folder)
     channels = {name: bag.add_topic(topic) for name, topic in playback.topics.items()}
     messages = dict.fromkeys(channels, 0)
-    no_run = no_run_yet(path, playback.counts)
-    remarks = [no_run] if no_run else []
+    remarks: list[str] = []
     repeats = Repeats()
     for file in files_of(path):
         names: dict[int, str] = {}
@@ -61,4 +60,5 @@ def recover(path: Path, folder: Path) -> Recovered:
                 bag.write(channels[name], record.data, *times, record.sequence)
                 messages[name] += 1
     bag.close()
-    return Recovered(bag.file, messages, remarks)
+    no_run = no_run_yet(path, messages)  # by what was read: an index counts what is lost, too
+    return Recovered(bag.file, messages, [*filter(None, [no_run]), *remarks])

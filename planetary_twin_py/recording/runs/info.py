@@ -14,8 +14,11 @@ import numpy as np
 from mcap.records import Channel, Message, Metadata, Schema
 from numpy.typing import NDArray
 
+from ...printable import one_line
 from ..container.message_index import UNSOUND, Index
+from ..container.progress import may_be_written
 from ..container.records import files_of
+from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
 from ..ros2.no_run import no_run_yet
@@ -26,6 +29,7 @@ from .schedule import stamp_of
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
+_LONGEST = 100  # characters of a topic in a remark
 _ROUNDING = 1e3  # [ns]; intervals are many times as long
 
 
@@ -82,6 +86,13 @@ class Info:
     report: dict[str, str] = field(default_factory=dict)
     """Values of the last report of the simulation in /diagnostics."""
     remarks: list[str] = field(default_factory=list)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there are neither messages nor, undamaged, topics, nor a recorder that writes."""
+        nothing = not any(topic.recorded for topic in self.topics.values())
+        whole = self.topics and not self.remarks
+        return nothing and not whole and not any(map(may_be_written, self.files))
 
     def figures(self) -> dict[str, Any]:
         """Results for `--json`."""
@@ -165,7 +176,7 @@ class _Collector:
                 self._add_message(*decoded)
         for name, log_times in times.items():
             self.info.topics[name].add(log_times)
-        self._add_losses(accounts)
+        self._add_losses(file, accounts)
 
     def look_up(self, file: Path, index: Index) -> None:
         """Add the contents of a file from its index and the few messages that are needed."""
@@ -194,9 +205,8 @@ class _Collector:
                 self.info.report |= _newest_report(messages)
         for _, topic, message in sorted(changes, key=lambda change: change[0]):
             self._add_message(topic, message)
-        self._add_losses(
-            [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
-        )
+        accounts = [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
+        self._add_losses(file, accounts)
 
     def _new(self, index: Index, channel: int) -> NDArray[np.intp]:
         """Indices of the messages of a channel that are not in the previous files."""
@@ -217,23 +227,31 @@ class _Collector:
         """Warn of missing states if the recording contains no account of losses."""
         for topic, missing in self._missing.items():
             if missing and self.info.topics[topic].lost is None:
+                name = one_line(topic, _LONGEST)
                 self.info.remarks.append(
-                    f"{missing} messages of {topic} are missing between the first and the last, "
+                    f"{missing} messages of {name} are missing between the first and the last, "
                     "according to their sequence numbers; other topics may lack messages, too: the "
                     "recording contains no count of losses"
                 )
 
-    def _add_losses(self, accounts: list[Mapping[str, str]]) -> None:
+    def _add_losses(self, file: Path, accounts: Sequence[Mapping[str, str]]) -> None:
         """Add the losses of a file, which may list topics without messages."""
+        wrong: list[str] = []
         for account in accounts:
             try:
-                name, lost, missed = account["topic"], int(account["lost"]), int(account["missed"])
-            except (KeyError, ValueError) as reason:
-                self.info.remarks.append(f"an account of losses cannot be read: {reason}")
+                name, lost, missed = recorded_losses(account)
+            except ValueError as reason:
+                wrong.append(str(reason))
                 continue
             if topic := self.info.topics.get(name):
                 topic.lost = (topic.lost or 0) + lost
                 topic.before += lost - missed
+        if wrong:
+            which = "an account" if len(wrong) == 1 else f"{len(wrong)} accounts"
+            first = "" if len(wrong) == 1 else "the first: "
+            self.info.remarks.append(
+                f"{file.name}: {which} of losses cannot be read: {first}{wrong[0]}"
+            )
 
     def _add_message(self, topic: str, message: Any) -> None:
         """Add the contents of a message."""

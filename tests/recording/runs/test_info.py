@@ -1,10 +1,14 @@
 """The description of a recording: its contents, its gaps and the changes during the run."""
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
-from mcap.records import Message
+from hostile import of, rewritten
+from mcap.reader import make_reader
+from mcap.records import Channel, Message, Metadata
 from synthetic_recording import START_NS
 from twin_recording import NAMESPACE, TwinRecording, record
 from typer.testing import CliRunner
@@ -13,9 +17,13 @@ import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.message_index import Index
 from planetary_twin_py.recording.container.records import records_of
+from planetary_twin_py.recording.ros2.bag import ACCOUNT_RECORD, BagWriter
+from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.info import Changed, read_info
 from planetary_twin_py.recording.runs.ramps import ramps
+
+SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
 
 
 @pytest.fixture(scope="module")
@@ -239,3 +247,95 @@ def test_ramps_of_two_gearboxes_at_once_are_one_each():
     for step in range(1, 11):
         both += turned((step / 100, 1.0 + step)) + turned((step / 100, 1 - step), namespace="/two")
     assert [len(ramp.times) for ramp in ramps(both)] == [1, 1, 10, 10]
+
+
+def said(file):
+    """Exit code of `info`, and its lines."""
+    answer = CliRunner().invoke(build_app(), ["info", str(file)])
+    assert not answer.exception or isinstance(answer.exception, SystemExit), answer.exception
+    return answer.exit_code, answer.output.splitlines()
+
+
+def test_accounts_that_cannot_be_read_are_one_line_with_the_file_and_the_value(tmp_path):
+    alter = of(Metadata, ACCOUNT_RECORD, metadata={"topic": "/t", "lost": "inf", "missed": "0"})
+    code, lines = said(rewritten(SAMPLE, tmp_path / "bad.mcap", alter))
+    (line,) = [line for line in lines if "of losses" in line]
+    assert code == 0
+    assert re.fullmatch(
+        r"planetary-twin: bad\.mcap: \d+ accounts of losses cannot be read: the first: "
+        r"lost = 'inf': must be a whole number",
+        line,
+    )
+
+
+@pytest.mark.parametrize(
+    ("prefix", "start"),
+    [("/a\nplanetary-twin: fake", "/a\\nplanetary-twin: fake/"), ("/" + "x" * 60_000, "/xxx")],
+)
+def test_a_topic_is_one_line_of_moderate_length_whatever_its_name(sound, tmp_path, prefix, start):
+    alter = of(Channel, "joint_states", topic=f"{prefix}/joint_states")
+    code, lines = said(rewritten(sound, tmp_path / "named.mcap", alter))
+    (line,) = [line for line in lines if "/joint_states " in line]
+    assert code == 0 and line.startswith(start)
+    assert max(map(len, lines)) < 400
+
+
+UNREADABLE = {
+    "zeros where records should be": b"\x89MCAP0\r\n" + bytes(1000),
+    "a record that is too long": b"\x89MCAP0\r\n\x06" + b"\xff" * 60,
+}
+
+
+@pytest.mark.parametrize("data", UNREADABLE.values(), ids=UNREADABLE)
+def test_a_file_that_can_hold_no_message_ends_with_code_1(tmp_path, data):
+    file = tmp_path / "odd.mcap"
+    file.write_bytes(data)
+    code, lines = said(file)
+    assert code == 1 and f"planetary-twin: {file}: has no message that can be read" in lines
+    assert not any("still being written" in line for line in lines)
+
+
+def test_a_finished_recording_of_nothing_ends_with_code_1(tmp_path):
+    bag = BagWriter(tmp_path / "bag")
+    bag.close()
+    code, lines = said(bag.file)
+    assert code == 1 and f"planetary-twin: {bag.file}: has no message that can be read" in lines
+
+
+@pytest.mark.parametrize("size", [0, 4, 8, 40])
+def test_a_file_to_which_a_recorder_may_be_writing_ends_with_code_0(sound, tmp_path, size):
+    file = tmp_path / "young.mcap"
+    file.write_bytes(sound.read_bytes()[:size])
+    assert said(file)[0] == 0
+
+
+def with_its_origin_in_the_first_chunk(folder):
+    """A finished recording of a run whose first chunk has no state."""
+    recording = TwinRecording(folder)
+    twin = pt.Twin(pt.load_scene("paper"), 10_000.0, 1e-3)
+    recording.begin(twin, START_NS)
+    for _ in range(3):
+        recording.advance(twin, 0.01)
+    recording.finish()
+    return recording.file
+
+
+@pytest.mark.parametrize("kind", ["flip", "cut out"])
+def test_the_origin_of_a_finished_recording_is_said_to_be_lost_in_its_damage(tmp_path, kind):
+    file = with_its_origin_in_the_first_chunk(tmp_path / "bag")
+    with file.open("rb") as stream:
+        first = make_reader(stream).get_summary().chunk_indexes[0]
+    data, place = bytearray(file.read_bytes()), first.chunk_start_offset + first.chunk_length // 2
+    data[place] ^= 0xFF
+    if kind == "cut out":
+        del data[place]
+    file.write_bytes(data)
+    lost = (
+        f"{file}: the origin of its run (run_origin) was lost in the damage, so its states cannot "
+        "be verified"
+    )
+    code, lines = said(file)
+    assert code == 0 and lines.count(f"planetary-twin: {lost}") == 1
+    assert lost in recover(file, tmp_path / "saved").remarks
+    answer = CliRunner().invoke(build_app(), ["verify", str(file)])
+    assert answer.exit_code == 2 and answer.output == f"planetary-twin: {lost}\n"
