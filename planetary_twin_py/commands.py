@@ -13,6 +13,7 @@ from ._core import PortRanges, PortStates, Train
 from .dynamics.bodies import LOAD_MACHINE, MOTOR
 from .dynamics.library import library
 from .dynamics.static_load import static_torques
+from .given_numbers import check_number
 from .integrators.clock import TICKS
 from .scene import Scene
 from .scene.drive import Causality
@@ -50,6 +51,15 @@ class Command(NamedTuple):
         """Values other than None, by name."""
         named = zip(NAMES, self, strict=True)
         return {name: value for name, value in named if value is not None}
+
+    def check_numbers(self) -> None:
+        """Check that the values are numbers.
+
+        Raises:
+            ValueError: a value is no number.
+        """
+        for name, value in self.values.items():
+            check_number(name, value, UNITS[name.split("_")[1]])
 
     def check(self, scene: Scene, ranges: PortRanges) -> None:
         """Check that the ports of a scene accept this command.

@@ -143,7 +143,7 @@ def test_the_largest_torque_may_be_that_of_the_limit_to_the_last_bit():
     largest = limit * abs(static_torques(scene)[LOAD_MACHINE])
     found = lost_motion(scene, largest, levels=3)
     assert np.abs(found.torque).max() == pytest.approx(largest, rel=1e-3)
-    with pytest.raises(ValueError, match="torque = .* N m: must be above 0 and at most"):
+    with pytest.raises(ValueError, match=r"torque = .* N m: must be above 0 and at most"):
         lost_motion(scene, largest * (1.0 + 1e-15), levels=3)
 
 
