@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._core import PortRanges, PortStates, Train
+from .brief import brief_record
 from .dynamics.bodies import LOAD_MACHINE, MOTOR
 from .dynamics.library import library
 from .dynamics.static_load import static_torques
@@ -209,6 +210,10 @@ class Commands:
         for n, time in enumerate(self.time):
             values = (None if column is None else _value(column[n]) for column in columns)
             yield round(float(time) * TICKS), Command(*values)
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 def _value(value: float) -> float | None:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from ._core import PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
+from .brief import brief
 from .commands import NOTHING, Command, CommandLog, Commands
 from .driven_engine import DrivenEngine
 from .dynamics.bodies import body_names, build_report, mesh_names
@@ -409,3 +410,8 @@ class Twin:
         missing, before = unsettled(self._settled, self._settling), self._course
         self._course = course_so_far(self._engine.control, missing)
         return self._course.since(before)
+
+    def __repr__(self) -> str:
+        """One line."""
+        how = f"{self.time:g} s", f"tolerance {self.tolerance:g}"
+        return brief(self, self.scene.name, self.scene.dynamics, *how)
