@@ -20,7 +20,7 @@ def check_number(name: str, value: object, unit: str = "") -> None:
     Raises:
         ValueError: the value is no number, such as a text or an array.
     """
-    if not isinstance(value, SupportsFloat) or getattr(value, "ndim", 0):
+    if not isinstance(value, SupportsFloat) or getattr(value, "ndim", 0) > 0:
         shown = f" [{unit}]" if unit else ""
         raise ValueError(
             f"{name} = {one_line(repr(value), _LONGEST)}: must be a number{shown}"
