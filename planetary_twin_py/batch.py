@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
+from .brief import brief_record
 from .result import Result
 from .scene import Scene
 from .simulation import check_run, simulate
@@ -36,6 +37,10 @@ class Outcome:
         if isinstance(self.found, Result):
             return self.found
         raise ValueError(f"scene {self.place} ({self.scene.name}): {self.found}") from self.found
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 def simulate_many(
