@@ -27,8 +27,8 @@ class MeshFigures(NamedTuple):
     contact_ratio: float
     overlap_ratio: float  # of helical teeth
     driver: str | None  # gear that drives the other in the frame of the carrier; None: no power
-    # Length of the path of contact up to the pitch point, from the tip of the driven gear, and after
-    # it [base pitches]; without power as if power came from the sun.
+    # Path of contact from the tip of the driven gear to the pitch point, and after it [base
+    # pitches]; without power as if power came from the sun.
     approach: float
     recess: float
     geometric_backlash: (
