@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
+from .brief import brief_record
 from .printable import one_line
 from .result import Result
 from .scene import Scene
@@ -38,6 +39,10 @@ class Outcome:
             return self.found
         name = one_line(self.scene.name, 100)
         raise ValueError(f"scene {self.place} ({name}): {self.found}") from self.found
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 def simulate_many(

@@ -10,9 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ._core import PortRanges, PortStates, Train
+from .brief import brief_record
 from .dynamics.bodies import LOAD_MACHINE, MOTOR
 from .dynamics.library import library
 from .dynamics.static_load import static_torques
+from .given_numbers import check_number
 from .integrators.clock import TICKS
 from .scene import Scene
 from .scene.drive import Causality
@@ -50,6 +52,15 @@ class Command(NamedTuple):
         """Values other than None, by name."""
         named = zip(NAMES, self, strict=True)
         return {name: value for name, value in named if value is not None}
+
+    def check_numbers(self) -> None:
+        """Check that the values are numbers.
+
+        Raises:
+            ValueError: a value is no number.
+        """
+        for name, value in self.values.items():
+            check_number(name, value, UNITS[name.split("_")[1]])
 
     def check(self, scene: Scene, ranges: PortRanges) -> None:
         """Check that the ports of a scene accept this command.
@@ -199,6 +210,10 @@ class Commands:
         for n, time in enumerate(self.time):
             values = (None if column is None else _value(column[n]) for column in columns)
             yield round(float(time) * TICKS), Command(*values)
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 def _value(value: float) -> float | None:

@@ -128,6 +128,9 @@ class DrivenEngine(Engine):
             )
         except ArithmeticError as reason:
             self._fail(reason)
+        except TypeError:
+            self.refuse(begin, end, command)
+            raise
         if not accepted:
             self.refuse(begin, end, command)
         self._shown = None
@@ -141,8 +144,9 @@ class DrivenEngine(Engine):
             command: torques and motions at the ports.
 
         Raises:
-            ValueError: a value is out of range, or is not given at its port.
+            ValueError: a value is no number, is out of range, or is not given at its port.
         """
+        command.check_numbers()
         command.check(self.scene, self.port_ranges)
         duration = (end - begin) / TICKS
         command.check_positions(self.port_states(begin), duration, self.port_ranges)
@@ -167,10 +171,14 @@ class DrivenEngine(Engine):
         """
         if self._failure is not None:
             raise self._failure
-        outcome = self._core.step_ports(
-            self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges,
-            self._limits.record, reached, out,
-        )  # fmt: skip
+        try:
+            outcome = self._core.step_ports(
+                self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges,
+                self._limits.record, reached, out,
+            )  # fmt: skip
+        except TypeError:  # only here: checks of every value would slow down each step
+            self.refuse(begin, end, command)
+            raise
         if outcome == REFUSED:
             return False
         self._shown = None

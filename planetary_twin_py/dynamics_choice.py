@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._core import BEARING, CHURNING, FRICTION
+from .brief import brief_record
 from .dynamics.bodies import mesh_names, rigid_ratios
 from .dynamics.mesh_sums import in_order
 from .gearset.kinematics import mesh_cycles_per_turn
@@ -116,6 +117,10 @@ class DynamicsChoice:
                 for each in self.candidates
             },
         }  # fmt: skip
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 def choose_dynamics(scene: Scene) -> DynamicsChoice:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .brief import brief
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .planar.motion import AxesMotion
 
@@ -181,3 +182,9 @@ class Result:
         if not self.energy.driven:
             return float("nan")
         return 1.0 - self.energy.loss / self.energy.driving_work
+
+    def __repr__(self) -> str:
+        """One line."""
+        samples, meshes = f"{len(self.time)} samples", f"{len(self.meshes)} meshes"
+        efficiency = f"efficiency {self.efficiency:.4g}"
+        return brief(self, f"{self.duration:g} s", samples, meshes, efficiency)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .given_numbers import check_number
+
 TOLERANCES = (1e-8, 0.1)  # allowed range
 LADDER = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
 """Tolerances for automatic selection, the loosest first."""
@@ -14,6 +16,7 @@ LIVE_TOLERANCE = 3e-3  # default for live twins, on a machine of unknown speed
 
 def check_tolerance(tolerance: float) -> None:
     """Raise `ValueError` if a tolerance is out of range."""
+    check_number("tolerance", tolerance)
     if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
         raise ValueError(
             f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"

@@ -7,10 +7,12 @@ from typing import Any, NamedTuple
 
 from ._core import PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
+from .brief import brief
 from .commands import NOTHING, Command, CommandLog, Commands
 from .driven_engine import DrivenEngine
 from .dynamics.bodies import body_names, build_report, mesh_names
 from .dynamics.library import library
+from .given_numbers import check_number
 from .integrators.clock import TICKS
 from .integrators.interpolant import bearings_of, new_waves, tilts
 from .run import start
@@ -261,13 +263,17 @@ class Twin:
                 has changed.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
-        if not 0.0 < dt <= LONGEST_STEP:
-            raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
+        begin, engine = self._ticks, self._engine
+        try:
+            if not 0.0 < dt <= LONGEST_STEP:
+                raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
+            end = begin + (round(dt * TICKS) or 1)
+        except (TypeError, ValueError):
+            check_number("dt", dt, "s")
+            raise
         command = Command(
             input_torque, output_torque, input_speed, output_speed, input_position, output_position
         )
-        begin, engine = self._ticks, self._engine
-        end = begin + (round(dt * TICKS) or 1)
         if not (
             isinstance(engine, DrivenEngine)
             and engine.step(begin, end, command, self._shown, self._reached)
@@ -337,7 +343,7 @@ class Twin:
     def _begin(self, plan: Plan, command: Command = NOTHING) -> None:
         """Apply a command in a window that begins now."""
         self._end_steps()
-        if self._given or command != NOTHING:
+        if self._given or command.values:
             self._apply_command(command, plan.end)
 
     def _apply_command(self, command: Command, end: int) -> None:
@@ -404,3 +410,8 @@ class Twin:
         missing, before = unsettled(self._settled, self._settling), self._course
         self._course = course_so_far(self._engine.control, missing)
         return self._course.since(before)
+
+    def __repr__(self) -> str:
+        """One line."""
+        how = f"{self.time:g} s", f"tolerance {self.tolerance:g}"
+        return brief(self, self.scene.name, self.scene.dynamics, *how)

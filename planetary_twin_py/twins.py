@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 
+from .brief import brief
 from .runaway import RunawayError
 from .scene import Scene
 from .tolerance import LIVE_TOLERANCE
@@ -92,3 +93,7 @@ class Twins:
             None if place in self._failures else self._twins[place]._close(plans[place])
             for place in range(len(self))
         ]
+
+    def __repr__(self) -> str:
+        """One line."""
+        return brief(self, f"{len(self)} copies", f"{len(self._failures)} failed")

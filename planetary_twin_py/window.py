@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from ._core import STATISTICS
 from .accuracy import Course
+from .brief import brief, brief_record
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
 from .planar.motion import AxesMotion
@@ -47,6 +48,10 @@ class Waveform:
     """Normal force, negative on the coast flanks [N], (samples, meshes)."""
     friction: np.ndarray
     """Magnitude of boundary plus viscous friction [N], (samples, meshes)."""
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 @dataclass(frozen=True)
@@ -163,6 +168,11 @@ class Window:
         driving = float(np.maximum(self.machine_power, 0.0).sum())
         least = ROUNDING * self.stored_energy / (self.end - self.start)
         return 1.0 - self.power_loss / driving if driving > least else math.nan
+
+    def __repr__(self) -> str:
+        """One line."""
+        samples, meshes = f"{len(self.waveform.time)} samples", f"{len(self.meshes)} meshes"
+        return brief(self, f"{self.start:g} to {self.end:g} s", samples, meshes)
 
 
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from .given_numbers import check_number
 from .integrators.clock import TICKS
 from .integrators.interpolant import Waves
 
@@ -41,6 +42,7 @@ def check_sample_rate(sample_rate: float) -> None:
     Raises:
         ValueError: the value is out of range.
     """
+    check_number("sample_rate", sample_rate, "Hz")
     if not LOWEST_SAMPLE_RATE <= sample_rate <= 1e7:
         raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")
 
@@ -60,6 +62,7 @@ def window_end(begin: int, duration: float, sample_rate: float) -> int:
     Raises:
         ValueError: the duration is out of range.
     """
+    check_number("duration", duration, "s")
     longest = max(LONGEST_WINDOW, MOST_SAMPLES / sample_rate)
     if not 0.0 < duration <= longest:
         raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")

@@ -8,7 +8,7 @@ from typing import Any
 from typer.core import TyperCommand
 
 from ..terminal.completion import field_options
-from ..terminal.messages import fail
+from ..terminal.messages import fail, naming_options
 
 PLAIN = None  # Rich would read "[s]" as markup
 _EXAMPLE = "\n\nExample: "
@@ -32,8 +32,10 @@ class Command(TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; a run that diverges ends it with one line."""
+        options = (name for param in self.params for name in param.opts if name.startswith("--"))
         try:
-            return super().invoke(ctx)
+            with naming_options(options):
+                return super().invoke(ctx)
         except ArithmeticError as error:
             from ..runaway import RunawayError  # imports NumPy, which is loaded by now
 

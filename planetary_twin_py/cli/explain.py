@@ -96,10 +96,14 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     )
     for side in ("sun-planet", "planet-ring"):
         table.add_column(side, justify="right")
+    driven = meshes.sun_planet.driver is not None
     for (label, unit), *values in zip(
         _MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True
     ):
-        table.add_row(label, *(_text(value, unit) for value in values))
+        table.add_row(
+            label if driven else _UNDRIVEN.get(label, label),
+            *(_text(value, unit) for value in values),
+        )
     return table
 
 
@@ -109,6 +113,7 @@ _MESH_ROWS = (
     ("working pressure angle", "rad"),
     ("contact ratio", ""),
     ("overlap ratio", ""),
+    ("driving gear, in the frame of the carrier", "name"),
     ("length of approach in base pitches", ""),
     ("length of recess in base pitches", ""),
     ("backlash by profile shift and centre distance", "m"),
@@ -129,13 +134,18 @@ _MESH_ROWS = (
     ("shear number of the film, above 1 shear-thinning", ""),
     ("film laws within their range", ""),
 )
+# Labels in place of these if no power is transmitted.
+_UNDRIVEN = {
+    "length of approach in base pitches": "path of contact to the tip of the second, base pitches",
+    "length of recess in base pitches": "path of contact to the tip of the first, base pitches",
+}
 
 
 def _text(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
         return "/".join(_text(part, unit) for part in value)
     if value is None:
-        return "out of range"
+        return "none: no power" if unit == "name" else "out of range"
     return figure(value, unit) if isinstance(value, float) else str(value)
 
 

@@ -24,7 +24,9 @@ def export(
     topics: Annotated[
         str,
         typer.Option(
-            help="Any of gearbox_state,operating_point,mesh_waveform.", show_default="all"
+            help="Any of gearbox_state,operating_point,joint_states,applied_commands,"
+            "mesh_waveform,axes_state,axes_waveform.",
+            show_default="all",
         ),
     ] = "",
     namespace: NamespaceOption = None,

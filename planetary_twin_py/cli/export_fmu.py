@@ -33,9 +33,11 @@ def export_fmu(
 
     Example: planetary-twin export-fmu paper --set drive.input.port=torque --out paper.fmu
     """
+    from ..fmu.export import VERSIONS, exported_levels
     from ..fmu.export import export_fmu as export
-    from ..fmu.export import exported_levels
 
+    if fmi not in VERSIONS:
+        fail(f"--fmi = {fmi!r}: must be {' or '.join(VERSIONS)}")
     try:
         loaded = changed_scene(scene, settings(set_ or []))
         export(loaded, out, version=fmi, tolerance=tolerance)

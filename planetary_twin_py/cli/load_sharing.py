@@ -54,7 +54,10 @@ def load_sharing(
     console = console_beside(json_)
     console.print(_planets(loaded, found))
     console.print(_members(loaded, found))
-    console.print(f"load sharing factor K_gamma, largest share: {found.factor:.4f}")
+    console.print(
+        f"load sharing factor K_gamma, largest mean over a mesh cycle: {found.mean_factor:.4f}"
+    )
+    console.print(f"with the ripple of the tooth pairs, largest share: {found.factor:.4f}")
     for line in _remarks(loaded, found):
         remark(line)
     if picture is not None:
@@ -107,7 +110,12 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
 
     from ..planar.rows import CENTRAL
 
-    table = Table(title="Axes", caption="Orbit: largest distance of the axis from its mean place")
+    table = Table(
+        title="Axes",
+        caption="Orbit: largest distance of the axis from its mean place. Bearing forces are "
+        "without tooth friction, which can multiply them where a member floats; runs with "
+        "dynamics = quasi_static_planar include it",
+    )
     for heading in ("member", "bearing", "largest displacement", "orbit", "largest bearing force"):
         table.add_column(heading, justify="right")
     largest_force = float(found.mesh_force.max())
@@ -159,6 +167,7 @@ def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
     return {
         "scene": scene.name,
         "factor": found.factor,
+        "mean_factor": found.mean_factor,
         "both_flanks": found.both_flanks,
         "turns": found.turns.tolist(),
         "share": found.share.tolist(),

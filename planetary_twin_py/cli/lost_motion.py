@@ -55,8 +55,6 @@ def lost_motion(
     from ..studies.lost_motion import LEVELS
     from ..studies.lost_motion import lost_motion as measure
 
-    if not 0.0 < share < 0.5:
-        fail(f"--share = {share!r}: must be a number within 0 and 0.5")
     try:
         loaded = changed_scene(scene, settings(set_ or []))
         largest = _torque(loaded, torque)

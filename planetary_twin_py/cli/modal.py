@@ -1,4 +1,4 @@
-"""`planetary-twin modal`: natural frequencies, and the speeds at which meshing excites them."""
+"""`planetary-twin modal`: natural frequencies, and the speeds at which meshing meets them."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def modal(
     except ValueError as error:
         fail(error)
     limit = loaded.drive.speed_limit
-    found = resonances(loaded, mean, limit)
+    found = resonances(loaded, mean, springs, limit, input_speed=speed)
     console = console_beside(json_)
     title = f"{shown(loaded.name)}, {model} model{_turning(speed)}"
     console.print(_mode_table(title, single, mean, None if speed else springs))
@@ -133,7 +133,8 @@ def _mode_table(
     for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind"):
         table.add_column(heading, justify="right")
     # The order of two modes may differ between the two stiffnesses.
-    kinds = (", then ".join(dict.fromkeys(k)) for k in zip(single.kinds, mean.kinds, strict=True))
+    both = zip(single.kinds, mean.kinds, strict=True)
+    kinds = [", then ".join(dict.fromkeys(pair)) for pair in both]
     figures = zip(single.frequencies, mean.frequencies, kinds, strict=True)
     rows = [[f"{m}", f"{one:.2f}", f"{f:.2f}", kind] for m, (one, f, kind) in enumerate(figures, 1)]
     if springs is not None:
@@ -146,6 +147,8 @@ def _mode_table(
         stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
         for m, row in enumerate(rows):
             row.append(_text({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in slopes}))
+    if single.kinds != mean.kinds:
+        table.caption = f"{table.caption}. Two kinds: that with one pair, then that with the mean"
     for row in rows:
         table.add_row(*row)
     return table
@@ -163,12 +166,27 @@ def _text(changes: dict[str, float]) -> str:
 
 
 def _print_resonances(console: Console, found: Sequence[Resonance], limit: float) -> None:
-    """Print the resonant speeds up to `limit` [rad/s]."""
+    """Print the resonant speeds up to `limit` [rad/s], first those that the meshing excites."""
+    from ..modal.excitation import EXCITED
+
+    excited = [resonance for resonance in found if resonance.excitation == EXCITED]
     console.print(_heading(limit), highlight=False)
-    for resonance in found:
+    for resonance in excited:
         console.print(_line(resonance))
-    if not found:
+    if not excited:
         console.print("none")
+    if len(excited) == len(found):
+        return
+    console.print(_NOT_EXCITED, highlight=False)
+    for resonance in found:
+        if resonance.excitation != EXCITED:
+            console.print(f"{_line(resonance)}, {resonance.excitation}")
+
+
+_NOT_EXCITED = (
+    "Frequencies that meet without resonance, if the planets are equal; errors of position, form "
+    "or stiffness, and faults, excite what phasing suppresses:"
+)
 
 
 def _heading(limit: float) -> str:
@@ -188,5 +206,5 @@ def _line(resonance: Resonance) -> str:
     modes = f"mode{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
     return (
         f"{resonance.speed / rpm(1.0):10.1f} rpm: harmonic {resonance.harmonic} "
-        f"of the mesh frequency excites {modes} at {resonance.frequency:.1f} Hz"
+        f"of the mesh frequency meets {modes} at {resonance.frequency:.1f} Hz"
     )

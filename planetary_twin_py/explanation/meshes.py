@@ -26,8 +26,11 @@ class MeshFigures(NamedTuple):
     pressure_angle: float  # working pressure angle [rad]
     contact_ratio: float
     overlap_ratio: float  # of helical teeth
-    approach: float  # length of the path of contact up to the pitch point [base pitches]
-    recess: float  # and after it
+    driver: str | None  # gear that drives the other in the frame of the carrier; None: no power
+    # Path of contact from the tip of the driven gear to the pitch point, and after it [base
+    # pitches]; without power as if power came from the sun.
+    approach: float
+    recess: float
     geometric_backlash: (
         float  # by profile shift and centre distance alone, along the line of action [m]
     )
@@ -69,13 +72,16 @@ def describe_meshes(scene: Scene) -> Meshes:
     point = scene.operating_point
     train = build_train(scene)
     load = build_load(scene, point, train)
-    frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
+    passing = float(train.cycles @ load.target_speed)
+    frequency = abs(passing) / (2.0 * math.pi)
     natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
-    force = abs(mesh_force(scene, point.input_torque))
+    sun_force = mesh_force(scene, point.input_torque)
+    force, from_sun = abs(sun_force), sun_force * passing
     pressure = [_pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
     working_meshes = gearset.geometry.meshes
     paths = [mesh.path for mesh in working_meshes]
+    sides = [(path.approach, path.recess)[:: -1 if from_sun < 0.0 else 1] for path in paths]
     sun_planet, planet_ring = (
         MeshFigures(
             teeth=(teeth[first], teeth[second]),
@@ -84,8 +90,9 @@ def describe_meshes(scene: Scene) -> Meshes:
             overlap_ratio=overlap_ratio(
                 gearset.face_width, gearset.base_helix, working_meshes[kind].base_pitch
             ),
-            approach=paths[kind].approach,
-            recess=paths[kind].recess,
+            driver=_driver(from_sun, first, second),
+            approach=sides[kind][0],
+            recess=sides[kind][1],
             geometric_backlash=working_meshes[kind].backlash,
             tip_clearances=working_meshes[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
@@ -104,6 +111,13 @@ def describe_meshes(scene: Scene) -> Meshes:
         for kind, (first, second) in enumerate(GEARS)
     )
     return Meshes(frequency, sun_planet, planet_ring)
+
+
+def _driver(from_sun: float, first: str, second: str) -> str | None:
+    """The driving one of two gears; the first is on the side of the sun, whose power is given."""
+    if from_sun == 0.0:
+        return None
+    return first if from_sun > 0.0 else second
 
 
 def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:

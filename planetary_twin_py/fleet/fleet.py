@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..brief import brief
 from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import alarm_memory, interval_memory
 from ..following.estimate import CONFIDENT
@@ -189,3 +190,8 @@ class Fleet:
             sd = np.hypot(sd, self.table.error * filters.x[:, F] / CONFIDENT)
         value = np.where(known, filters.x[:, state], math.nan)
         return FleetEstimate(value, value - CONFIDENT * sd, value + CONFIDENT * sd)
+
+    def __repr__(self) -> str:
+        """One line."""
+        how = f"{self.count} gearboxes", f"period {self.period:g} s", f"{len(self.events)} events"
+        return brief(self, self.scene.name, *how)

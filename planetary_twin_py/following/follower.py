@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..brief import brief
 from ..scene import Scene
 from ..units import LARGEST
 from .balance import PERIOD, BalanceFollower
@@ -321,6 +322,10 @@ class Follower:
                 "numbered from each new start, and baselines are learned again"
             )
         yield from self._teeth.remarks()
+
+    def __repr__(self) -> str:
+        """One line."""
+        return brief(self, self.scene.name, f"period {self.period:g} s")
 
 
 def _plausible(values: Array) -> Array:

@@ -62,17 +62,27 @@ def check_assembly(
     step = least_mesh_angle(teeth)
     misses = [abs(a - b) / step for a, b in zip(angles, fitting, strict=True)]
     if max(misses) > ASSEMBLY_TOLERANCE:
-        advice = f"nearest: {_degrees(fitting)}"
+        advice = f"nearest: {_degrees(fitting, step)}"
         if not are_clear(size or Size(teeth, 1.0, addendum), fitting):
             advice = "at the nearest possible angles, planets touch each other"
         raise ValueError(
-            f"planets at {_degrees(angles)} cannot be assembled with "
+            f"planets at {_degrees(angles, step)} cannot be assembled with "
             f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {advice}"
         )
 
 
-def _degrees(angles: Sequence[float]) -> str:
-    return f"{', '.join(f'{math.degrees(angle):g}' for angle in angles)} deg"
+def _degrees(angles: Sequence[float], step: float) -> str:
+    """Angles with the fewest decimals that leave no doubt whether they pass `check_assembly`."""
+    # A position is relative to that of planet 1, which is rounded, too.
+    largest = math.degrees(0.25 * ASSEMBLY_TOLERANCE * step)
+    return f"{', '.join(_shortest(math.degrees(angle), largest) for angle in angles)} deg"
+
+
+def _shortest(value: float, largest_error: float) -> str:
+    """Shortest decimal number within an error of `value`, without trailing zeros."""
+    texts = (f"{value:.{decimals}f}" for decimals in range(17))
+    text = next((t for t in texts if abs(float(t) - value) <= largest_error), repr(value))
+    return "0" if float(text) == 0.0 else text
 
 
 def mesh_phases(

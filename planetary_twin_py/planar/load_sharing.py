@@ -15,6 +15,7 @@ import numpy as np
 
 from .._core import TERMS, TOTAL, Train
 from .._core.axes import RollingBearing
+from ..brief import brief_record
 from ..dynamics.bodies import rigid_ratios
 from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
@@ -56,16 +57,30 @@ class LoadSharing(NamedTuple):
     element_load: np.ndarray
     """Load of the most loaded rolling element in the bearings of sun, ring, carrier and planets,
     NaN in other bearings [N], (P, 3 + N)."""
+    mesh_cycle: np.ndarray
+    """Number of the mesh cycle of each position, from 0, (P,)."""
 
     @property
     def factor(self) -> float:
-        """Load sharing factor K_gamma: the largest share of a planet at any position."""
+        """The largest share of a planet at any position, with the ripple of the tooth pairs."""
         return float(self.share.max())
+
+    @property
+    def mean_factor(self) -> float:
+        """Load sharing factor K_gamma: the largest mean share of a planet over a mesh cycle."""
+        _, cycle = np.unique(self.mesh_cycle, return_inverse=True)
+        sums = np.zeros((cycle.max() + 1, self.share.shape[1]))
+        np.add.at(sums, cycle, self.share)
+        return float((sums / np.bincount(cycle)[:, None]).max())
 
     @property
     def both_flanks(self) -> bool:
         """Whether both flanks of a mesh touch at any position."""
         return bool((self.mesh_force > 0.0).all(axis=1).any())
+
+    def __repr__(self) -> str:
+        """One line; arrays by their shapes."""
+        return brief_record(self)
 
 
 def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
@@ -229,10 +244,15 @@ def _rolling_laws(scene: Scene) -> tuple[RollingBearing | None, ...]:
     return tuple(rolling_bearing(rolling) if rolling else None for rolling in given)
 
 
+def _cycles_per_turn(scene: Scene) -> float:
+    """Mesh cycles per turn of the first motor, signed."""
+    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    return float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios))
+
+
 def _mesh_cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
     """Cycles since a pair was at the pitch point of each mesh, on drive flanks, (P, meshes)."""
-    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
-    per_turn = float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios))
+    per_turn = _cycles_per_turn(scene)
     phases = np.array([float(phase) for kind in scene_phases(scene) for phase in kind])
     return np.asarray(per_turn * turns[:, None] - phases)
 
@@ -300,6 +320,7 @@ def _assemble_result(
         bearing + np.eye(3)[2][:, None] * on_carrier[:, None, place : place + 2],
         moved[:, :, :2] - (0.0 if scene.supports is None else errors.axis),
         elements,
+        np.floor(np.abs(_cycles_per_turn(scene) * turns)).astype(int),
     )
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..modal.campbell import HARMONICS, Resonance, mesh_frequency_per_speed
+from ..modal.excitation import EXCITED
 from ..modal.modes import NaturalModes
 from ..scene import Scene
 from .style import GREY, applied, colour_of, panels
@@ -50,14 +52,9 @@ def campbell_diagram(
             axes.annotate(
                 f"{h}", place, (2, 2), textcoords="offset points", color=GREY, clip_on=False
             )
-        axes.plot(
-            [r.speed * RPM for r in found],
-            [r.frequency for r in found],
-            "o",
-            color="black",
-            label="excited by a mesh harmonic",
-            zorder=3,
-        )
+        _mark(axes, [r for r in found if r.excitation == EXCITED], "excited by a mesh harmonic")
+        if others := [r for r in found if r.excitation != EXCITED]:
+            _mark(axes, others, "met, not excited", fill="white")
         axes.set(
             xlim=(0.0, highest_speed * RPM),
             ylim=(0.0, top),
@@ -65,5 +62,18 @@ def campbell_diagram(
             ylabel="frequency [Hz]",
             title=f"{scene.name}: natural frequencies at mean mesh stiffness\n",
         )
-        figure.legend(loc="outside lower center", ncols=len(kinds) + 1)
+        figure.legend(loc="outside lower center", ncols=len(kinds) + 2)
     return figure
+
+
+def _mark(axes: Axes, found: list[Resonance], label: str, fill: str = "black") -> None:
+    """Draw circles with a colour inside where harmonics meet frequencies."""
+    axes.plot(
+        [r.speed * RPM for r in found],
+        [r.frequency for r in found],
+        "o",
+        color="black",
+        markerfacecolor=fill,
+        label=label,
+        zorder=3,
+    )

@@ -6,11 +6,18 @@ from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from .quantity import Section, quantity
+from .quantity import Section, quantity, within
 
 LARGEST = 1e-2  # [m]
 _PLANETS = 7  # at most
 FACTORS = (0.01, 100.0)  # range of factors on a stiffness
+LENGTHS = (-LARGEST, LARGEST)  # [m]
+PHASES = (-100.0, 100.0)  # [rad]
+
+
+def _each(ends: tuple[float, float]) -> str:
+    """Words for the range of the entries of a list."""
+    return f"each within {ends[0]:g} and {ends[1]:g}"
 
 
 class PlanetErrors(NamedTuple):
@@ -40,7 +47,7 @@ class Offset(Section):
 
     size: float = quantity("m", "offset", 0.0, ge=0.0, le=LARGEST)
     angle: float = quantity(
-        "rad", "direction, from the x axis counter-clockwise", 0.0, ge=-100.0, le=100.0
+        "rad", "direction, from the x axis counter-clockwise", 0.0, ge=PHASES[0], le=PHASES[1]
     )
 
 
@@ -52,14 +59,15 @@ class Errors(Section):
     """
 
     pin_radial: tuple[float, ...] = quantity(
-        "m", "displacements of the pins outwards", (), max_length=_PLANETS
+        "m", f"displacements of the pins outwards, {_each(LENGTHS)}", (), max_length=_PLANETS
     )
     pin_tangential: tuple[float, ...] = quantity(
-        "m", "displacements of the pins counter-clockwise", (), max_length=_PLANETS
-    )
-    planet_thickness: tuple[float, ...] = quantity(
-        "m", "by which the teeth of the planets are thicker, on the pitch circle", (),
+        "m", f"displacements of the pins counter-clockwise, {_each(LENGTHS)}", (),
         max_length=_PLANETS,
+    )  # fmt: skip
+    planet_thickness: tuple[float, ...] = quantity(
+        "m", "by which the teeth of the planets are thicker, on the pitch circle, "
+        f"{_each(LENGTHS)}", (), max_length=_PLANETS,
     )  # fmt: skip
     sun_runout_phase: float = quantity(
         "rad", "angle of mesh.runout.sun at the start", 0.0, ge=-100.0, le=100.0
@@ -68,29 +76,27 @@ class Errors(Section):
         "rad", "angle of mesh.runout.ring at the start", 0.0, ge=-100.0, le=100.0
     )
     planet_runout_phases: tuple[float, ...] = quantity(
-        "rad", "angles of mesh.runout.planet at the start", (), max_length=_PLANETS
-    )
+        "rad", f"angles of mesh.runout.planet at the start, {_each(PHASES)}", (),
+        max_length=_PLANETS,
+    )  # fmt: skip
     planet_stiffness: tuple[float, ...] = quantity(
-        "", "factors on the stiffness of both meshes of the planets, each within "
-        f"{FACTORS[0]:g} and {FACTORS[1]:g}", (), max_length=_PLANETS,
+        "", "factors on the stiffness of both meshes of the planets, "
+        f"{_each(FACTORS)}", (), max_length=_PLANETS,
     )  # fmt: skip
     pin_stiffness: tuple[float, ...] = quantity(
         "", "factors on supports.planet.bearing, the radial stiffness of the planets on their "
-        f"pins, each within {FACTORS[0]:g} and {FACTORS[1]:g}", (), max_length=_PLANETS,
+        f"pins, {_each(FACTORS)}", (), max_length=_PLANETS,
     )  # fmt: skip
     ring_offset: Offset = Field(Offset(), description="offset of the ring from the housing")
     carrier_offset: Offset = Field(Offset(), description="offset of the carrier from the housing")
 
     @model_validator(mode="after")
-    def _factors_in_range(self) -> Self:
-        low, high = FACTORS
-        for name in ("planet_stiffness", "pin_stiffness"):
-            for place, factor in enumerate(getattr(self, name), 1):
-                if not low <= factor <= high:
-                    raise ValueError(
-                        f"{name} = {factor:g} of planet {place}: must be within {low:g} and "
-                        f"{high:g}"
-                    )
+    def _entries_in_range(self) -> Self:
+        for name, ((low, high), unit) in _RANGES.items():
+            for place, value in enumerate(getattr(self, name), 1):
+                if not low <= value <= high:
+                    given = f"{name} = {value:g} {unit}".rstrip()
+                    raise ValueError(f"{given} of planet {place}: {within(low, high, unit)}")
         return self
 
     @property
@@ -117,3 +123,13 @@ PER_PLANET = (
     "planet_stiffness", "pin_stiffness",
 )  # fmt: skip
 """Fields of `Errors` with an entry for each planet, in the order of `PlanetErrors`."""
+
+_RANGES = {
+    "pin_radial": (LENGTHS, "m"),
+    "pin_tangential": (LENGTHS, "m"),
+    "planet_thickness": (LENGTHS, "m"),
+    "planet_runout_phases": (PHASES, "rad"),
+    "planet_stiffness": (FACTORS, ""),
+    "pin_stiffness": (FACTORS, ""),
+}
+"""Range and unit of the entries of the lists of `Errors`."""

@@ -15,6 +15,7 @@ from ..units import UnitError, is_number, to_si
 _MOST_LINES = 30  # of a message
 _LONGEST_LINE = 400  # characters
 _WHOLE = (int, int | None)  # types of fields without a unit
+_LISTS = {"m": "[20 um, 0 um]", "rad": "[0 deg, 120 deg]"}  # examples of lists by unit
 
 
 class SceneError(ValueError):
@@ -56,7 +57,7 @@ class Section(BaseModel):
         if isinstance(value, (list, tuple)):
             return tuple(to_si(item, unit) for item in value)
         if isinstance(value, str) and _is_list(field):
-            raise UnitError(f"must be a list, e.g. [1 {unit}, 2 {unit}]".replace(" ]", "]"))
+            raise UnitError(f"must be a list, e.g. {_LISTS.get(unit, '[1, 2]')}")
         return to_si(value, unit)
 
 

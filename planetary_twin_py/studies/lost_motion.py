@@ -140,8 +140,9 @@ def lost_motion(
 
     Args:
         scene: scene with one input.
-        torque: largest torque on the output member [N m].
-        share: part of it at which lost motion is measured.
+        torque: largest torque on the output member [N m], above 0 and at most that of
+            drive.torque_limit without losses.
+        share: part of it at which lost motion is measured [-], above 0 and below 0.5.
         levels: torques from 0 to the largest.
         dwell: time between two readings of the twist [s].
         tolerance: relative local error tolerance.
@@ -151,16 +152,21 @@ def lost_motion(
         The loop, without the first loading.
 
     Raises:
-        ValueError: the torque is not positive or exceeds drive.torque_limit, or the scene has two
-            inputs.
+        ValueError: torque or share is out of range, or the scene has two inputs.
         RunawayError: a mesh deflects by more than a base pitch.
     """
     if scene.drive.second_input is not None:
         raise ValueError("drive.second_input: must be none for a lost-motion test")
-    if not (math.isfinite(torque) and torque > 0.0):
-        raise ValueError(f"torque = {torque!r}: must be a number above 0")
+    if not 0.0 < share < 0.5:
+        raise ValueError(f"share = {share!r}: must be above 0 and below 0.5")
+    per_input = float(static_torques(scene)[LOAD_MACHINE])
+    limit = scene.drive.torque_limit
+    if not 0.0 < torque <= limit * abs(per_input):
+        raise ValueError(
+            f"torque = {torque!r} N m: must be above 0 and at most {limit * abs(per_input):g} N m, "
+            "from drive.torque_limit"
+        )
     bench = _on_bench(scene)
-    per_input = static_torques(bench)[LOAD_MACHINE]
     twin = Twin(bench, tolerance=tolerance)
     # Not at torque 0, at which the output may rest anywhere in its backlash.
     loading = np.unique([share * torque, *np.linspace(0.0, torque, levels + 1)[1:]])
@@ -168,7 +174,7 @@ def lost_motion(
     resolution = SETTLED * torque / _stiffness(scene, scene.drive.output.member)
     loop, largest_motion = [], 0.0
     for step in steps:
-        twin.set(input_torque=float(step / per_input))
+        twin.set(input_torque=float(np.clip(step / per_input, -limit, limit)))  # rounded
         readings = [_twist(twin, bench, dwell) for _ in range(READINGS)]
         for _ in range(FURTHER_READINGS):
             if _motion(readings) <= resolution:

@@ -2,17 +2,39 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from importlib.util import find_spec
 from typing import NoReturn
 
 import typer
+
+_OPTIONS: ContextVar[dict[str, str]] = ContextVar("_OPTIONS")  # by argument
+
+
+@contextmanager
+def naming_options(options: Iterable[str]) -> Iterator[None]:
+    """Context in which `fail` names options where an exception names arguments of a function.
+
+    Args:
+        options: options of the command, such as "--sample-rate".
+    """
+    arguments = {option.removeprefix("--").replace("-", "_"): option for option in options}
+    token = _OPTIONS.set(arguments)
+    try:
+        yield
+    finally:
+        _OPTIONS.reset(token)
 
 
 def fail(message: object, code: int = 2) -> NoReturn:
     """Print `message` as one line and end the command.
 
     Args:
-        message: text, or an exception; one of the system is shown as file and reason.
+        message: text, or an exception; one of the system is shown as file and reason. Of others,
+            `argument = value` is shown as `--option = value`, see `naming_options`.
         code: exit code.
 
     Raises:
@@ -21,8 +43,16 @@ def fail(message: object, code: int = 2) -> NoReturn:
     if isinstance(message, OSError) and message.strerror:
         named = () if message.filename is None else (str(message.filename),)
         message = ": ".join((*named, message.strerror))
+    elif isinstance(message, Exception):
+        message = _with_options(str(message))
     _say(f"planetary-twin: {message}", "red")
     raise typer.Exit(code)
+
+
+def _with_options(text: str) -> str:
+    """`text` with options in place of arguments, where it states their values."""
+    options = _OPTIONS.get({})
+    return re.sub(r"(?<![\w.-])\w+(?= = )", lambda found: options.get(found[0], found[0]), text)
 
 
 def remark(message: str) -> None:

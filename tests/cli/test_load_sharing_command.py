@@ -29,6 +29,29 @@ def test_the_factor_and_a_floating_sun_are_printed():
     assert "none: floats" in shown
 
 
+def test_the_factor_of_the_means_is_that_of_a_mesh_cycle_without_ripple():
+    """All planets of the paper have the same mean share: 1; tooth pairs add 22 % at times."""
+    found = pt.load_sharing(pt.load_scene("paper"))
+    figures = json.loads(invoke("paper", "--json", "-").stdout)
+    assert figures["mean_factor"] == found.mean_factor == pytest.approx(1.0, abs=2e-3)
+    assert figures["factor"] > 1.2
+    shown = " ".join(invoke("paper").output.split())
+    assert f"K_gamma, largest mean over a mesh cycle: {found.mean_factor:.4f}" in shown
+
+
+def test_the_means_over_each_of_several_mesh_cycles_are_compared():
+    scene = pt.load_scene("floating_sun").replace(**{"mesh.runout.sun": 5e-6})
+    found = pt.load_sharing(scene)
+    teeth, per_cycle = 30, 8
+    cycles = found.share.reshape(teeth, per_cycle, 4).mean(axis=1)
+    assert found.mean_factor == pytest.approx(cycles.max())
+
+
+def test_friction_is_named_beside_the_bearing_forces_that_omit_it():
+    shown = " ".join(invoke("floating_sun").output.split())
+    assert "without tooth friction" in shown and "dynamics = quasi_static_planar" in shown
+
+
 def test_forces_have_units_and_rounding_errors_are_not_shown():
     shown = invoke("paper").output
     assert " N " in shown and "e-" not in shown

@@ -42,15 +42,29 @@ def test_modes_of_a_turning_carrier_are_those_of_the_library():
 def test_table_lists_modes_and_resonant_speeds():
     shown = invoke("paper").output
     assert "5500.36" in shown and "planet" in shown
-    assert "harmonic 2 of the mesh frequency excites mode 2" in shown
+    assert "harmonic 2 of the mesh frequency meets mode 2" in shown
 
 
 def test_speeds_are_listed_up_to_the_limit_of_the_drive_and_equal_frequencies_once():
     shown = " ".join(invoke("paper").output.split())
     assert "speeds up to 10504 rpm (drive.speed_limit)" in shown  # 1100 rad/s
-    assert shown.count("harmonic 5 of the mesh frequency excites modes 3, 4 at") == 1
+    assert shown.count("harmonic 5 of the mesh frequency meets modes 3, 4 at") == 1
     slow = " ".join(invoke("paper", "--set", "drive.speed_limit=1200rpm").output.split())
     assert "speeds up to 1200 rpm (drive.speed_limit): none" in slow
+
+
+def test_suppressed_modes_are_listed_apart_from_the_resonances():
+    options = ("wind_turbine_stage", "--model", "planar")
+    shown = " ".join(invoke(*options).output.split())
+    resonant, suppressed = shown.split("Frequencies that meet without resonance")
+    assert "harmonic 5 of the mesh frequency meets mode 6 at" in resonant
+    assert "meets modes 2, 3 at 34.3 Hz, suppressed by phasing" in suppressed
+    assert "suppressed" not in resonant and "mode 6" not in suppressed
+    figures = json.loads(invoke(*options, "--json", "-").stdout)["resonances"]
+    assert {r["kind"]: r["excitation"] for r in figures} == {
+        "rotational": "excited",
+        "translational": "suppressed by phasing",
+    }
 
 
 def test_campbell_diagram_is_drawn(tmp_path):

@@ -48,6 +48,10 @@ def test_points_are_sampled_on_request(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
+        (
+            ["paper", "--backlash", "1e-7", "--scheduler", "0", "--out", "x.csv"],
+            "--scheduler = '0': must be at least 1 thread",
+        ),
         (["paper", "--out", "x.txt"], "--out = 'x.txt': must end in .parquet, .csv, .png"),
         (["paper", "--out", "x.csv"], "no field varies"),
         (["paper", "--nosuch", "1", "--out", "x.csv"], "nosuch: no such field"),
@@ -55,7 +59,6 @@ def test_points_are_sampled_on_request(tmp_path):
         (["paper", "odd", "--out", "x.csv"], "'odd': must be --FIELD VALUES"),
         (["nosuch", "--backlash", "1e-7", "--out", "x.csv"], "scene = 'nosuch'"),
         (["paper", "--backlash", "1e-7", "--out", "/nowhere/x.csv"], "the folder /nowhere does"),
-        (["paper", "--backlash", "1e-7", "--scheduler", "0", "--out", "x.csv"], "workers = 0"),
     ],
 )
 def test_invalid_arguments_end_in_one_line(arguments, reason, tmp_path, monkeypatch):

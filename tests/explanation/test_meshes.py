@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from power_flows import FLOWS, flow_name, scene_of
 
 import planetary_twin_py as pt
 from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
@@ -119,6 +120,62 @@ def test_pressure_is_that_of_iso_6336(kind):
 def test_loss_factors_are_those_of_the_papers_meshes():
     assert of("sun_planet").loss_factor == pytest.approx(0.17152, abs=1e-5)
     assert of("planet_ring").loss_factor == pytest.approx(0.09778, abs=1e-5)
+
+
+def tip_lengths(gearset, kind):
+    """Path of contact from the pitch point to the tips of both gears [base pitches].
+
+    On the line of action, from the tip radius and the operating triangle of each gear.
+    """
+    a, lengths = gearset.geometry.centre_distance, []
+    gears = [getattr(gearset.geometry, gear) for gear in PAIRS[kind]]
+    first, second = (gear.base_radius for gear in gears)
+    cosine = (second + first if kind == "sun_planet" else second - first) / a
+    pitch = 2.0 * math.pi * first / getattr(gearset.tooth_numbers, PAIRS[kind][0])
+    for gear in gears:
+        tangent = gear.base_radius * math.sqrt(1.0 / cosine**2 - 1.0)
+        lengths.append(abs(math.sqrt(gear.tip_radius**2 - gear.base_radius**2) - tangent) / pitch)
+    return lengths
+
+
+# Whether power goes from the sun over the planets to the ring, seen from the carrier, if it enters
+# at the input. A held sun or ring is the support of the planets there: it takes or gives power.
+FROM_SUN = {
+    ("carrier", "sun", "ring"): True,
+    ("carrier", "ring", "sun"): False,
+    ("ring", "sun", "carrier"): True,
+    ("ring", "carrier", "sun"): False,
+    ("sun", "carrier", "ring"): True,
+    ("sun", "ring", "carrier"): False,
+}
+
+
+@BOTH
+@pytest.mark.parametrize("flow", FLOWS, ids=flow_name)
+@pytest.mark.parametrize("reverse", ["input_torque", "input_speed", None])
+def test_contact_begins_at_the_tip_of_the_driven_gear_in_every_power_flow(kind, flow, reverse):
+    scene = scene_of(flow)
+    if reverse is not None:
+        scene = scene.replace(**{reverse: -getattr(scene.operating_point, reverse)})
+    point = scene.operating_point
+    from_sun = FROM_SUN[flow[:3]] is (point.input_torque * point.input_speed > 0.0)
+    found, (first, second) = of(kind, scene), tip_lengths(scene.gearset, kind)
+    assert found.driver == PAIRS[kind][0 if from_sun else 1]
+    expected = (second, first) if from_sun else (first, second)
+    assert (found.approach, found.recess) == pytest.approx(expected)
+
+
+@BOTH
+def test_planets_that_drive_the_sun_of_a_wind_turbine_meet_the_tips_of_the_sun_first(kind):
+    found = of(kind, pt.load_scene("wind_turbine_stage"))
+    expected = {"sun_planet": (0.7846, 0.8543), "planet_ring": (0.8543, 1.083)}[kind]
+    assert (found.approach, found.recess) == pytest.approx(expected, rel=1e-3)
+
+
+@BOTH
+@pytest.mark.parametrize("change", [{"input_torque": 0.0}, {"input_speed": 0.0}])
+def test_no_gear_drives_without_power(kind, change):
+    assert of(kind, **change).driver is None
 
 
 @BOTH

@@ -7,8 +7,10 @@ from xml.etree import ElementTree
 
 import pytest
 from ports.ports_of_paper import PAPER, driven
+from typer.testing import CliRunner
 
 import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
 from planetary_twin_py.fmu.export import LIBRARIES, VERSIONS
 
 
@@ -86,3 +88,10 @@ def test_a_scene_that_an_fmu_cannot_hold_is_refused(tmp_path, scene, message):
 def test_another_version_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"version = '1\.0': must be 3\.0 or 2\.0"):
         pt.export_fmu(PAPER, tmp_path / "gearbox.fmu", version="1.0")
+
+
+def test_the_command_names_its_option_for_the_version(tmp_path):
+    arguments = ["export-fmu", "paper", "--fmi", "4", "--out", str(tmp_path / "gearbox.fmu")]
+    answer = CliRunner().invoke(build_app(), arguments)
+    assert answer.exit_code == 2
+    assert "--fmi = '4': must be 3.0 or 2.0\n" in answer.output

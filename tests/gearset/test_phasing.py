@@ -1,6 +1,7 @@
-"""Mesh phases and assembly of the paper's gearset."""
+"""Mesh phases and assembly of the paper's gearset, and of others."""
 
 import math
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -45,6 +46,38 @@ def test_equal_spacing_fits_where_it_divides_the_teeth_of_sun_and_ring(planets):
 
 def test_the_suggested_positions_fit():
     check_assembly(PAPER, nearest_assembly(PAPER, [0.3, 2.0, 4.4, 5.1]))
+
+
+def suggested(teeth, degrees):
+    """Angles [rad] that a user copies out of the refusal."""
+    with pytest.raises(ValueError, match="cannot be assembled") as error:
+        check_assembly(teeth, np.radians(degrees))
+    refused, fitting = re.findall(r"([-\d., ]+) deg", str(error.value))
+    assert refused.strip() != fitting.strip()
+    return np.radians([float(angle) for angle in fitting.split(",")])
+
+
+@pytest.mark.parametrize(
+    "teeth, degrees",
+    [
+        (Teeth(27, 35, 99), (0.0, 90.0, 180.0, 270.0)),  # OH-58
+        (Teeth(27, 35, 99), (0.0, 88.5714, 180.0, 268.571)),  # rounded in print
+        (Teeth(27, 35, 99), (12.3456789, 102.3456789, 192.3456789, 282.3456789)),
+        (Teeth(27, 35, 99), (0.0, 88.571425, 180.0, 268.571425)),  # beyond the tolerance by 25 %
+        (Teeth(30, 20, 70), (90.0, -30.0, 210.0)),  # Salagianni et al. 2017
+        (Teeth(19, 17, 56), (0.0, 90.0, 180.0, 270.0)),  # 5 MW reference gearbox
+        (Teeth(20, 31, 83), (math.pi, 123.0, 243.0)),
+        (Teeth(31, 31, 95), (0.0, 90.0, 180.0, 270.0)),
+        (Teeth(1000, 1000, 3000), (0.0, 120.03, 240.0)),  # most teeth of a scene
+    ],
+)
+def test_the_printed_positions_are_accepted_when_copied(teeth, degrees):
+    check_assembly(teeth, suggested(teeth, degrees))
+
+
+def test_positions_are_printed_as_short_as_they_may_be():
+    with pytest.raises(ValueError, match=r"nearest: 0, 88\.571429, 180, 268\.571429 deg"):
+        check_assembly(Teeth(27, 35, 99), np.radians([0.0, 90.0, 180.0, 270.0]))
 
 
 def test_no_positions_are_suggested_at_which_planets_touch():

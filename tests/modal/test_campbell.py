@@ -7,6 +7,8 @@ from power_flows import FLOWS, scene_of
 
 import planetary_twin_py as pt
 from planetary_twin_py.modal.campbell import mesh_frequency_per_speed, resonances
+from planetary_twin_py.modal.excitation import EXCITED
+from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.plots.campbell import campbell_diagram
 
 
@@ -18,7 +20,7 @@ def test_meshing_frequency_at_1000_rpm(flow, hertz):
 def test_first_mode_is_met_at_eleven_thousand_rpm_and_at_fractions_of_it():
     scene = pt.load_scene("paper")
     modes = pt.natural_modes(scene)
-    found = resonances(scene, modes, pt.rpm(12_000), harmonics=3)
+    found = resonances(scene, modes, spring_model(scene), pt.rpm(12_000), harmonics=3)
     speeds = {r.harmonic: r.speed * 30 / math.pi for r in found if r.mode == 1}
     first = modes.frequencies[1] / 30 * 60
     assert speeds == pytest.approx({1: first, 2: first / 2, 3: first / 3})
@@ -30,7 +32,8 @@ def test_first_mode_is_met_at_eleven_thousand_rpm_and_at_fractions_of_it():
 
 def test_modes_of_one_frequency_are_met_once():
     scene = pt.load_scene("paper")
-    found = resonances(scene, pt.natural_modes(scene), pt.rpm(30_000), harmonics=1)
+    modes, springs = pt.natural_modes(scene), spring_model(scene)
+    found = resonances(scene, modes, springs, pt.rpm(30_000), harmonics=1)
     assert [(r.mode, r.kind, r.multiplicity) for r in found] == [
         (1, "rotational", 1),
         (2, "planet", 2),
@@ -40,13 +43,13 @@ def test_modes_of_one_frequency_are_met_once():
 
 def test_nothing_is_listed_beyond_the_highest_speed():
     scene = pt.load_scene("paper")
-    assert resonances(scene, pt.natural_modes(scene), pt.rpm(1000)) == ()
+    assert resonances(scene, pt.natural_modes(scene), spring_model(scene), pt.rpm(1000)) == ()
 
 
 def test_every_resonance_is_marked_where_a_harmonic_crosses_a_natural_frequency():
     scene = pt.load_scene("paper")
     modes, highest = pt.natural_modes(scene, stiffness="mean"), pt.rpm(20_000)
-    found = resonances(scene, modes, highest)
+    found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
     (axes,) = campbell_diagram(scene, modes, found, highest).axes
     *rays, marks = axes.lines
     assert len(rays) == 5 and len(marks.get_xdata()) == len(found) > 0
@@ -54,3 +57,15 @@ def test_every_resonance_is_marked_where_a_harmonic_crosses_a_natural_frequency(
         (x0, x1), (y0, y1) = rays[resonance.harmonic - 1].get_data()
         assert y == pytest.approx(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
         assert y == pytest.approx(modes.frequencies[resonance.mode])
+
+
+def test_crossings_that_phasing_suppresses_are_open_circles():
+    scene = pt.load_scene("wind_turbine_stage")
+    modes, springs = (make(scene, "planar", "mean") for make in (pt.natural_modes, spring_model))
+    found = resonances(scene, modes, springs, pt.rpm(60.0))
+    (axes,) = campbell_diagram(scene, modes, found, pt.rpm(60.0)).axes
+    filled, hollow = axes.lines[-2:]
+    assert (filled.get_markerfacecolor(), hollow.get_markerfacecolor()) == ("black", "white")
+    excited = [r.frequency for r in found if r.excitation == EXCITED]
+    assert list(filled.get_ydata()) == pytest.approx(excited)
+    assert len(hollow.get_ydata()) == len(found) - len(excited) > 0

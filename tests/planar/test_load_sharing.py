@@ -49,6 +49,46 @@ def test_a_pin_that_lags_carries_less_and_a_free_sun_evens_it_out(planets, sun):
     assert found.share.std(axis=0) == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    "errors, closing",
+    [
+        ({"pin_tangential": [-1e-4, 0.0, 0.0]}, lambda s, r: 1e-4 * (math.cos(s) + math.cos(r))),
+        ({"pin_radial": [1e-4, 0.0, 0.0]}, lambda s, r: 1e-4 * (math.sin(r) - math.sin(s))),
+        ({"planet_thickness": [1e-4, 0, 0]}, lambda s, r: 5e-5 * (math.cos(s) + math.cos(r))),
+    ],
+    ids=["tangential pin", "radial pin", "thickness"],
+)
+def test_unequal_working_angles_have_the_closed_form_of_both_angles(errors, closing):
+    """28.1 deg at the sun and 17.2 deg at the ring: the force of a pin has a radial part, too."""
+    stiffness, pin = {"sun_planet": 2e9, "planet_ring": 3e9}, 5e9
+    stage = load_scene("reference_gearbox_stage")
+    rigid = {"mass": 1000.0, "bearing": HELD}
+    supports = dict.fromkeys(("sun", "ring", "carrier"), rigid)
+    given = stage.replace(
+        **{f"mesh.{kind}_stiffness": k for kind, k in stiffness.items()},
+        **{
+            "mesh.stiffness": "given",
+            "mesh.double_pair_ratio": 1.0,
+            "mesh.ramp": 0.0,
+            "input_torque": -4e6,  # the sun's torque is positive
+            "backlash": 1e-3,
+            "supports": {**supports, "planet": {"mass": 1000.0, "bearing": pin}},
+            "errors": errors,
+        },
+    )
+    sun, ring = (mesh.pressure_angle for mesh in given.gearset.geometry.meshes)
+    assert math.degrees(sun - ring) > 10.0
+    compliance = sum(1.0 / k for k in stiffness.values())
+    compliance += (math.cos(sun) + math.cos(ring)) ** 2 / pin
+    compliance += (math.sin(sun) - math.sin(ring)) ** 2 / pin
+    mean = 4e6 * 19 / (19 + 56) / 3 / given.gearset.geometry.sun.base_radius
+    change = closing(sun, ring) / compliance / mean
+    expected = 1.0 + np.array([2.0, -1.0, -1.0]) / 3.0 * change
+    found = load_sharing(given).share
+    assert abs(expected - 1.0).max() > 5e-3
+    assert found == pytest.approx(np.tile(expected, (len(found), 1)), rel=1e-5)
+
+
 # Shares of the torque, float of the sun [um] and forces on the pins [N], for one pin 10 um behind.
 TABLE = {
     4: ([1.07393, 0.92607, 1.07393, 0.92607], 9.314, [2819, 2431, 2819, 2431]),

@@ -1,6 +1,7 @@
 """Ports at which torque or motion is given, against closed forms of the rigid and elastic train."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -252,6 +253,42 @@ REFUSED = [
     ("torque", "torque", {"input_torque": math.nan}, "input_torque = nan N m: must be within"),
     ("motion", "torque", {"input_speed": -1e4}, "input_speed = -10000.0 rad/s: must be within"),
 ]
+
+
+NO_NUMBERS = [np.array([0.1]), np.array([0.1, 0.2]), [0.1], "0.1", 1j]
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS, ids=repr)
+@pytest.mark.parametrize("port", ["machine", "torque"])
+def test_a_torque_that_is_no_number_is_refused_with_its_name_and_changes_nothing(port, value):
+    twin, untouched = (pt.Twin(driven(port, "torque")) for _ in range(2))
+    for call in (twin.step, twin.advance):
+        with pytest.raises(ValueError) as refusal:
+            call(1e-3, input_torque=value)
+        assert str(refusal.value) == f"input_torque = {value!r}: must be a number [N m]"
+    assert twin.time == 0.0
+    assert np.array_equal(twin.advance(1e-3).waveform.dte, untouched.advance(1e-3).waveform.dte)
+
+
+@pytest.mark.parametrize("value", [*NO_NUMBERS, None], ids=repr)
+def test_a_duration_that_is_no_number_is_refused_with_its_name(value):
+    twin = pt.Twin(driven("torque", "torque"))
+    for call, name in ((twin.step, "dt"), (twin.advance, "duration")):
+        with pytest.raises(ValueError) as refusal:
+            call(value)
+        assert str(refusal.value) == f"{name} = {value!r}: must be a number [s]"
+    with pytest.raises(ValueError, match=r"sample_rate = .*: must be a number \[Hz\]"):
+        twin.set_sample_rate(value)
+    with pytest.raises(ValueError, match=r"tolerance = .*: must be a number$"):
+        twin.set_tolerance(value)
+    assert twin.time == 0.0
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32, np.array, np.int64, int, Fraction])
+def test_numbers_of_other_types_act_as_their_float(kind):
+    one, other = (pt.Twin(driven("torque", "torque")) for _ in range(2))
+    a, b = one.step(1e-3, input_torque=kind(2)), other.step(1e-3, input_torque=2.0)
+    assert (a.input_torque, a.output_speed) == (b.input_torque, b.output_speed)
 
 
 @pytest.mark.parametrize(("input", "output", "command", "message"), REFUSED)

@@ -201,6 +201,40 @@ def test_an_unknown_scene_is_reported_with_the_most_similar_one_if_any(name, end
     assert str(refusal.value).endswith(end)
 
 
+@pytest.mark.parametrize(
+    "name, largest, unit",
+    [
+        ("pin_radial", 0.01, "m"),
+        ("pin_tangential", 0.01, "m"),
+        ("planet_thickness", 0.01, "m"),
+        ("planet_runout_phases", 100.0, "rad"),
+    ],
+)
+def test_errors_of_planets_have_the_range_of_their_kin(name, largest, unit):
+    """Offsets of axes are at most 0.01 m, phases of other runouts 100 rad."""
+    path = f"errors.{name}"
+    for sign in (1.0, -1.0):
+        PAPER.replace(**{path: (sign * largest, 0.0, 0.0)})
+        beyond = 1.01 * sign * largest
+        words = f"{name} = {beyond:g} {unit} of planet 3: must be a number within -{largest:g} and"
+        with pytest.raises(pt.SceneError, match=words):
+            PAPER.replace(**{path: (0.0, 0.0, beyond)})
+
+
+@pytest.mark.parametrize(
+    "path, example",
+    [
+        ("errors.pin_tangential", "[20 um, 0 um]"),
+        ("gearset.planet_angles", "[0 deg, 120 deg]"),
+        ("errors.pin_stiffness", "[1, 2]"),
+    ],
+)
+def test_the_example_of_a_list_has_usual_units(path, example):
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(**{path: "1"})
+    assert str(refusal.value) == f"{path} = '1': must be a list, e.g. {example}"
+
+
 @pytest.mark.parametrize("name", ["colour", "mesh.colour", "mesh.ramp.colour", "nothing.here"])
 def test_replacing_an_unknown_field_is_refused(name):
     with pytest.raises(pt.SceneError, match="no such field"):

@@ -10,9 +10,12 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
+from planetary_twin_py.dynamics.static_load import static_torques
 from planetary_twin_py.studies.lost_motion import lost_motion
 
 TORQUE, PLAY = 100.0, 2e-5  # [N m], [m]
+SMALL = "input_torque=1 N m"
 # 5 planets in phase, so that every mesh yields equally; constant stiffness.
 SMOOTH = pt.load_scene("paper").replace(
     **{
@@ -134,14 +137,30 @@ def test_the_command_prints_and_draws_what_the_library_finds(tmp_path):
     assert "lost motion at 3 % of it [deg]" in shown
 
 
+def test_the_largest_torque_may_be_that_of_the_limit_to_the_last_bit():
+    limit = 33.3
+    scene = SMOOTH.replace(**{"input_torque": 1.0, "drive.torque_limit": limit})
+    largest = limit * abs(static_torques(scene)[LOAD_MACHINE])
+    found = lost_motion(scene, largest, levels=3)
+    assert np.abs(found.torque).max() == pytest.approx(largest, rel=1e-3)
+    with pytest.raises(ValueError, match=r"torque = .* N m: must be above 0 and at most"):
+        lost_motion(scene, largest * (1.0 + 1e-15), levels=3)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("paper", "--torque", "-1 N m"), "torque = -1.0: must be a number above 0"),
+        (("paper", "--torque", "-1 N m"), "--torque = -1.0 N m: must be above 0 and at most"),
+        (("paper", "--torque", "0"), "--torque = 0.0 N m: must be above 0 and at most"),
+        (("paper", "--torque", "nan"), "--torque = "),
         (("paper", "--torque", "20 m"), "--torque = '20 m'"),
-        (("paper", "--share", "0.7"), "--share = 0.7"),
+        (("paper", "--share", "0.7"), "--share = 0.7: must be above 0 and below 0.5"),
+        (("paper", "--share", "0"), "--share = 0.0: must be above 0 and below 0.5"),
         (("differential",), "drive.second_input"),
-        (("paper", "--torque", "1e6 N m"), "drive.torque_limit"),
+        (
+            ("paper", "--torque", "100", "--set", "drive.torque_limit=15 N m", "--set", SMALL),
+            "--torque = 100.0 N m: must be above 0 and at most 35 N m, from drive.torque_limit",
+        ),
     ],
 )
 def test_invalid_input_ends_in_one_line(arguments, words):

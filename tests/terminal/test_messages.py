@@ -3,7 +3,7 @@
 import pytest
 import typer
 
-from planetary_twin_py.terminal.messages import fail
+from planetary_twin_py.terminal.messages import fail, naming_options
 
 
 @pytest.mark.parametrize(
@@ -19,3 +19,22 @@ def test_an_error_is_one_line_without_the_names_of_python(capsys, error, line):
     with pytest.raises(typer.Exit):
         fail(error)
     assert capsys.readouterr().err == f"planetary-twin: {line}\n"
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (ValueError("sample_rate = 0 Hz: must be 1"), "--sample-rate = 0 Hz: must be 1"),
+        (ValueError("from = 1 s at sample_rate = 2 Hz"), "--from = 1 s at --sample-rate = 2 Hz"),
+        (ValueError("mesh.from = 3, not_from = 4"), "mesh.from = 3, not_from = 4"),
+        (ValueError("input_torque = 1e9 N m"), "input_torque = 1e9 N m"),  # of the scene
+        ("from = 3", "from = 3"),  # a text of the command itself
+    ],
+)
+def test_arguments_of_functions_are_shown_as_options_of_the_command(capsys, error, line):
+    with naming_options(["--sample-rate", "--from"]), pytest.raises(typer.Exit):
+        fail(error)
+    assert capsys.readouterr().err == f"planetary-twin: {line}\n"
+    with pytest.raises(typer.Exit):
+        fail(error)
+    assert capsys.readouterr().err == f"planetary-twin: {error}\n"

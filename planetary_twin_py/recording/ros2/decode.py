@@ -10,7 +10,7 @@ from rosbags.typesys.store import Typestore
 
 from ...printable import one_line
 from ..container.records import RecordingError
-from .definitions import KINDS
+from .definitions import KINDS, OF_PORTS
 from .layout import Layout, LayoutError
 from .typestore import DefinitionError, types_of
 
@@ -118,4 +118,4 @@ def _why(described: Described, data: bytes, reason: Exception) -> str:
 
 
 def _is_of_twin(topic: str, kind: str) -> bool:
-    return KINDS.get(topic.rpartition("/")[2], kind) == kind
+    return (KINDS | OF_PORTS).get(topic.rpartition("/")[2], kind) == kind

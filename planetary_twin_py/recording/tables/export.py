@@ -31,7 +31,7 @@ class Export(NamedTuple):
 
 
 class Exported(NamedTuple):
-    """Files with their numbers of rows; `remarks` are warnings about unreadable parts."""
+    """Files with their numbers of rows; `remarks` are warnings about parts that are left out."""
 
     rows: dict[Path, int]
     remarks: list[str]
@@ -82,6 +82,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     finally:  # incomplete tables are valid, too
         for writer in writers.values():
             writer.close()
+    remarks += [f"{name}: {writer.remark}" for name, writer in writers.items() if writer.remark]
     rows = {writer.path: writer.rows for writer in writers.values() if writer.rows}
     return Exported(rows, remarks)
 
@@ -95,6 +96,11 @@ class _Writer:
         self._table = table
         self._kind = kind
         self._file: TableFile | None = None
+
+    @property
+    def remark(self) -> str:
+        """Warning of messages that are not in the table, "" if there are none."""
+        return self._table.remark
 
     def add(self, message: object) -> None:
         for batch in self._table.add(message):

@@ -8,20 +8,24 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...printable import one_line
 from ...quantities import AXES_WAVEFORM as AXES_SAMPLES
 from ...quantities import COMPONENTS, MEMBERS
 from ..container.records import RecordingError
 from ..ros2.fields import ROOM, WAVES
 from ..ros2.message_units import units_of
-from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, POINT, STATE, WAVEFORM
+from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, POINT, STATE, WAVEFORM
 from ..runs.schedule import stamp_of
 
 Batch = dict[str, np.ndarray]
 STAMP = "stamp"  # ROS time since the epoch [ns]; other columns are in SI
 MESSAGES = 4096  # per batch, at most
 ROWS = 2**17  # per batch, approximately
-TABLES = (STATE, POINT, WAVEFORM, AXES_STATE, AXES_WAVEFORM)
+TABLES = (STATE, POINT, JOINTS, GIVEN, WAVEFORM, AXES_STATE, AXES_WAVEFORM)
 """Topics that can be exported."""
+OF_JOINTS = {"position": "rad", "velocity": "rad/s", "effort": "N m"}
+"""Units of the quantities of a joint, which the definition of JointState does not state."""
+_LONGEST = 200  # characters of a list of joints
 
 
 class Column(NamedTuple):
@@ -37,16 +41,20 @@ class Table:
     """Collects the messages of one topic in batches of columns.
 
     GearboxState, AxesState and OperatingPoint: one row per message; arrays have a column for each
-    planet, `name_1`, `name_2`, .... MeshWaveform and AxesWaveform: one row per sample, with `time`
-    and a column for each quantity and mesh, `dte_sun_planet_1`, or component of a body,
-    `bearing_force_sun_x`.
+    planet, `name_1`, `name_2`, .... JointState: one row per message, with a column for each
+    quantity and joint, `effort_sun_joint`; missing values are NaN. MeshWaveform and AxesWaveform:
+    one row per sample, with `time` and a column for each quantity and mesh, `dte_sun_planet_1`, or
+    component of a body, `bearing_force_sun_x`.
     """
 
     def __init__(self, topic: str, definition: str) -> None:
         self._columns = _COLUMNS.get(topic, _rows)
-        self._units = {STAMP: "ns", "time": "s", **units_of(definition)}
+        units = OF_JOINTS if topic in (JOINTS, GIVEN) else units_of(definition)
+        self._units = {STAMP: "ns", "time": "s", **units}
         self._waiting: list[Any] = []
         self._planets: int | None = None
+        self._joints: list[str] | None = None
+        self._left_out = 0
         self._count = 0
 
     def add(self, message: Any) -> Iterator[Batch]:
@@ -55,12 +63,15 @@ class Table:
         Raises:
             RecordingError: the number of planets changes.
         """
-        planets = getattr(message, "planets", None)
+        planets, joints = getattr(message, "planets", None), getattr(message, "name", None)
         if self._planets not in (None, planets):
             raise RecordingError(
                 f"planets = {planets}: was {self._planets} before; a table takes one gearbox only"
             )
-        self._planets = planets
+        if self._joints not in (None, joints):  # another node publishes on the same topic
+            self._left_out += 1
+            return
+        self._planets, self._joints = planets, joints
         self._waiting.append(message)
         self._count += getattr(message, "samples", 1)
         if self._count >= ROWS or len(self._waiting) >= MESSAGES:
@@ -71,6 +82,14 @@ class Table:
         if self._waiting:
             yield self._columns(self._waiting)
         self._waiting, self._count = [], 0
+
+    @property
+    def remark(self) -> str:
+        """Warning of messages that are not in the table, "" if there are none."""
+        if not self._left_out:
+            return ""
+        joints = one_line(", ".join(self._joints or []), _LONGEST)
+        return f"{self._left_out} messages are left out: their joints are others than {joints}"
 
     def describe(self, batch: Batch) -> list[Column]:
         """The columns of a batch with their units."""
@@ -95,6 +114,19 @@ def _rows(messages: list[Any]) -> Batch:
             continue
         for planet in range(messages[0].planets if values.shape[1] == ROOM else values.shape[1]):
             batch[f"{name}_{planet + 1}"] = values[:, planet]
+    return batch
+
+
+def _joint_rows(messages: list[Any]) -> Batch:
+    """One row per message, a column for each field and joint; missing values are NaN."""
+    joints = messages[0].name
+    batch = {STAMP: _stamps(messages)}
+    for name in OF_JOINTS:
+        values = np.full((len(messages), len(joints)), np.nan)
+        for row, message in zip(values, messages, strict=True):
+            given = getattr(message, name)[: len(joints)]
+            row[: len(given)] = given
+        batch |= {f"{name}_{joint}": values[:, n] for n, joint in enumerate(joints)}
     return batch
 
 
@@ -135,7 +167,12 @@ def _sampled(messages: list[Any], series: dict[str, list[str]]) -> Batch:
     return batch
 
 
-_COLUMNS = {WAVEFORM: _waves, AXES_WAVEFORM: _axes_waves}  # of other topics: _rows
+_COLUMNS = {
+    WAVEFORM: _waves,
+    AXES_WAVEFORM: _axes_waves,
+    JOINTS: _joint_rows,
+    GIVEN: _joint_rows,
+}  # of other topics: _rows
 
 
 def _names(message: Any) -> list[str]:

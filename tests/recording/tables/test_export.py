@@ -2,6 +2,7 @@
 
 import csv
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,12 @@ from rosbags.highlevel import AnyReader
 from twin_recording import NAMESPACE, record
 from typer.testing import CliRunner
 
+import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.offline import Plan
+from planetary_twin_py.recording.runs.offline import record as record_plan
+from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
@@ -104,6 +110,59 @@ def test_values_are_the_recorded_ones_to_the_last_bit(sound, messages, tmp_path,
     assert same(wave["time"], np.concatenate(time))
     assert (units["dte_planet_ring_1"], units["time"]) == ("m", "s")
 
+    joints, units = READ[kind](tmp_path / "tables" / f"joint_states.{kind}")
+    expected = messages["joint_states"]
+    assert len(joints) == 1 + 3 * len(expected[0].name)
+    for field, unit in (("position", "rad"), ("velocity", "rad/s"), ("effort", "N m")):
+        for n, joint in enumerate(expected[0].name):
+            assert same(joints[f"{field}_{joint}"], [getattr(m, field)[n] for m in expected])
+            assert units[f"{field}_{joint}"] == unit
+
+
+def test_commands_of_a_driven_run_are_exported_with_nan_where_nothing_was_given(tmp_path):
+    step, torque = 0.01, [63.0, 62.0, 61.0]
+    plan = Plan(pt.load_scene("paper"), len(torque) * step, 10_000.0, 1e-3)
+    machine = record_plan(plan, tmp_path / "machine").parent
+    course = pt.Commands(step * np.arange(len(torque)), input_torque=torque)
+    resimulate(machine, NAMESPACE, Branch({}, commands=course), tmp_path / "driven")
+    answer = export(tmp_path / "driven", "--out", tmp_path / "t", "--topics", "applied_commands")
+    assert answer.exit_code == 0, answer.output
+    given, units = read_parquet(tmp_path / "t" / "applied_commands.parquet")
+    assert list(given["effort_sun_joint"]) == torque
+    assert units["effort_sun_joint"] == "N m"
+    missing = given.keys() - {"stamp", "effort_sun_joint"}
+    assert missing == {"effort_ring_joint"} | {
+        f"{field}_{side}_joint" for field in ("position", "velocity") for side in ("sun", "ring")
+    }
+    assert all(np.isnan(given[name]).all() for name in missing)
+
+
+def test_messages_of_other_joints_are_left_out_of_a_table_with_a_warning():
+    def message(*joints):
+        stamp = SimpleNamespace(sec=1, nanosec=0)
+        values = np.ones(len(joints))
+        return SimpleNamespace(
+            header=SimpleNamespace(stamp=stamp),
+            name=list(joints),
+            position=[],
+            velocity=values,
+            effort=values[1:],
+        )
+
+    table = tables.Table("joint_states", "")
+    for joints in (("sun", "ring"), ("elbow",), ("sun", "ring")):
+        assert not list(table.add(message(*joints)))
+    (batch,) = table.rest()
+    assert list(batch["velocity_ring"]) == [1.0, 1.0]
+    assert list(batch["effort_sun"]) == [1.0, 1.0]
+    assert np.isnan(batch["effort_ring"]).all() and np.isnan(batch["position_sun"]).all()
+    assert table.remark == "1 messages are left out: their joints are others than sun, ring"
+
+
+def test_the_help_names_every_topic_that_has_a_table():
+    shown = "".join(export("--help").output.split())
+    assert ",".join(tables.TABLES) in shown
+
 
 def test_one_topic_can_be_one_file(sound, tmp_path):
     file = tmp_path / "points.csv"
@@ -126,13 +185,16 @@ def test_the_valid_part_of_a_truncated_file_is_exported(sound, tmp_path):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (("--format", "xls"), ["format = 'xls'", "parquet, csv, npz"]),
-        (("--topics", "tf"), ["topics = tf", "gearbox_state, operating_point, mesh_waveform"]),
-        (("--out", "all.npz"), ["out = all.npz", "a file takes one topic"]),
-        (("--out", "all.txt"), ["out = 'all.txt'", ".parquet, .csv, .npz"]),
+        (("--format", "xls"), ["--format = 'xls'", "parquet, csv, npz"]),
+        (
+            ("--topics", "tf"),
+            ["--topics = tf", "gearbox_state, operating_point, joint_states, mesh_waveform"],
+        ),
+        (("--out", "all.npz"), ["--out = all.npz", "a file takes one topic"]),
+        (("--out", "all.txt"), ["--out = 'all.txt'", ".parquet, .csv, .npz"]),
         (("--out", "there"), ["there/gearbox_state.parquet", "exists"]),
         (("--out", "/proc/tables"), ["/proc/tables"]),
-        (("--namespace", "other"), ["namespace = /other"]),
+        (("--namespace", "other"), ["--namespace = /other"]),
     ],
 )
 def test_invalid_arguments_end_in_one_line(sound, tmp_path, monkeypatch, arguments, words):
