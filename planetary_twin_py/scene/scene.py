@@ -131,10 +131,14 @@ class Scene(Section):
         yield from self.errors_of_faults(self.faults)
 
     def errors_of_faults(self, faults: Sequence[Fault]) -> Iterator[str]:
-        """Errors of faults that this scene could have: a line each, with the field and the limit.
+        """Errors of faults in place of those of this scene.
 
         Args:
             faults: faulty teeth.
+
+        Returns:
+            A line for each tooth or planet that this scene lacks, and for each crack with a depth
+            if the stiffness is not that of the involute.
         """
         for n, fault in enumerate(faults):
             teeth = getattr(self.gearset.teeth, fault.gear)
