@@ -1,9 +1,10 @@
 """Pages of the reference that are generated from the code, each by a module of its own."""
 
-from . import command_line, interfaces, nodes, scene_fields, topics_and_services
+from . import command_line, hidden_fields, interfaces, nodes, scene_fields, topics_and_services
 
 PAGES = {
     "command-line.md": command_line.page,
+    "hidden-fields.md": hidden_fields.page,
     "messages.md": interfaces.page,
     "nodes.md": nodes.page,
     "scene-fields.md": scene_fields.page,

@@ -19,12 +19,13 @@ _COLUMNS = "| field | default; range | meaning |\n|---|---|---|\n"
 
 def page() -> str:
     """A section for every section of a scene."""
-    return _HEAD + "".join(map(_section, scene_sections()))
+    return _HEAD + "".join(section_text(one, "The scene") for one in scene_sections())
 
 
-def _section(section: SceneSection) -> str:
+def section_text(section: SceneSection, whole: str) -> str:
+    """Heading, meaning and table of a section; `whole` is the heading of one without a name."""
     kind = f", kind {section.kind}" if section.kind else ""
-    title = f"`{section.name}`{kind}" if section.name else "The scene"
+    title = f"`{section.name}`{kind}" if section.name else whole
     return f"\n## {title}\n\n{section.meaning}\n\n{_COLUMNS}" + "".join(map(_row, section.fields))
 
 

@@ -32,6 +32,19 @@ class Measurements(NamedTuple):
     readings: list[Block]
     samples: list[EncoderSamples | VibrationSamples]
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last stamp of the readings [s]; NaN without one."""
+        import numpy as np
+
+        from ..following.follower import Readings
+
+        stamps = [block.time for block in self.readings if isinstance(block, Readings)]
+        known = [time[np.isfinite(time)] for time in stamps if np.isfinite(time).any()]
+        if not known:
+            return float("nan"), float("nan")
+        return min(float(time.min()) for time in known), max(float(time.max()) for time in known)
+
 
 def described_sensors(path: Path | None, scale: Sequence[str]) -> Sensors:
     """Sensors of a gearbox.
@@ -103,6 +116,8 @@ def _readings(
         from ..following.measured_tables import read_readings
 
         found = read_readings(path, sensors.columns)
+        for line in found.remarks:
+            remark(f"warning: {path}: {line}")
         return [found.readings], found.begin, found.ignored
     from ..following.measured_recording import BEGIN, read_recording
 

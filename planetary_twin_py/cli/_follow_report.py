@@ -21,30 +21,38 @@ REMEDY = "improved by"
 """Heading of the column with readings that would determine a quantity, or determine it better."""
 
 
-def print_state(console: Console, name: str, state: Following) -> None:
+def print_state(console: Console, name: str, span: tuple[float, float], state: Following) -> None:
     """Print estimates, events, teeth and warnings.
 
     Args:
         console: console to print on.
         name: name of the scene.
-        state: estimated state.
+        span: first and last stamp of the readings [s].
+        state: estimated state after the last reading.
     """
     from rich.table import Table
 
-    table = Table(title=f"{shown(name)}, {_instant(state.time)}")
+    table = Table(title=f"{shown(name)}, {_span(*span)}")
     for heading in ("quantity", "estimate", "95 % interval", "unit", "status", REMEDY):
         table.add_column(heading, justify="left" if heading == REMEDY else "right")
     for one in state.estimates:
         known = one.status in ("ESTIMATED", "STALE")
         value = f"{one.value:.4g}" if known else "-"
-        span = f"{one.low:.4g} to {one.high:.4g}" if known else "-"
+        interval = f"{one.low:.4g} to {one.high:.4g}" if known else "-"
         status = one.status.replace("_", " ")
-        table.add_row(one.name, value, span, one.unit or "-", status, one.remedy)
+        table.add_row(one.name, value, interval, one.unit or "-", status, one.remedy)
     console.print(table)
     for line in _lines(state):
         console.print(line, highlight=False, markup=False, soft_wrap=True)
     for line in state.remarks:
         remark(f"warning: {line}")
+
+
+def _span(first: float, last: float) -> str:
+    """Format the first and the last stamp: seconds with two decimals, or dates."""
+    if first > EPOCH and last < _YEAR_10000:
+        return f"{_instant(first)} to {_instant(last)}"
+    return f"{first:.2f} to {last:.2f} s"
 
 
 def _instant(time: float) -> str:
@@ -56,8 +64,10 @@ def _instant(time: float) -> str:
 
 def _lines(state: Following) -> Iterator[str]:
     """Events and teeth, one line each."""
-    if not state.events:
+    if not state.events and _judged(state):
         yield "no change found"
+    elif not state.events:
+        yield "changes cannot be found without both torques and a speed while the train turns"
     for event in state.events:
         causes = f"; {' or '.join(event.causes)}" if event.causes else ""
         since = f"since {_instant(event.since)}, found at {_instant(event.found)}"
@@ -71,6 +81,12 @@ def _lines(state: Following) -> Iterator[str]:
         )
         kinds = " or ".join(tooth.kinds)
         yield f"{tooth.gear} tooth {tooth.tooth}: {kinds}, {size}, z = {tooth.z:.1f}"
+
+
+def _judged(state: Following) -> bool:
+    """Whether a change could have been found: in the torques, by encoders or by vibration."""
+    periods = ("hunting_periods", "vibration_periods")
+    return state.innovation is not None or any(state.counters.get(name, 0) for name in periods)
 
 
 def state_figures(state: Following) -> dict[str, Any]:

@@ -131,7 +131,7 @@ def follow(  # noqa: PLR0913 - an argument for each option
             states = list(play_back(follower, measured.readings, measured.samples))
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
-    print_state(console, loaded.name, states[-1])
+    print_state(console, loaded.name, measured.span, states[-1])
     if save_baseline is not None:
         with writing("--save-baseline", save_baseline):
             follower.save_baseline(save_baseline)

@@ -57,7 +57,8 @@ def plant(
     """Simulate sensor readings of the gearbox of SCENE, with hidden changes, for `follow`.
 
     --hidden states changes of the gearbox, its duty, and noise, errors and lost readings of the
-    sensors. By default, nothing changes and sensors are exact.
+    sensors. By default the gearbox does not change and torque sensors are exact, but the torque
+    wanders by 3 % and the speed by 0.3 % (duty.torque_wander, duty.speed_wander).
 
     Example: planetary-twin plant paper --hidden crack.yaml --out readings.csv
     """
@@ -66,7 +67,7 @@ def plant(
 
     try:
         loaded = changed_scene(scene, settings(set_ or []))
-        truth = read_hidden(hidden) if hidden is not None else Hidden()
+        truth = read_hidden(hidden, loaded) if hidden is not None else Hidden()
         if not 0.0 < duration <= 1e6:
             raise ValueError(f"--duration = {duration!r}: must be above 0 and at most 1e6 s")
         if encoders is not None and truth.sensors.encoders.rate == 0.0:

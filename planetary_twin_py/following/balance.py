@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from .balance_filter import (
-    F_T,
-    F_W,
+    CAUSES,
+    FRICTION,
     PARAMETERS,
     STANDSTILL,
     STATES,
     B,
+    Balance,
     BalanceFilter,
     D,
     F,
@@ -39,6 +40,7 @@ from .loss_step import LONGEST, StepCause, size_of
 from .merging import Merge
 from .sensors import Sensors, torque_gain, torque_noise, torque_zero
 from .train import followed_train
+from .variety import Variety
 from .vibration import Turning
 
 Array = NDArray[np.float64]
@@ -53,19 +55,12 @@ FREQUENT, UNSTEADY = 3, 60.0  # steps in so many seconds that no single cause ex
 IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
 REFUSED = 1.0  # [s] of successive gated balances that are a step
+APART = 0.5  # [s] between most readings above which the unit of the time may be wrong
+BALANCE = "both torques and a speed while the train turns"  # without which there is no balance
+FEW = 10  # steps below which the spacing of readings is not judged
 RARE = 3.0  # standard deviations of the first balance above which the readings do not fit the scene
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
          "inertia": "kg m^2"}  # fmt: skip
-REMEDIES = {
-    B: "a reversal of the rotation, or a run without load",
-    D: "a reversal of the rotation",
-    G: "a reversal of the torque",
-    J: "a change of speed",
-    F: "running at several torques",
-    F_T: "running at several torques",
-    F_W: "running at several speeds",
-}
-OWN = {F: "a reversal of the torque", J: "a change of speed"}
 
 
 @dataclass
@@ -94,6 +89,35 @@ class _Refusals:
             return None
         begin, self.begin, self.rare = self.begin, math.nan, False
         return begin
+
+
+@dataclass
+class _Spacing:
+    """Times between successive bins with readings."""
+
+    first: float = math.nan  # [s]
+    last: float = math.nan  # [s]
+    steps: int = 0
+    wide: int = 0  # steps longer than `APART`
+
+    def add(self, time: float) -> None:
+        if math.isnan(self.first):
+            self.first = time
+        else:
+            self.steps += 1
+            self.wide += time - self.last > APART
+        self.last = time
+
+    def remarks(self, period: float) -> Iterator[str]:
+        """A line if most readings are far apart, which a wrong unit of the time may cause."""
+        if self.steps < FEW or self.wide <= 0.5 * self.steps:
+            return
+        mean = (self.last - self.first) / self.steps
+        yield (
+            f"readings are {mean:.3g} s apart, a bin has {period:g} s: is the unit of the time "
+            "right? A heading of a table with milliseconds must be time [ms]; readings that are "
+            "so slow are for fleet"
+        )
 
 
 @dataclass
@@ -137,12 +161,13 @@ class BalanceFollower:
             torque_zero(self.sensors, self.train),
             torque_gain(self.sensors),
         )
-        self._cusum, self._refusals = Cusum(), _Refusals()
+        self._cusum, self._refusals, self._spacing = Cusum(), _Refusals(), _Spacing()
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
         self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
         self._step_times: deque[float] = deque()  # [s], the latest last
         self._last_speed: tuple[float, float] | None = None  # time and speed
+        self._variety = Variety(self.train)
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
         self.operating = (math.nan, self.train.oil_temperature)
@@ -184,6 +209,7 @@ class BalanceFollower:
     def _process(self, time_bin: Bin) -> None:
         self._checks.add(time_bin)
         self.time = (time_bin.number + 1) * self.period
+        self._spacing.add(self.time)
         read = self._measured(time_bin)
         if math.isfinite(read.input_torque):
             self._torques.add(self.time, read.input_torque)
@@ -198,6 +224,8 @@ class BalanceFollower:
         self._recent.append((read, filter_before))
         self.innovation = innovation
         self.gated += innovation.gated
+        if not innovation.gated:
+            self._variety.add(read)
         refused_since = self._refusals.add(read.time, innovation)
         step = self._cusum.add(read.time, alarm_innovation.value, alarm_innovation.sd)
         if step is None and refused_since is not None:
@@ -263,10 +291,12 @@ class BalanceFollower:
         balances = [reference_filter.balance(read) for read in reads]
         covariance = reference_filter.p[PARAMETERS, PARAMETERS]
         step_size = size_of(balances, covariance)
-        cause = StepCause(step.found, covariance)
-        for balance in balances[step_size.likely :]:
-            cause.add(balance)
         direction = math.copysign(1.0, self.operating[0])
+        since_step = balances[step_size.likely :]
+        possible = _possible_causes(reference_filter, direction * step_size.size, since_step)
+        cause = StepCause(step.found, covariance, possible)
+        for balance in since_step:
+            cause.add(balance)
         size = estimated("loss_torque_step", direction * step_size.size, step_size.sd, "N m")
         torque = float(np.mean([read.input_torque for read in reads[step_size.likely :]]))
         loss = self._losses(torque, *self.operating).teeth
@@ -282,10 +312,11 @@ class BalanceFollower:
             cause,
             Event(description, since, step.found, size, cause.causes, evidence),
         )
-        slope = np.sqrt(np.mean([after.slope**2 for after in balances[step_size.likely :]], axis=0))
+        slope = np.sqrt(np.mean([after.slope**2 for after in since_step], axis=0))
         self._alarm_filter.restart()
         for balance_filter in (self._alarm_filter, self._interval_filter):
             balance_filter.reopen(step_size.size, slope)
+        self._variety.restart()
 
     def _report(self, reference_filter: BalanceFilter, cause: StepCause, event: Event) -> None:
         """Add an event, unless steps follow each other: then no single cause explains them."""
@@ -369,9 +400,7 @@ class BalanceFollower:
         yield estimated("input_torque", float(interval_filter.x[T]), sd, "N m")
         speed, oil = self.operating
         if self.innovation is None or abs(speed) <= STANDSTILL * self.train.speed:
-            yield not_identifiable(
-                "loss_torque", math.nan, "N m", "both torques while the train turns"
-            )
+            yield not_identifiable("loss_torque", math.nan, "N m", BALANCE)
             return
         value, sd = interval_filter.loss_torque(speed, oil)
         yield estimated("loss_torque", value, sd, "N m")
@@ -394,31 +423,44 @@ class BalanceFollower:
                 f"friction_level is below {level.high:.2g}, which is impossible: the signs of both "
                 "torques or of both speeds may be reversed, or a torque has a wrong gain"
             )
+        yield from self.counters.remarks()
+        yield from self._spacing.remarks(self.period)
         if self.gated:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"
 
     def _parameter(self, state: int) -> Estimate:
         interval_filter, name = self._interval_filter, STATES[state]
-        sd = math.sqrt(max(float(interval_filter.p[state, state]), 0.0))
-        if state == F:  # the loss of the scene is as uncertain as the torque
-            sd = math.hypot(sd, float(interval_filter.x[F] * interval_filter.x[G]))
+        sd = _uncertainty(interval_filter, state)
         prior = float(interval_filter.prior[1][state - F])
-        remedy = self._remedy(state)
-        if not sd < IDENTIFIABLE * prior:
+        identified = sd < IDENTIFIABLE * prior
+        remedy = BALANCE
+        if self.innovation is not None:
+            remedy = self._variety.remedy(state, interval_filter.p, identified)
+        if not identified:
             return not_identifiable(name, sd, UNITS[name], remedy)
         return estimated(name, float(interval_filter.x[state]), sd, UNITS[name], remedy)
 
-    def _remedy(self, state: int) -> str:
-        """The readings that would separate a parameter from the one it correlates with most."""
-        p = self._interval_filter.p
-        sd = np.sqrt(np.maximum(np.diag(p), 1e-300))
-        correlation = np.abs(p[state] / (sd * sd[state]))
-        correlation[[T, 1, state]] = 0.0
-        strongest = int(np.argmax(correlation))
-        if state in (B, D):
-            return REMEDIES[D]
-        if state == J or float(correlation[strongest]) < 0.3:
-            return OWN.get(state, REMEDIES[state])
-        if state == G:
-            return REMEDIES[G]
-        return REMEDIES[strongest]
+
+def _uncertainty(balance_filter: BalanceFilter, state: int) -> float:
+    """Standard deviation of a parameter."""
+    sd = math.sqrt(max(float(balance_filter.p[state, state]), 0.0))
+    if state == F:  # the loss of the scene is as uncertain as the torque
+        sd = math.hypot(sd, float(balance_filter.x[F] * balance_filter.x[G]))
+    return sd
+
+
+def _possible_causes(
+    before: BalanceFilter, size: float, balances: Sequence[Balance]
+) -> tuple[str, ...]:
+    """Causes of a step; a decrease by more than all friction of the teeth is not one of friction.
+
+    Args:
+        before: filter as it was before the step.
+        size: size of the step [N m], negative if the loss decreases.
+        balances: balances since the step.
+    """
+    scene_friction = float(np.mean([abs(balance.slope[0]) for balance in balances]))
+    least_level = float(before.x[F]) - CONFIDENT * _uncertainty(before, F)
+    if size < -max(least_level, 1.0) * scene_friction:
+        return tuple(cause for cause in CAUSES if cause != FRICTION)
+    return CAUSES

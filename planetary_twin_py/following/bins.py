@@ -29,6 +29,7 @@ LAG = 0.2  # [s] by which stamps may be out of order
 AHEAD = 1.0  # [s]; a single stamp that is later than both of its neighbours by more is wrong
 OUTLIER = 5.0  # robust standard deviations above which a reading is an outlier
 NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
+UNUSED = 0.05  # share of the readings that are not used, above which there is a remark
 ENOUGH = 5  # readings of a bin below which outliers are not searched
 
 
@@ -69,6 +70,22 @@ class Counters:
     """Readings further from the median of their bin than 5 robust standard deviations."""
     ahead: int = 0
     """Readings with a single stamp far in the future."""
+
+    def remarks(self) -> Iterator[str]:
+        """A line for each reason for which a large share of the readings was not used.
+
+        Missing readings do not count, because a channel may be slower than others of its table.
+        """
+        refused = {
+            "came too late": self.late,
+            "have the stamp of another": self.doubled,
+            "are far from the median of their bin": self.outlying,
+            "have a stamp far ahead of their neighbours": self.ahead,
+        }
+        total = self.used + sum(refused.values())
+        for reason, count in refused.items():
+            if count > UNUSED * total:
+                yield f"{count} of {total} values {reason} and are not used"
 
 
 @dataclass

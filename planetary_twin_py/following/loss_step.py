@@ -90,10 +90,12 @@ class StepCause:
     Args:
         begin: time at which the step was found [s].
         covariance: covariance of the parameters from before the step, (7, 7).
+        possible: causes that are compared, of `CAUSES`.
     """
 
-    def __init__(self, begin: float, covariance: Array) -> None:
+    def __init__(self, begin: float, covariance: Array, possible: tuple[str, ...] = CAUSES) -> None:
         self.begin = begin
+        self._possible = np.array([cause in possible for cause in CAUSES])
         self._count, self._square = 0, 0.0
         unknowns = len(covariance) + len(CAUSES)
         self._matrix, self._vector = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
@@ -120,8 +122,9 @@ class StepCause:
     def causes(self) -> tuple[str, ...]:
         """Causes that explain the balances, the most likely one first."""
         if self._count < FEWEST:
-            return CAUSES
+            return tuple(CAUSES[n] for n in np.flatnonzero(self._possible))
         gain = np.array([self._gain(n) for n in range(len(CAUSES))])
+        gain[~self._possible] = -np.inf
         order = np.argsort(-gain, kind="stable")
         misfit = 2.0 * (0.5 * self._square - float(gain.max())) / self._count
         plausible = gain > gain.max() - BETTER * max(misfit, 1.0)

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..printable import one_line
 from ..recording.tables.measurements import TIME, Column, read_columns
 from ..units import LARGEST
-from .bins import CHANNELS
+from .bins import AHEAD, CHANNELS
 from .follower import EncoderSamples, Readings
 from .vibration import VibrationSamples
 
 ARRIVAL = "arrival"
+SPARSE = 10.0  # median steps from all other rows beyond which a stamp may be wrong
 SAMPLE, COUNTS = "sample", ("input_counts", "output_counts")
 
 
@@ -23,15 +25,17 @@ class MeasuredTable(NamedTuple):
     """Contents of a table."""
 
     readings: Readings
-    """Readings in the order of the rows, which is the order of arrival."""
+    """Readings in the order of their stamps; rows with the same stamp stay in order."""
     ignored: tuple[str, ...]
     """Headings of columns that are not used."""
+    remarks: tuple[str, ...]
+    """A line for each column without which less can be estimated."""
     begin: np.datetime64 | None
     """Date of second 0 of the stamps; None if the table has no dates."""
 
 
 def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
-    """Read a table of torques and speeds; stamps need not be equally spaced.
+    """Read a table of torques and speeds; stamps need not be equally spaced or in order.
 
     Args:
         path: path of a .csv, .parquet or .mat file. Headings are names of channels, with units
@@ -71,7 +75,54 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
         )
     if not any((np.isfinite(stamps) & np.isfinite(values)).any() for values in columns.values()):
         raise ValueError(f"{path}: has no row with a time and a reading")
-    return MeasuredTable(Readings(stamps, columns, arrival), tuple(ignored), begin)
+    readings = _in_order(Readings(stamps, columns, arrival))
+    return MeasuredTable(readings, tuple(ignored), tuple(_lacking(columns)), begin)
+
+
+def _lacking(columns: Mapping[str, np.ndarray]) -> Iterator[str]:
+    """A line for each quantity without which losses are not estimated."""
+    for needed in (("input_torque",), ("output_torque",), ("input_speed", "output_speed")):
+        if not any(name in columns and np.isfinite(columns[name]).any() for name in needed):
+            yield (
+                f"no column {' or '.join(needed)} with readings: losses are not estimated; "
+                "if it has another heading, state that under `columns` in the file of --sensors"
+            )
+
+
+def _in_order(read: Readings) -> Readings:
+    """Readings in the order of their stamps; rows without a stamp are last.
+
+    A table is complete, so no row is late in it. Wrong stamps stay where they are among the others,
+    so that the follower recognises them.
+    """
+    if not np.any(np.diff(read.time[np.isfinite(read.time)]) < 0.0):
+        return read
+    key = read.time.copy()
+    wrong = _wrong_stamps(key)
+    earlier = np.fmax.accumulate(np.where(wrong, -np.inf, key))
+    key[wrong] = earlier[wrong]
+    order = np.argsort(key, kind="stable")
+    columns = {name: values[order] for name, values in read.columns.items()}
+    arrival = None if read.arrival is None else read.arrival[order]
+    return read._replace(time=read.time[order], columns=columns, arrival=arrival)
+
+
+def _wrong_stamps(time: np.ndarray) -> NDArray[np.bool_]:
+    """Stamps that are ahead of both neighbours, and far from every row that is not, (rows,)."""
+    known = np.flatnonzero(np.isfinite(time))
+    stamps = time[known]
+    beside = np.concatenate([[-np.inf], stamps, [-np.inf]])
+    leap = stamps > np.maximum(beside[:-2], beside[2:]) + AHEAD
+    usual = np.sort(stamps[~leap])
+    wrong = np.zeros(len(time), dtype=bool)
+    if not len(usual):
+        return wrong
+    place = np.searchsorted(usual, stamps)
+    below, above = usual[np.maximum(place - 1, 0)], usual[np.minimum(place, len(usual) - 1)]
+    distance = np.minimum(np.abs(stamps - below), np.abs(stamps - above))
+    far = max(AHEAD, SPARSE * float(np.median(np.diff(np.sort(stamps)))))
+    wrong[known] = leap & (distance > far)
+    return wrong
 
 
 def read_encoders(path: Path, period: float, begin: np.datetime64 | None = None) -> EncoderSamples:

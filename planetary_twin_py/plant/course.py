@@ -110,9 +110,11 @@ def draw_course(
         torque = _between(knots, np.resize(REVERSED[::-1], targets))
     torque = torque * (1.0 + duty.torque_wander * _gauss_markov(len(knots), 0.1, chance))
     speed = speed * (1.0 + duty.speed_wander * _gauss_markov(len(knots), 0.1, chance))
+    load = np.ones_like(knots)
     for change in changes:
         if change.load is not None:
-            torque[knots >= change.at] = torque[knots >= change.at] * change.load
+            load[knots >= change.at] = change.load
+    torque = torque * load
     speed = speed * train.speed
     steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(knots)
     return Course(knots, torque * train.torque, speed, np.concatenate([[0.0], np.cumsum(steps)]))

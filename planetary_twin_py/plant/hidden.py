@@ -2,28 +2,46 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from ..scene import Scene, SceneError
 from ..scene.faults import MOST_FAULTS, Fault
-from ..scene.quantity import Section, quantity
+from ..scene.quantity import Section, listed, quantity
 from ..scene.yaml_file import read_section
+
+MOST_CHANGES = 1000
 
 
 class Change(Section):
-    """A change at an instant; quantities that are not given do not change."""
+    """A change at an instant.
+
+    A value replaces the one before and does not add to it. Quantities that are not given do not
+    change.
+    """
 
     at: float = quantity("s", "time of the change", ge=0.0, le=1e9)
-    friction: float | None = quantity("", "factor on tooth friction", None, gt=0.0, le=100.0)
-    drag: float | None = quantity("N m", "drag at the input", None, ge=0.0, le=1e6)
+    friction: float | None = quantity(
+        "", "factor on the tooth friction of the scene", None, gt=0.0, le=100.0
+    )
+    drag: float | None = quantity(
+        "N m", "drag at the input in addition to the losses of the scene", None, ge=0.0, le=1e6
+    )
     torque_zero: float | None = quantity(
-        "N m", "zero of the torque sensor at the input", None, ge=-1e6, le=1e6
+        "N m",
+        "zero of the torque sensor at the input, in place of that of sensors",
+        None,
+        ge=-1e6,
+        le=1e6,
     )
     load: float | None = quantity("", "factor on the torque of the duty", None, ge=-10.0, le=10.0)
     faults: tuple[Fault, ...] | None = Field(
-        None, max_length=MOST_FAULTS, description="faulty teeth from this time on"
+        None,
+        max_length=MOST_FAULTS,
+        description="all faulty teeth from this time on; [] repairs them",
     )
 
 
@@ -35,8 +53,12 @@ class Duty(Section):
         description="steady: the operating point of the scene; varied: another torque and speed "
         "every 5 s; reversing: the torque changes its sign every 5 s",
     )
-    torque_wander: float = quantity("", "standard deviation of the torque, relative", 0.03, ge=0)
-    speed_wander: float = quantity("", "standard deviation of the speed, relative", 0.003, ge=0)
+    torque_wander: float = quantity(
+        "", "standard deviation of its random changes over the torque", 0.03, ge=0
+    )
+    speed_wander: float = quantity(
+        "", "standard deviation of its random changes over the speed", 0.003, ge=0
+    )
 
 
 class TorqueErrors(Section):
@@ -86,10 +108,14 @@ class SensorErrors(Section):
     output_torque: TorqueErrors = Field(TorqueErrors(), description="at the output")
     speed_noise: float = quantity("rad/s", "standard deviation of a speed", 0.0, ge=0.0, le=1e4)
     clock_offset: float = quantity(
-        "s", "clock of the output minus that of the input", 0.0, ge=-10.0, le=10.0
+        "s", "time of a reading of the output torque minus its stamp", 0.0, ge=-10.0, le=10.0
     )
-    lost: float = quantity("", "share of readings that are lost", 0.0, ge=0.0, lt=1.0)
-    outlying: float = quantity("", "share of readings that are outliers", 0.0, ge=0.0, lt=0.5)
+    lost: float = quantity(
+        "", "share of readings of each channel that are lost", 0.0, ge=0.0, lt=1.0
+    )
+    outlying: float = quantity(
+        "", "share of readings of torque that are outliers", 0.0, ge=0.0, lt=0.5
+    )
     encoders: EncoderErrors = Field(EncoderErrors(), description="encoders on input and output")
     vibration: Accelerometer = Field(Accelerometer(), description="accelerometer")
 
@@ -102,21 +128,66 @@ class Hidden(Section):
     )
     duty: Duty = Field(Duty(), description="course of torque and speed")
     sensors: SensorErrors = Field(SensorErrors(), description="errors of the sensors")
-    changes: tuple[Change, ...] = Field((), description="changes, in order of time")
+    changes: tuple[Change, ...] = Field(
+        (), max_length=MOST_CHANGES, description="changes, in order of time"
+    )
     seed: int = Field(0, ge=0, description="seed of all random numbers")
 
+    @model_validator(mode="after")
+    def _changes_in_order(self) -> Self:
+        for n, (one, following) in enumerate(pairwise(self.changes), 1):
+            if following.at < one.at:
+                raise ValueError(
+                    f"changes.{n}.at = {following.at:g} s: must not be before changes.{n - 1}.at = "
+                    f"{one.at:g} s"
+                )
+        return self
 
-def read_hidden(path: Path) -> Hidden:
+    def check(self, scene: Scene) -> Scene:
+        """Check the differences from a scene, and the faults, against that scene.
+
+        Args:
+            scene: scene that a follower knows.
+
+        Returns:
+            The scene with the laws of the plant.
+
+        Raises:
+            SceneError: a field does not exist, or a fault has a tooth or planet that is missing.
+        """
+        try:
+            true_scene = scene.replace(**self.scene)
+        except SceneError as error:
+            raise SceneError(f"scene: {error}") from None
+        errors = [
+            f"changes.{n}.{line}"
+            for n, change in enumerate(self.changes)
+            for line in true_scene.errors_of_faults(change.faults or ())
+        ]
+        if errors:
+            raise SceneError(listed(errors, "the hidden state"))
+        return true_scene
+
+
+def read_hidden(path: Path, scene: Scene | None = None) -> Hidden:
     """Read a YAML file with fields of `Hidden`.
 
     Args:
         path: path of the file.
+        scene: scene that its faults and differences must fit; None: they are not checked.
 
     Returns:
         The hidden state.
 
     Raises:
-        SceneError: the file is not in YAML, or a field is invalid.
+        SceneError: the file is not in YAML, or a field is invalid; the message starts with the
+            path.
         OSError: the file cannot be read.
     """
-    return read_section(path, Hidden)
+    hidden = read_section(path, Hidden)
+    if scene is not None:
+        try:
+            hidden.check(scene)
+        except SceneError as error:
+            raise SceneError(f"{path}: {error}") from None
+    return hidden

@@ -28,7 +28,8 @@ class Plant:
         duration: simulated time [s].
 
     Raises:
-        ValueError: the duration is shorter than a period of the sensors.
+        ValueError: the duration is shorter than a period of the sensors, or the hidden state does
+            not fit the scene.
     """
 
     scene: Scene
@@ -42,6 +43,7 @@ class Plant:
                 f"duration = {self.duration!r} s: must be at least a period of the sensors, "
                 f"{period:g} s"
             )
+        self.hidden.check(self.scene)
 
     @cached_property
     def true_scene(self) -> Scene:

@@ -1,8 +1,9 @@
-"""The fields of a scene from its schema: name, unit, default, range and meaning."""
+"""The fields of a scene, or of another file, from its schema: unit, default, range and meaning."""
 
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Iterator
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
@@ -44,7 +45,16 @@ class SceneSection(NamedTuple):
 
 def scene_sections() -> Iterator[SceneSection]:
     """All sections of a scene, each before its subsections."""
-    yield from _sections("", "", Scene)
+    yield from sections_of(Scene)
+
+
+def sections_of(model: type[Section]) -> Iterator[SceneSection]:
+    """All sections of a file, each before its subsections.
+
+    Args:
+        model: section with the fields of the file.
+    """
+    yield from _sections("", "", model)
 
 
 def _sections(name: str, kind: str, model: type[Section]) -> Iterator[SceneSection]:
@@ -90,6 +100,8 @@ def _range(field: FieldInfo) -> str:
         return f"{lengths[0]} to {lengths[1]} {what}"
     if sections_in(field.annotation):
         return "section"
+    if get_origin(field.annotation) is dict:
+        return "values by name"
     return ", ".join(_choices(field.annotation)) or _interval(field) or "text"
 
 
@@ -117,6 +129,6 @@ def _interval(field: FieldInfo) -> str:
     }
     if not ends:
         return ""
-    low = f"[{ends['ge']:g}" if "ge" in ends else f"({ends['gt']:g}"
-    high = f"{ends['le']:g}]" if "le" in ends else f"{ends['lt']:g})"
+    low = f"[{ends['ge']:g}" if "ge" in ends else f"({ends.get('gt', -math.inf):g}"
+    high = f"{ends['le']:g}]" if "le" in ends else f"{ends.get('lt', math.inf):g})"
     return f"{low}, {high}"

@@ -7,11 +7,16 @@ from difflib import get_close_matches
 
 NEAR = 0.7  # similarity by difflib below which a name is not suggested
 _MOST = 3
+_FEW = 20  # names of a section that a message lists
 
 
 def no_such_field(name: str, known: Iterable[str]) -> str:
-    """Error message for `name`, which is not one of the `known` names."""
-    return f"{name}: no such field{did_you_mean(name, known)}"
+    """Error message for `name`: with similar `known` names, else with all, if they are few."""
+    names = list(known)
+    meant = did_you_mean(name, names)
+    if not meant and 0 < len(names) <= _FEW:
+        meant = f"; there are {', '.join(sorted(names))}"
+    return f"{name}: no such field{meant}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
@@ -128,7 +128,19 @@ class Scene(Section):
 
     def _faulty_teeth(self) -> Iterator[str]:
         """Errors of the faults: missing teeth or planets, or a crack depth without geometry."""
-        for n, fault in enumerate(self.faults):
+        yield from self.errors_of_faults(self.faults)
+
+    def errors_of_faults(self, faults: Sequence[Fault]) -> Iterator[str]:
+        """Errors of faults in place of those of this scene.
+
+        Args:
+            faults: faulty teeth.
+
+        Returns:
+            A line for each tooth or planet that this scene lacks, and for each crack with a depth
+            if the stiffness is not that of the involute.
+        """
+        for n, fault in enumerate(faults):
             teeth = getattr(self.gearset.teeth, fault.gear)
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
                 if getattr(fault, name) > last:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import random
 
 import pytest
 from command_line import run_here
@@ -143,3 +144,39 @@ def test_a_stamp_after_the_year_9999_is_shown_in_seconds(folder):
     rows = [f"{1e15 + n / 8},63,145,104.7" for n in range(40)]
     table.write_text("\n".join(["time,input_torque,output_torque,input_speed", *rows]) + "\n")
     assert "10000000000000" in cli("follow", "paper", "--from", table)
+
+
+def test_shuffled_rows_give_the_same_results(readings, folder):
+    heading, *rows = readings.read_text().splitlines()
+    shuffled = folder / "shuffled.csv"
+    order = random.Random(0).sample(rows, len(rows))
+    shuffled.write_text("\n".join([heading, *order]) + "\n")
+    found = [folder / "one.json", folder / "other.json"]
+    texts = [
+        cli("follow", "paper", "--from", table, "--json", file)
+        for table, file in zip((readings, shuffled), found, strict=True)
+    ]
+    assert found[0].read_text() == found[1].read_text() and texts[0] == texts[1]
+    assert "paper, 0.01 to 30.00 s" in texts[0]
+
+
+def test_a_table_without_the_output_torque_does_not_claim_that_nothing_has_changed(
+    readings, folder
+):
+    other = folder / "misnamed.csv"
+    other.write_text(readings.read_text().replace("output_torque", "Torque out (Nm)", 1))
+    done = run_here("follow", "paper", "--from", other, COLUMNS="200")
+    assert done.returncode == 0
+    assert "no change found" not in done.stdout and "changes cannot be found" in done.stdout
+    assert "no column output_torque with readings: losses are not estimated" in done.stderr
+    assert "columns that are not used: Torque out (Nm)" in done.stderr
+
+
+def test_a_fault_that_the_scene_cannot_have_leaves_no_files(folder):
+    (folder / "seven.yaml").write_text(
+        ONE_WAY.replace("gear: sun, tooth: 7", "gear: sun, tooth: 70")
+    )
+    table = folder / "seven.csv"
+    message = fails("plant", "paper", "--hidden", folder / "seven.yaml", "--out", table)
+    assert "seven.yaml: changes.0.faults.0.tooth = 70: must be at most 29" in message
+    assert not table.exists()

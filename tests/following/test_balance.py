@@ -231,3 +231,22 @@ def test_the_balance_of_readings_changes_nothing_and_a_reading_without_noise_exp
         assert found.value == pytest.approx(0.0, abs=1e-6 * torque)
         assert found.added[0] == pytest.approx(loss.teeth)
         balances.update(read)
+
+
+def test_a_decrease_by_more_than_all_friction_is_not_one_of_friction():
+    _, time, columns = played("steady", {}, 60.0, 1)
+    columns["input_torque"] = columns["input_torque"] - np.where(time > 30.0, 1.5, 0.0)
+    follower = BalanceFollower(paper())
+    follower.add(time, columns)
+    (event,) = follower.events
+    assert event.size.value < -1.2 and event.causes and "friction" not in event.causes
+
+
+def test_stamps_in_a_wrong_unit_are_remarked():
+    _, time, columns = played("varied", {}, 60.0, 1)
+    for factor, remarked in ((1.0, False), (1e3, True)):
+        follower = BalanceFollower(paper())
+        follower.add(factor * time, columns)
+        lines = [line for line in follower.remarks() if "is the unit of the time right" in line]
+        assert bool(lines) == remarked
+        assert all(line.startswith("readings are 10 s apart") for line in lines)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.bins import Bins
+from planetary_twin_py.following.bins import Bins, Counters
 
 
 def means(time, value, cuts=(), bins=None, channel="input_torque"):
@@ -85,3 +85,10 @@ def test_missing_values_are_counted():
     value[10:20] = np.nan
     found, counters = means(TIME, value)
     assert counters.missing == 10 and 1 not in [number for number, _, _ in found]
+
+
+def test_a_large_share_of_readings_that_are_not_used_is_a_remark():
+    counters = Counters(used=150, late=12340, outlying=2)
+    assert list(counters.remarks()) == ["12340 of 12492 values came too late and are not used"]
+    assert not list(Counters(used=97, late=1, doubled=1, outlying=1, missing=500).remarks())
+    assert not list(Counters().remarks())

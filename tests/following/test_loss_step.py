@@ -71,3 +71,11 @@ def test_no_cause_is_excluded_where_the_parameters_explain_it(cause):
     for row in balances(cause, 1500)[AT:]:
         found.add(row)
     assert set(found.causes) == set(CAUSES)
+
+
+def test_a_cause_that_is_impossible_is_not_named_however_well_it_fits():
+    found = StepCause(0.0, 1e-10 * np.eye(7), CAUSES[1:])
+    assert found.causes == CAUSES[1:]
+    for row in balances(CAUSES[0], 1500)[AT:]:
+        found.add(row)
+    assert found.causes and CAUSES[0] not in found.causes

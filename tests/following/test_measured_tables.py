@@ -214,3 +214,55 @@ def test_dates_of_several_tables_count_from_the_same_second(tmp_path):
     for read in (lambda: read_encoders(encoders, 5e-5), lambda: read_vibration(vibration, {})):
         with pytest.raises(ValueError, match="time: has dates, but the readings have seconds"):
             read()
+
+
+ROWS = [f"{n / 100},{60 + n},{-140 - n},100" for n in range(1, 300)]
+COLUMNS = "time,input_torque,output_torque,input_speed"
+
+
+def shuffled(rows):
+    return [rows[n] for n in np.random.default_rng(0).permutation(len(rows))]
+
+
+def test_rows_in_any_order_give_the_readings_of_the_rows_in_order(write):
+    one = read_readings(write(COLUMNS, *ROWS, name="a.csv"), {})
+    other = read_readings(write(COLUMNS, *shuffled(ROWS), name="b.csv"), {})
+    assert one.readings.time.tobytes() == other.readings.time.tobytes()
+    for name, values in one.readings.columns.items():
+        assert values.tobytes() == other.readings.columns[name].tobytes()
+
+
+def test_rows_with_the_same_stamp_stay_in_their_order(write):
+    found = read_readings(write(COLUMNS, "2,1,0,0", "1,2,0,0", "2,3,0,0", "1,4,0,0"), {})
+    assert list(found.readings.columns["input_torque"]) == [2.0, 4.0, 1.0, 3.0]
+
+
+def test_a_single_stamp_far_ahead_stays_where_the_follower_recognises_it(write):
+    rows = [*ROWS[:100], "1e9,0,0,100", *ROWS[100:200], "1e9,0,0,100", *ROWS[200:]]
+    found = read_readings(write(COLUMNS, *rows), {}).readings
+    assert list(np.flatnonzero(found.time == 1e9)) == [100, 201]
+
+
+def test_shuffled_dates_count_from_the_earliest(tmp_path):
+    noon = np.datetime64("2026-11-24T12:00:00", "ns")
+    dates = noon + np.array([3, 1, 2]) * np.timedelta64(1, "s")
+    rows = {"time": dates, "input_torque": [3.0, 1.0, 2.0]}
+    parquet.write_table(pa.table(rows), tmp_path / "rig.parquet")
+    found = read_readings(tmp_path / "rig.parquet", {})
+    assert list(found.readings.time) == [0.0, 1.0, 2.0]
+    assert found.begin == noon + np.timedelta64(1, "s")
+
+
+@pytest.mark.parametrize(
+    ("headings", "lacking"),
+    [
+        ("time,input_torque,T2,input_speed", ["output_torque"]),
+        ("time,input_torque,output_torque,speed", ["input_speed or output_speed"]),
+        (COLUMNS, []),
+    ],
+)
+def test_columns_without_which_losses_are_not_estimated_are_named(write, headings, lacking):
+    remarks = read_readings(write(headings, *ROWS), {}).remarks
+    assert len(remarks) == len(lacking)
+    for line, name in zip(remarks, lacking, strict=True):
+        assert f"no column {name} with readings: losses are not estimated" in line

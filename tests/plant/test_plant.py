@@ -6,7 +6,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.plant.encoders import simulate_encoders
-from planetary_twin_py.plant.hidden import Hidden
+from planetary_twin_py.plant.hidden import Hidden, read_hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
 
 SCENE = pt.load_scene("paper")
@@ -100,12 +100,50 @@ def test_a_duration_without_a_reading_is_refused():
         ("changes: [{friction: 2}]", r"changes\.0\.at: missing"),
         ("sensors: {encoders: {lost: 2}}", r"sensors\.encoders\.lost = 2"),
         ("sensor: {}", "sensor: no such field"),
+        (
+            "changes: [{at: 0, friction_factor: 2}]",
+            r"changes\.0\.friction_factor: no such field; there are at, drag, faults",
+        ),
+        ("changes: [{at: 2}, {at: 1}]", r"changes\.1\.at = 1 s: must not be before changes\.0\.at"),
     ],
 )
 def test_fields_of_the_hidden_state_are_checked(tmp_path, text, message):
-    from planetary_twin_py.plant.hidden import read_hidden
-
     file = tmp_path / "hidden.yaml"
     file.write_text(text)
     with pytest.raises(pt.SceneError, match=message):
         read_hidden(file)
+
+
+FAULTY = """
+scene: {{{scene}}}
+changes: [{{at: 0, faults: [{{kind: crack, gear: {gear}, stiffness_loss: 0.3}}]}}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("gear", "scene", "message"),
+    [
+        ("planet, planet: 5", "", r"changes\.0\.faults\.0\.planet = 5: must be at most 3"),
+        ("sun, tooth: 45", "", r"changes\.0\.faults\.0\.tooth = 45: must be at most 29"),
+        ("sun", "mesh.nosuch: 1", r"scene: mesh\.nosuch: no such field"),
+    ],
+)
+def test_what_does_not_fit_the_scene_is_refused_before_anything_is_simulated(
+    tmp_path, gear, scene, message
+):
+    file = tmp_path / "hidden.yaml"
+    file.write_text(FAULTY.format(gear=gear, scene=scene))
+    with pytest.raises(pt.SceneError, match=rf"hidden\.yaml: {message}"):
+        read_hidden(file, SCENE)
+    with pytest.raises(pt.SceneError, match=message):
+        Plant(SCENE, read_hidden(file), 1.0)
+
+
+def test_a_value_of_a_change_replaces_the_one_before():
+    changes = [{"at": 1.0, "load": 0.5, "friction": 1.2}, {"at": 1.5, "load": 0.8}]
+    plant, time, _ = play({"duty": STILL, "changes": changes})
+    torque = plant.course.torque_at(time) / plant.train.torque
+    assert torque[time < 0.9] == pytest.approx(1.0)
+    assert torque[(time > 1.1) & (time < 1.4)] == pytest.approx(0.5)
+    assert torque[time > 1.6] == pytest.approx(0.8)
+    assert set(plant.at("friction", time[time > 1.0], 1.0)) == {1.2}

@@ -81,9 +81,9 @@ class Column(NamedTuple):
 
     @property
     def begin(self) -> np.datetime64 | None:
-        """The first date, from which `in_si` counts; None if the values are no dates."""
+        """The earliest date, from which `in_si` counts; None if the values are no dates."""
         dates = pa.types.is_timestamp(self.values.type) and len(self.values)
-        return _stamps(self.values)[0] if dates else None
+        return _earliest(_stamps(self.values)) if dates else None
 
 
 class Measurements(NamedTuple):
@@ -273,9 +273,15 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
 
 
 def _seconds(dates: pa.ChunkedArray) -> Array:
-    """Seconds since the first of `dates` (rows,)."""
+    """Seconds since the earliest of `dates` (rows,)."""
     stamps = _stamps(dates)
-    return np.asarray((stamps - stamps[:1]) / np.timedelta64(1, "s"), dtype=float)
+    return np.asarray((stamps - _earliest(stamps)) / np.timedelta64(1, "s"), dtype=float)
+
+
+def _earliest(stamps: NDArray[np.datetime64]) -> np.datetime64:
+    """The earliest date that is not missing; NaT if all are."""
+    known = stamps[~np.isnat(stamps)]
+    return known.min() if len(known) else np.datetime64("NaT")
 
 
 def _stamps(dates: pa.ChunkedArray) -> NDArray[np.datetime64]:

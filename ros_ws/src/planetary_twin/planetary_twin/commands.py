@@ -187,9 +187,9 @@ def _plant_plan(
     hidden, sensors = files
     if not duration <= LONGEST_PLAY:
         raise ValueError(f"--duration = {duration:g} s: must be at most {LONGEST_PLAY:g} s")
-    pt.load_scene(scene)
+    loaded = pt.load_scene(scene)
     if hidden is not None:
-        read_hidden(hidden)
+        read_hidden(hidden, loaded)
     if sensors is not None:
         read_sensors(sensors)
     return PlantPlan(
