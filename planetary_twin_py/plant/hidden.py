@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from ..scene import Scene, SceneError
 from ..scene.faults import MOST_FAULTS, Fault
@@ -129,19 +128,14 @@ class Hidden(Section):
     duty: Duty = Field(Duty(), description="course of torque and speed")
     sensors: SensorErrors = Field(SensorErrors(), description="errors of the sensors")
     changes: tuple[Change, ...] = Field(
-        (), max_length=MOST_CHANGES, description="changes, in order of time"
+        (), max_length=MOST_CHANGES, description="changes, each from its time on"
     )
     seed: int = Field(0, ge=0, description="seed of all random numbers")
 
-    @model_validator(mode="after")
-    def _changes_in_order(self) -> Self:
-        for n, (one, following) in enumerate(pairwise(self.changes), 1):
-            if following.at < one.at:
-                raise ValueError(
-                    f"changes.{n}.at = {following.at:g} s: must not be before changes.{n - 1}.at = "
-                    f"{one.at:g} s"
-                )
-        return self
+    @property
+    def changes_in_order(self) -> tuple[Change, ...]:
+        """The changes, in order of time."""
+        return tuple(sorted(self.changes, key=lambda change: change.at))
 
     def check(self, scene: Scene) -> Scene:
         """Check the differences from a scene, and the faults, against that scene.

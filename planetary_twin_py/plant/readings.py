@@ -61,7 +61,7 @@ class Plant:
         train = self.train
         chance = np.random.default_rng([self.hidden.seed, 0])
         hidden = self.hidden
-        return draw_course(hidden.duty, hidden.changes, train, self.duration, chance)
+        return draw_course(hidden.duty, hidden.changes_in_order, train, self.duration, chance)
 
     @cached_property
     def error_stages(self) -> tuple[Stage, ...]:
@@ -70,7 +70,7 @@ class Plant:
         Raises:
             SceneError: the scene cannot be simulated.
         """
-        return error_stages(self.true_scene, self.hidden.changes, self.train)
+        return error_stages(self.true_scene, self.hidden.changes_in_order, self.train)
 
     def at(self, name: str, time: Array, default: float) -> Array:
         """Value of a quantity that changes by steps.
@@ -84,7 +84,7 @@ class Plant:
             Values in the unit of the field, (n,).
         """
         values = np.full(len(time), default)
-        for change in self.hidden.changes:
+        for change in self.hidden.changes_in_order:
             value = getattr(change, name)
             if value is not None:
                 values[time >= change.at] = value

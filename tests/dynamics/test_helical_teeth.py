@@ -80,8 +80,8 @@ def test_the_ledger_closes_with_friction_on_parts_of_contact_lines():
 def test_losses_are_those_of_an_even_load_along_contact_lines():
     """Friction at the sliding of every slice: (e1^2 + e2^2)/e with lengths of approach and recess
     e1 and e2 and the contact ratio e. Spur teeth have 1 - e + e1^2 + e2^2 (Ohlendorf 1958), as two
-    pairs at their ends have half the load. The friction coefficient is that of either line load; the
-    normal load is larger by 1/cos(beta_b)."""
+    pairs at their ends have half the load. The friction coefficient is that of either line load,
+    and the normal load is larger by 1/cos(beta_b)."""
     scene = helical(**{"lubrication.friction": True, "lubrication.rolling": "none"})
     losses, factors = [], np.zeros((2, 2))
     for angle in (0.0, "18 deg"):

@@ -127,7 +127,10 @@ def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path
     ("options", "line"),
     [
         (("--hidden", "none.yaml"), "none.yaml: No such file or directory"),
-        (("--set", "backlash=1e-7"), "--plant: --set, --rate-factor and --tolerance are options"),
+        (
+            ("--set", "backlash=1e-7"),
+            "--plant: --set, --param, --rate-factor, --tolerance are options",
+        ),
         (("--duration", "inf"), "--duration = inf s: must be at most 86400 s"),
     ],
 )

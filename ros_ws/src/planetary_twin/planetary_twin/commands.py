@@ -90,7 +90,7 @@ def run(  # noqa: PLR0913 (options of the command line)
     interrupt_on_signals()
     if plant is not None:
         if set_ or param or rate_factor != 1.0 or tolerance:
-            fail("--plant: --set, --param, --rate-factor and --tolerance are for simulations")
+            fail("--plant: --set, --param, --rate-factor, --tolerance are options of a simulation")
         _follow_plant(plant, duration, record, (hidden, sensors), json_)
         return
     if hidden is not None or sensors is not None:
