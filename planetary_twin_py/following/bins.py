@@ -37,13 +37,14 @@ class Mean(NamedTuple):
     """Regression line through the readings of a channel in one bin."""
 
     value: float
-    """Value of the line at the middle of the bin; the mean with fewer than three readings."""
+    """Value of the line at the middle of the bin; the mean with fewer than three readings, or if
+    all are on one side of the middle."""
     readings: int
     """Number of readings."""
     slope: float
-    """Slope of the line [1/s]; NaN below three readings."""
+    """Slope of the line [1/s]; NaN where the value is a mean."""
     scatter: float
-    """Standard deviation about that line; NaN below four."""
+    """Standard deviation about that line; NaN below four readings, and without a line."""
 
 
 class Bin(NamedTuple):
@@ -250,7 +251,8 @@ class Bins:
         n = len(value)
         self.counters.used += n
         mean, mean_time = float(value.sum()) / n, float(time.sum()) / n
-        if n < 3:
+        # Beyond the readings, the error of a line through a few of them exceeds their noise.
+        if n < 3 or not time[0] <= middle <= time[-1]:
             return Mean(mean, n, np.nan, np.nan)
         time_offset = time - mean_time
         slope = float(time_offset @ value / (time_offset @ time_offset))

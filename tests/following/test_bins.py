@@ -28,6 +28,17 @@ def test_a_bin_is_the_mean_of_its_readings():
     assert counters.used == 300
 
 
+@pytest.mark.parametrize("first", [1, 6, 7])  # of the readings of the first bin
+def test_the_error_of_an_incomplete_bin_is_that_of_the_mean_of_its_readings(first):
+    """Without a trend; a line would be wrong by several times the noise at the middle."""
+    errors = []
+    for seed in range(400):
+        value = np.random.default_rng(seed).normal(5.0, 0.1, 10)
+        (_, mean, readings), *_ = means(TIME[first:10], value[first:])[0]
+        errors.append((mean - 5.0) / (0.1 / np.sqrt(readings)))
+    assert np.std(errors) < 1.3
+
+
 def test_the_slope_is_that_of_a_straight_line():
     bins = Bins(0.1, {})
     found = [*bins.add(TIME, {"input_speed": 3.0 + 2.0 * TIME}), *bins.finish()]
