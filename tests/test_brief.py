@@ -16,17 +16,10 @@ def shown():
     twin = pt.Twin(PAPER, tolerance=1e-4)
     window = twin.advance(0.01)
     (outcome,) = pt.simulate_many([PAPER], 0.01)
-    dte = result.dte[:, 0]
-    turned = result.angle[:, 0] * 100.0
     objects = [
         result, result.stats, result.energy, twin, window, window.waveform, outcome,
         pt.Twins([PAPER, PAPER]), pt.Commands(np.arange(1000.0), input_torque=np.ones(1000)),
         pt.Follower(PAPER), pt.Fleet(PAPER, 3), twin.log[-1], pt.choose_dynamics(PAPER),
-        pt.natural_modes(PAPER, "torsional", "mean"),
-        pt.load_sharing(pt.load_scene("floating_sun")),
-        pt.amplitude_spectrum(dte, 5e4), pt.power_density(dte, 5e4),
-        pt.resample_by_angle(dte, turned, 64),
-        pt.OrderMap(*(np.ones(shape) for shape in (400, 400, 500, (400, 500)))),
     ]  # fmt: skip
     return {type(each).__name__: repr(each) for each in objects}
 

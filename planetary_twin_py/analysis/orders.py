@@ -17,7 +17,6 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 from scipy.signal import resample_poly
 
-from ..brief import brief_record
 from ..gearset.kinematics import Teeth, mesh_cycles_per_turn, speed_ratios
 from .spectrum import amplitude_spectrum, checked
 
@@ -35,10 +34,6 @@ class ByAngle(NamedTuple):
     samples: Array
     """In the unit of the signal, (n,) or (n, channels)."""
 
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
-
 
 class OrderSpectrum(NamedTuple):
     """Amplitude spectrum over orders."""
@@ -47,10 +42,6 @@ class OrderSpectrum(NamedTuple):
     """[cycles per turn], (bins,)."""
     amplitude: Array
     """Peak amplitude in the unit of the signal, (bins,) or (bins, channels)."""
-
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
 
 
 class OrderMap(NamedTuple):
@@ -64,10 +55,6 @@ class OrderMap(NamedTuple):
     """[cycles per turn], (bins,)."""
     amplitude: Array
     """Peak amplitude in the unit of the signal, (windows, bins)."""
-
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
 
 
 def resample_by_angle(

@@ -13,8 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import signal as filters
 
-from ..brief import brief_record
-
 Array = NDArray[np.float64]
 FEWEST_SAMPLES = 8  # the main lobe of a Hann window is four bins wide
 
@@ -27,10 +25,6 @@ class Spectrum(NamedTuple):
     amplitude: Array
     """Peak amplitude in the unit of the signal, (bins,) or (bins, channels)."""
 
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
-
 
 class PowerDensity(NamedTuple):
     """One-sided power spectral density."""
@@ -39,10 +33,6 @@ class PowerDensity(NamedTuple):
     """[Hz], (bins,)."""
     density: Array
     """In the squared unit of the signal per Hz, (bins,) or (bins, channels)."""
-
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
 
 
 class Line(NamedTuple):

@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import null_space, qr, svd
 
-from ..brief import brief_record
 from .springs import SpringModel
 
 CENTRAL = ("sun", "ring", "carrier", "motor", "load", "second_motor")
@@ -35,10 +34,6 @@ class NaturalModes(NamedTuple):
     """"rigid", "planet", "rotational", "translational" or "mixed" (Lin and Parker 1999)."""
     coordinates: tuple[str, ...]
     """Names of the rows of `shapes`, e.g. "planet_2.u" for the arc length r theta."""
-
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
 
 
 def modes_of(model: SpringModel) -> NaturalModes:

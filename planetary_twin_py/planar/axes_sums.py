@@ -18,6 +18,7 @@ from ..scene import Scene
 
 LEAST = 50_000.0  # [Hz] lowest rate at which axes are sampled
 PER_PERIOD = 16.0  # samples of the fastest mode: peaks are then accurate to 1e-3
+DISPLACEMENT, FORCE, THRUST, MOMENT, TILT = range(5)  # vectors of which magnitudes are summed
 _MOST_AT_ONCE = 20_000  # samples in memory
 
 
@@ -30,18 +31,18 @@ class AxesStatistics(NamedTuple):
 
     displacement_mean: np.ndarray
     """Mean displacement [m], (bodies, 2)."""
-    displacement_magnitude: np.ndarray
-    """Mean magnitude of the displacement [m], (bodies,)."""
     displacement_peak: np.ndarray
     """Largest displacement [m], (bodies,)."""
     bearing_force_mean: np.ndarray
     """Mean force on the bearing [N], (bodies, 2)."""
-    bearing_force_magnitude: np.ndarray
-    """Mean magnitude of the force on the bearing [N], (bodies,)."""
     bearing_force_peak: np.ndarray
     """Largest force on the bearing [N], (bodies,)."""
     tilting: TiltingStatistics | None
     """Statistics of axial motion and tilts; None where axes do not tilt."""
+    displacement_magnitude: np.ndarray
+    """Mean magnitude of the displacement [m], (bodies,)."""
+    bearing_force_magnitude: np.ndarray
+    """Mean magnitude of the force on the bearing [N], (bodies,)."""
 
 
 class TiltingStatistics(NamedTuple):
@@ -51,18 +52,18 @@ class TiltingStatistics(NamedTuple):
     """Mean axial displacement [m], (bodies,)."""
     tilt_mean: np.ndarray
     """Mean tilt about two directions [rad], (bodies, 2)."""
-    tilt_magnitude: np.ndarray
-    """Mean magnitude of the tilt [rad], (bodies,)."""
     axial_force_mean: np.ndarray
     """Mean thrust on the bearing [N], (bodies,)."""
     axial_force_peak: np.ndarray
     """Largest thrust on the bearing [N], (bodies,)."""
     tilting_moment_mean: np.ndarray
     """Mean moment on the bearing about two directions [N m], (bodies, 2)."""
-    tilting_moment_magnitude: np.ndarray
-    """Mean magnitude of the moment on the bearing [N m], (bodies,)."""
     tilting_moment_peak: np.ndarray
     """Largest moment on the bearing [N m], (bodies,)."""
+    tilt_magnitude: np.ndarray
+    """Mean magnitude of the tilt [rad], (bodies,)."""
+    tilting_moment_magnitude: np.ndarray
+    """Mean magnitude of the moment on the bearing [N m], (bodies,)."""
 
 
 class AxesSums:
@@ -100,22 +101,27 @@ class AxesSums:
     def statistics(self) -> AxesStatistics:
         """Statistics of all samples added, of which there is at least one."""
         moved, tilted = self._moved / self._count, self._tilting / self._count
-        displaced, force, thrust, moment, _ = self._peaks
-        displaced_mean, force_mean, _, moment_mean, tilt_mean = self._sizes / self._count
+        means = self._sizes / self._count
         tilting = None
         if tilted.shape[1]:
             tilting = TiltingStatistics(
-                tilted[:, 0],
-                tilted[:, 1:3],
-                tilt_mean,
-                tilted[:, 3],
-                thrust,
-                tilted[:, 4:],
-                moment_mean,
-                moment,
+                axial_displacement_mean=tilted[:, 0],
+                tilt_mean=tilted[:, 1:3],
+                axial_force_mean=tilted[:, 3],
+                axial_force_peak=self._peaks[THRUST],
+                tilting_moment_mean=tilted[:, 4:],
+                tilting_moment_peak=self._peaks[MOMENT],
+                tilt_magnitude=means[TILT],
+                tilting_moment_magnitude=means[MOMENT],
             )
         return AxesStatistics(
-            moved[:, :2], displaced_mean, displaced, moved[:, 2:], force_mean, force, tilting
+            displacement_mean=moved[:, :2],
+            displacement_peak=self._peaks[DISPLACEMENT],
+            bearing_force_mean=moved[:, 2:],
+            bearing_force_peak=self._peaks[FORCE],
+            tilting=tilting,
+            displacement_magnitude=means[DISPLACEMENT],
+            bearing_force_magnitude=means[FORCE],
         )
 
 

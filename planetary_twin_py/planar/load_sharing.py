@@ -15,7 +15,6 @@ import numpy as np
 
 from .._core import TERMS, TOTAL, Train
 from .._core.axes import RollingBearing
-from ..brief import brief_record
 from ..dynamics.bodies import rigid_ratios
 from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
@@ -77,10 +76,6 @@ class LoadSharing(NamedTuple):
     def both_flanks(self) -> bool:
         """Whether both flanks of a mesh touch at any position."""
         return bool((self.mesh_force > 0.0).all(axis=1).any())
-
-    def __repr__(self) -> str:
-        """One line; arrays by their shapes."""
-        return brief_record(self)
 
 
 def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:

@@ -5,8 +5,8 @@
 // Loads of pairs are components in the transverse plane. Contact lines of helical teeth are
 // inclined by the base helix angle beta_b to the axes: the normal load and the length of the line
 // are those of the transverse section over cos(beta_b), so the load per length is the same, and the
-// radius of curvature is larger by 1/cos(beta_b) (ISO/TS 6336-22). So the laws have
-// the transverse load on the face width, and their forces count `Oil::line_length` times.
+// radius of curvature is larger by 1/cos(beta_b) (ISO/TS 6336-22). So the laws have the transverse
+// load on the face width, and their forces count `Oil::line_length` times.
 
 #include "tribology/boundary.hpp"
 #include "tribology/bristles.hpp"
