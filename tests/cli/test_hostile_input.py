@@ -131,7 +131,7 @@ def test_a_hostile_message_is_reported_with_its_file_and_topic(usual, sound, tmp
     assert topic in done.errors + done.output
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_an_excessive_number_of_topics_is_one_line(usual, tmp_path):
     file = many_channels(tmp_path / "many.mcap")
     done = run("info", file, folder=tmp_path)

@@ -41,6 +41,8 @@ CORE = sorted(file for file in (PACKAGE / "core").rglob("*") if file.suffix in {
 
 def found_in(source):
     """Words of the dialect in the comments, strings and names of a Python source."""
+    if not DIALECT.search(source.replace("_", " ")):
+        return set()
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     kinds = {tokenize.COMMENT, tokenize.STRING, tokenize.NAME}
     kinds.add(getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING))  # from Python 3.12

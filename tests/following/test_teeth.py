@@ -17,12 +17,14 @@ def cracked():
     return toothed({}, (*SUN, {"at": 30.0, "load": 1.3}), 42.0)
 
 
+@pytest.mark.exhaustive
 def test_a_crack_of_one_percent_is_found_within_four_seconds(cracked):
     (event,) = cracked[1].events
     assert event.what == "sun tooth 7 changed"
     assert LEARNED < event.found < LEARNED + 4.0
 
 
+@pytest.mark.exhaustive
 def test_its_size_is_stated_with_an_interval_that_contains_it(cracked):
     (tooth,) = cracked[1].teeth
     assert tooth.loss.low < 0.01 < tooth.loss.high
@@ -45,10 +47,12 @@ def test_from_its_detection_on_no_stated_interval_misses_the_size_or_the_start()
     assert all(one.low < 0.012 < one.high for one in sizes)
 
 
+@pytest.mark.exhaustive
 def test_a_change_of_load_identifies_a_crack(cracked):
     assert cracked[1].events[0].causes == ("crack",)
 
 
+@pytest.mark.exhaustive
 def test_the_compliance_is_that_of_the_model(cracked):
     plant, follower = cracked
     found = {one.name: one for one in follower.estimates()}["compliance"]

@@ -145,6 +145,8 @@ def test_the_logger_records_all_that_is_published(
     sent = published(twin.end())
 
     def accounted() -> bool:
+        if not twin.status:
+            return False
         status = twin.status[-1]
         known = zip(status.topics, status.recorded, status.lost, strict=True)
         return {name: recorded + lost for name, recorded, lost in known} == sent

@@ -73,7 +73,7 @@ def whole():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("every", [4, pytest.param(1, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("every", [8, pytest.param(1, marks=pytest.mark.exhaustive)])
 def test_every_command_says_that_there_is_no_run_and_what_to_do(
     whole, tmp_path, monkeypatch, every
 ):
