@@ -10,6 +10,7 @@ import pytest
 from domains import private_domain
 
 ROOT = Path(__file__).parents[1]
+TESTS = ROOT / "tests"
 
 # A shell has what it runs in the background ignore Ctrl-C, and so does all that starts from there.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -31,20 +32,19 @@ os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Spread the files of tests/ros, which mostly wait, evenly among those that compute.
+    """Put tests/setup, which compiles, first, and spread tests/ros, which mostly waits, evenly.
 
     With the order of pytest-xdist, by number of tests, the slowest few would come last.
     """
-    files: dict[bool, dict[Path, list[pytest.Item]]] = {True: {}, False: {}}
+    files: dict[Path, list[pytest.Item]] = {}
     for item in items:
-        waits = item.path.is_relative_to(ROOT / "tests" / "ros")
-        files[waits].setdefault(item.path, []).append(item)
-    places = [
-        ((place + 0.5) / len(group), file)
-        for group in files.values()
-        for place, file in enumerate(group.values())
-    ]
-    items[:] = [item for _, file in sorted(places, key=lambda each: each[0]) for item in file]
+        files.setdefault(item.path, []).append(item)
+    order = []
+    for waits in (True, False):
+        group = [file for file in files if file.is_relative_to(TESTS / "ros") == waits]
+        order += [((place + 0.5) / len(group), file) for place, file in enumerate(group)]
+    order.sort(key=lambda each: (not each[1].is_relative_to(TESTS / "setup"), each[0]))
+    items[:] = [item for _, file in order for item in files[file]]
 
 
 @pytest.fixture

@@ -25,7 +25,7 @@ from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 from .test_shaft_commands import RING, SUN, clock, received, torque
 
 __all__ = ["clock"]  # a fixture
@@ -76,7 +76,7 @@ def test_ports_change_while_the_node_runs_and_the_recording_repeats_it(
     count = len(joints)
     peer.until(lambda: len(joints) > count + 20)
     logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=20.0)
+    logger.communicate(timeout=LONG)
     folder = tmp_path / "recordings/changed"
     verdict = verify(folder, TWIN)
     assert verdict.identical, verdict
@@ -145,7 +145,7 @@ def test_ports_that_change_before_the_first_step_are_part_of_the_run(
     peer.until(lambda: points[-1].simulated_time > 0.0)
     assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05)).success
     logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=20.0)
+    logger.communicate(timeout=LONG)
     folder = tmp_path / "recordings/lockstep"
     verdict = verify(folder, TWIN)
     assert verdict.identical, verdict

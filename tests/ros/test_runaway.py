@@ -15,7 +15,7 @@ from std_srvs.srv import SetBool, Trigger
 from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .reported import figures, listen_to_reports
 from .test_run import COMMAND
 
@@ -60,7 +60,7 @@ def test_a_runaway_pauses_the_twin_with_an_error_and_the_recording_is_complete(
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     peer.until(lambda: figures(reports)["state"] == "running" and states[-1].simulated_time > 0.5)
     logger.terminate()
-    _, errors = logger.communicate(timeout=20)
+    _, errors = logger.communicate(timeout=LONG)
     assert logger.returncode == 0
     assert "Traceback" not in errors
     assert verify(tmp_path / "recordings/bag", TWIN).first_difference is None
@@ -69,7 +69,7 @@ def test_a_runaway_pauses_the_twin_with_an_error_and_the_recording_is_complete(
 def test_an_unstable_speed_loop_ends_the_node_with_one_line(start: Start, scene: Path) -> None:
     scene.write_text("base: paper\ndrive: {speed_control: {bandwidth: 60 Hz}}\n")
     node = start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={scene}")
-    _, errors = node.communicate(timeout=60)
+    _, errors = node.communicate(timeout=LONG)
     assert node.returncode == 1
     assert errors.startswith("simulation: drive.speed_control.bandwidth = 60 Hz: must be at most")
 
