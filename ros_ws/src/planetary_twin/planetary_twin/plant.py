@@ -61,8 +61,9 @@ class Plant(ManagedNode):
     def configure(self) -> None:
         """Create the publishers, and simulate the vibration of the plant."""
         given = {n: p.value for n, p in self.get_parameters_by_prefix("").items()}
-        hidden = self._hidden(given["hidden"])
-        played = Played(pt.load_scene(given["scene"]), hidden, given["duration"])
+        scene = pt.load_scene(given["scene"])
+        hidden = self._hidden(given["hidden"], scene)
+        played = Played(scene, hidden, given["duration"])
         sensors = hidden.sensors
         rates = {EncoderBlock: sensors.encoders.rate, SampledBlock: sensors.vibration.rate}
         self._outlets = {
@@ -125,12 +126,12 @@ class Plant(ManagedNode):
         self.get_logger().info("the run has ended")
         rclpy.try_shutdown(context=self.context)
 
-    def _hidden(self, name: str) -> Hidden:
+    def _hidden(self, name: str, scene: pt.Scene) -> Hidden:
         if not name:
             return Hidden()
         path = Path(name).expanduser()
         try:
-            return read_hidden(path)
+            return read_hidden(path, scene)
         except OSError as reason:
             raise ValueError(f"hidden = {str(path)!r}: {reason.strerror}") from None
 
