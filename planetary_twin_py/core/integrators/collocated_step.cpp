@@ -201,7 +201,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     store_step<L>(run);
     control.collocated = true;
     control.changed = false;
-    integrator.end = integrator.begin;
+    copy_without_bristles(integrator.begin, integrator.end);
     place_end<L>(model, integrator, h);
     if (event.mesh != NO_MESH && h == event.time)
         end_step_at_edge<L>(model, integrator, event.mesh, h);
@@ -216,7 +216,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
 }  // namespace
 
 void end_within(const Model& model, Integrator& integrator, double h) {
-    integrator.end = integrator.begin;
+    copy_without_bristles(integrator.begin, integrator.end);
     with_lanes(model.train, [&](auto lanes) {
         place_end<lanes>(model, integrator, h);
         finish_end<lanes>(model, integrator);
