@@ -78,6 +78,7 @@ void bind_integrators_records(nb::module_& m) {
         .FIELD(Propagation, motion)
         .FIELD(Propagation, spring)
         .FIELD(Propagation, damper)
+        .FIELD(Propagation, flexibility)
         .FIELD(Propagation, start)
         .FIELD(Propagation, force)
         .FIELD(Propagation, remainder)
