@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "integrators/collocation.hpp"
 #include "integrators/flanks.hpp"
@@ -22,6 +23,10 @@ constexpr double WITHIN = 0.1;      // of the step: largest change of its end fo
 constexpr double CUT_SHORT = 1e-3;  // of the next step
 constexpr double STRETCH = 1.2;     // factor by which a step may be lengthened to end on an event
 constexpr int MOST_CORRECTIONS = 3;
+constexpr double REPEATED = 1e-3;  // relative change of times to events in repeated mesh cycles
+constexpr double SHORTEN = 0.95, LENGTHEN = 1.3;  // factors by which a step is not changed there
+constexpr double FORGET = 1.02;                   // factor per mesh cycle on a length that failed
+constexpr double LONGEST = std::numeric_limits<double>::infinity();
 
 // Whether Rosenbrock's method replaces collocation over h seconds: if the sweeps do not converge,
 // or if friction reverses so fast that steps of Rosenbrock's method are longer. Otherwise, short
@@ -120,15 +125,39 @@ std::int64_t end_on_flank_event(const Model& model, Integrator& integrator, doub
     return event.mesh;
 }
 
-// First trial: the step that was accepted when this contact state started the last time, or the
-// step that follows from the last one. Shorter ones than those that are resolved are not tried.
-double first_trial(const Integrator& integrator, std::int64_t bodies, double longest,
-                   double event) {
-    const ContactState& contacts = contacts_of(integrator.run);
-    bool known = integrator.control.changed && contacts.step > 0.0;
-    double h = known ? contacts.step : integrator.control.next_step;
+// Whether the step starts as long before an event as the step with this number in the last mesh
+// cycle.
+bool repeats(Propagation& run, double event) {
+    const StoredIncrement* past = stored_increment(run);
+    return past && past->step > 0.0 && std::fabs(past->event - event) < REPEATED * event;
+}
+
+// First trial: what was planned for this step in the last mesh cycle, or the step that follows from
+// the last one. Shorter ones than those that are resolved are not tried.
+double first_trial(Integrator& integrator, std::int64_t bodies, double longest, double event) {
+    const StoredIncrement* past = stored_increment(integrator.run);
+    const bool first = integrator.control.changed && past->step > 0.0;
+    const bool planned_before = first || repeats(integrator.run, event);
+    double h = planned_before ? past->next : integrator.control.next_step;
     h = shortest_resolved(integrator.run, bodies, h);
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
+}
+
+// Choose the first trial for the step with this number and these contacts in the next mesh cycle,
+// after one of h; `next` is that of the next step, `refused` the shortest length that failed.
+//
+// Equal steps in every mesh cycle need few sweeps, so a length is not changed by little. Halfway to
+// a length that failed, it approaches the longest that does not fail.
+void plan_next_cycle(Propagation& run, double h, double next, double refused, double event) {
+    StoredIncrement* const plan = stored_increment(run);
+    if (plan == nullptr) return;
+    const bool again = repeats(run, event);
+    plan->event = event;
+    plan->refused = again ? std::min(FORGET * plan->refused, refused) : refused;
+    plan->next = next;
+    if (!again || h == event) return;
+    if (plan->refused > h) plan->next = std::min(plan->next, 0.5 * (h + plan->refused));
+    if (plan->next >= SHORTEN * h && plan->next <= LENGTHEN * h) plan->next = h;
 }
 
 // Length of an accepted step, 0 if there is none, with its error in tolerances; then also the
@@ -137,6 +166,7 @@ struct Accepted {
     double step;
     double error;
     std::int64_t fallback_steps = 0;
+    double refused = LONGEST;  // shortest length that failed [s]
 };
 
 template <int L>
@@ -145,18 +175,20 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double first,
     double h = first;
     const double order = static_cast<double>(integrator.run.nodes.count);
     int unconverged = 0;
+    double refused = LONGEST;
     while (true) {
         if (control.method != COLLOCATION && !resolves(integrator.run, model.train.bodies, h))
             return {0.0, 0.0, h < first ? FALLBACK_STEPS : BRIEF_FALLBACK_STEPS};
         Outcome tried = collocate<L>(model, integrator, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < DIVERGED))
-            return {h, tried.error};
+            return {h, tried.error, 0, refused};
         unconverged += tried.converged ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
         if (h <= SHORTEST_STEP ||
             rosenbrock_is_faster(control, shorter, tried.converged, unconverged))
             return {0.0, 0.0, FALLBACK_STEPS};
         ++control.rejected;
+        refused = h;
         h = std::max(shorter, SHORTEST_STEP);
     }
 }
@@ -183,7 +215,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
     double first = first_trial(integrator, model.train.bodies, longest, event.time);
-    auto [h, error, fallback_steps] = accepted_step<L>(model, integrator, first, fresh);
+    auto [h, error, fallback_steps, refused] = accepted_step<L>(model, integrator, first, fresh);
     if (h == 0.0) {
         control.fallback_steps = fallback_steps;
         return FAILED;
@@ -193,7 +225,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     const bool helical = has_contact_lines(model.train);
     const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
-    if (fresh) contacts_of(run).step = control.next_step;
+    plan_next_cycle(run, h, control.next_step, refused, event.time);
     store_increment<L>(model, integrator);
     // For helical teeth, a step whose error allows a longer one was short because of its trial
     // length after close edges, not because of its error.

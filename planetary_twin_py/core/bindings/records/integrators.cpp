@@ -37,7 +37,6 @@ void bind_integrators_records(nb::module_& m) {
     record<ContactState>(m, "ContactState")
         .FIELD(ContactState, key)
         .FIELD(ContactState, successor)
-        .FIELD(ContactState, step)
         .FIELD(ContactState, contraction)
         .FIELD(ContactState, varies)
         .FIELD(ContactState, stiffness)
