@@ -76,15 +76,28 @@ bool all_closed(const Train& train, const State& state) {
     return true;
 }
 
-// The same as `left_without_waves` for all meshes of a train of which `all_closed` holds.
+// Sides of the meshes, which are all closed or have an entry for each flank.
 template <int M>
-ALWAYS_INLINE Row<M> left_of_closed(const Model& model, const Integrator& integrator, int n,
-                                    const RowPair<M>& waves) {
+ALWAYS_INLINE Row<M> sides_of(const Train& train, const StepConstants& constants) {
+    if constexpr (!MOVING) return Row<M>(constants.side);
+    return select(first_of_row<M>(train.meshes / FLANKS), Row<M>(1.0), -1.0);
+}
+
+// The same as `left_without_waves` for all meshes, without errors of form.
+template <int M>
+ALWAYS_INLINE Row<M> left_in_rows(const Model& model, const Integrator& integrator, int n,
+                                  const RowPair<M>& waves) {
     using V = Row<M>;
+    const StepConstants& constants = integrator.constants;
     const Node& node = integrator.run.node[n];
-    V tau = model.load.release * V(integrator.constants.damping);
-    V without_waves = (V(node.d) - waves.first) + tau * (V(node.rate) - waves.second);
-    return V(integrator.constants.side) * without_waves - model.load.half_backlash;
+    const double half = model.load.half_backlash;
+    V tau = model.load.release * V(constants.damping), side = sides_of<M>(model.train, constants);
+    V d = side * V(node.d), normal_force = d + tau * (side * V(node.rate));
+    V added = side * (waves.first + tau * waves.second);
+    V closed = normal_force - added - half;
+    if constexpr (!MOVING) return closed;
+    V open = half - smaller(d, normal_force) - absolute(added);
+    return select(V(constants.side) == 0.0, open, closed);
 }
 
 // Free waves of the modes that may oscillate, at node n, and their rates.
@@ -134,7 +147,7 @@ bool contacts_stay(const Model& model, const Integrator& integrator, const Row<L
     const Train& train = model.train;
     const Propagation& run = integrator.run;
     if (train.lines[0] + train.lines[1] > 0) return false;
-    V own = select(first_of_row<L>(train.meshes / FLANKS), V(1.0), -1.0);
+    V own = sides_of<L>(train, integrator.constants);
     V tau = model.load.release * V(integrator.constants.damping);
     const Mask<L> open = V(integrator.constants.side) == 0.0;
     V least(std::numeric_limits<double>::infinity());
@@ -162,12 +175,13 @@ bool flanks_may_change(const Model& model, Integrator& integrator) {
     if (MOVING ? contacts_stay<M>(model, integrator, bound)
                : loaded_throughout<M>(model, integrator, bound))
         return false;
-    const bool closed = all_closed(train, integrator.begin);
+    const bool in_rows =
+        MOVING ? train.lines[0] + train.lines[1] == 0 : all_closed(train, integrator.begin);
     Row<M> least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n) {
         const RowPair<M> waves = sum_rows<M>(contacts.matrices.motion(), free_waves<L>(run, n));
-        if (closed) {
-            least = smaller(least, left_of_closed<M>(model, integrator, n, waves));
+        if (in_rows) {
+            least = smaller(least, left_in_rows<M>(model, integrator, n, waves));
             continue;
         }
         alignas(64) double left[M] = {}, d[M], rate[M];

@@ -227,11 +227,12 @@ void with_lanes_of(const Train& train, std::int64_t meshes, Function&& function)
 // Set the friction of entries beyond the first `lanes` to zero.
 void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
     const std::int64_t count = mesh_lanes(train);
-    for (std::int64_t i = lanes; i < count; ++i) {
-        found.drag.torque[0][i] = found.drag.torque[1][i] = found.drag.torque[2][i] = 0.0;
-        found.drag.power[i] = found.lost[i] = 0.0;
-        found.boundary[i] = found.viscous[i] = found.film[i] = 0.0;
-    }
+    const Row<FEW_LANES> zero(0.0);
+    for (std::int64_t i = lanes; i < count; i += FEW_LANES)
+        for (double* row :
+             {found.drag.torque[0], found.drag.torque[1], found.drag.torque[2], found.drag.power,
+              found.lost, found.boundary, found.viscous, found.film})
+            zero.store(row + i);
 }
 
 }  // namespace

@@ -320,12 +320,22 @@ ALWAYS_INLINE void add_row(const double* row, const Lanes& weight, Row<L>& sum) 
         sum.part[k] = fused(values.part[k], weight, sum.part[k]);
 }
 
-// Call `function` with the constants 1 to COUNT - 1.
-template <int COUNT, class Function>
-ALWAYS_INLINE void for_each_after_first(Function&& function) {
+// Call `function` with the constants FIRST to LAST - 1.
+template <int FIRST, int LAST, class Function>
+ALWAYS_INLINE void for_each_of(Function&& function) {
     [&]<int... M>(std::integer_sequence<int, M...>) __attribute__((always_inline)) {
-        (function(std::integral_constant<int, M + 1>{}), ...);
-    }(std::make_integer_sequence<int, COUNT - 1>{});
+        (function(std::integral_constant<int, FIRST + M>{}), ...);
+    }(std::make_integer_sequence<int, LAST - FIRST>{});
+}
+
+// Call `function` with the constants 1 to COUNT - 1, but not with those beyond the rows in use.
+template <int COUNT, class Function>
+ALWAYS_INLINE void for_each_after_first(const MatrixRows& rows, Function&& function) {
+    constexpr int ALWAYS = COUNT < FEW_LANES ? COUNT : FEW_LANES;
+    for_each_of<1, ALWAYS>(function);
+    for_each_of<ALWAYS / REGISTER, COUNT / REGISTER>([&](auto k) __attribute__((always_inline)) {
+        if (rows.count > k * REGISTER) for_each_of<k * REGISTER, (k + 1) * REGISTER>(function);
+    });
 }
 
 // Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero. The rows have L
@@ -338,7 +348,7 @@ ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights)
     const double* row = rows.first;
     if constexpr (COUNT <= MORE_LANES) {
         Row<L> sum = Row<L>(row) * weights[0];
-        for_each_after_first<COUNT>([&](auto m) __attribute__((always_inline)) {
+        for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
             add_row<L>(row + m * L, spread<m>(weights), sum);
         });
         return sum;
@@ -364,7 +374,7 @@ ALWAYS_INLINE RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& 
     if constexpr (COUNT <= MORE_LANES) {
         const double* row = rows.first;
         RowPair<L> sum{Row<L>(row) * weights.first[0], Row<L>(row) * weights.second[0]};
-        for_each_after_first<COUNT>([&](auto m) __attribute__((always_inline)) {
+        for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
             add_row<L>(row + m * L, spread<m>(weights.first), sum.first);
             add_row<L>(row + m * L, spread<m>(weights.second), sum.second);
         });
