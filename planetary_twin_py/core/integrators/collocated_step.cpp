@@ -90,18 +90,24 @@ void finish_end(const Model& model, Integrator& integrator) {
     advance_clock(model, integrator, h);
 }
 
-// Time [s] until `mesh` reaches the edge of its segment, if its cycle rate changes at the same rate
-// as between the last two nodes.
-double time_by_pace(const Model& model, const Integrator& integrator, std::int64_t mesh) {
+// Time [s] until a mesh reaches the edge of its segment, and the part due to the change of its
+// cycle rate.
+struct TimeToEdge {
+    double gap, bent;
+};
+
+// The cycle rate is taken to change as between the last two nodes.
+TimeToEdge time_by_pace(const Model& model, const Integrator& integrator, std::int64_t mesh) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;
     const std::int64_t last = run.nodes.count - 1;
     double gap = time_to_edge(model, integrator, mesh);
-    if (last == 0) return gap;
+    if (last == 0) return {gap, gap};
     double cycle_rate = integrator.constants.cycle_rate + cycle_shift(train, integrator.end.v);
     double faster = cycle_shift(train, run.node[last].v) - cycle_shift(train, run.node[last - 1].v);
     double between = (run.nodes.abscissa[last] - run.nodes.abscissa[last - 1]) * run.motion.step;
-    return gap - 0.5 * gap * gap * faster / (between * cycle_rate);
+    double bent = -0.5 * gap * gap * faster / (between * cycle_rate);
+    return {gap + bent, bent};
 }
 
 // Move the end of the step to the instant at which `mesh` reaches the edge of its segment. If the
@@ -109,10 +115,11 @@ double time_by_pace(const Model& model, const Integrator& integrator, std::int64
 template <int L>
 void end_step_at_edge(const Model& model, Integrator& integrator, std::int64_t mesh, double h) {
     for (int k = 0; k < MOST_CORRECTIONS; ++k) {
-        double gap = time_by_pace(model, integrator, mesh);
+        auto [gap, bent] = time_by_pace(model, integrator, mesh);
         if (std::fabs(gap) < ON_EDGE || !(std::fabs(gap) < WITHIN * h)) return;
         h += gap;
         place_end<L>(model, integrator, h);
+        if (std::fabs(bent) < ON_EDGE) return;  // what is left is smaller still
     }
 }
 

@@ -96,6 +96,8 @@ inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i
     const double cycles = frame_cycle(train, end, 1) + cycle_shift(train, end.x);
     for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
         if (end.side[i] == OPEN || !at_edge(train, end, i, direction, cycles)) return;
+        if (integrator.control.creeping)
+            pass_bristles(train, integrator.end.bristle, i, end.segment[i], direction);
         change_segment(model, integrator.end, integrator.scratch, i, direction);
         integrator.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
         integrator.control.changed = true;
