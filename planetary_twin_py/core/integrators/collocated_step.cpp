@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "integrators/collocation.hpp"
 #include "integrators/flanks.hpp"
@@ -22,6 +23,10 @@ constexpr double WITHIN = 0.1;      // of the step: largest change of its end fo
 constexpr double CUT_SHORT = 1e-3;  // of the next step
 constexpr double STRETCH = 1.2;     // factor by which a step may be lengthened to end on an event
 constexpr int MOST_CORRECTIONS = 3;
+constexpr double REPEATED = 1e-3;  // relative change of times to events in repeated mesh cycles
+constexpr double SHORTEN = 0.95, LENGTHEN = 1.3;  // factors by which a step is not changed there
+constexpr double FORGET = 1.02;                   // factor per mesh cycle on a length that failed
+constexpr double LONGEST = std::numeric_limits<double>::infinity();
 
 // Whether Rosenbrock's method replaces collocation over h seconds: if the sweeps do not converge,
 // or if friction reverses so fast that steps of Rosenbrock's method are longer. Otherwise, short
@@ -43,10 +48,12 @@ bool has_contact_lines(const Train& train) {
 template <int L>
 void find_end_waves(Propagation& run, double h) {
     const std::int64_t last = run.nodes.count - 1;
-    const double later = h - run.motion.step;
-    if (run.motion.fastest_rate * std::fabs(later) <= FEW_SHIFTED)
-        shift_waves<L, FEW_TERMS>(run.motion, later, Row<L>(run.cosine[last]),
-                                  Row<L>(run.sine[last]), run.end_cosine, run.end_sine);
+    const double later = h - run.motion.step, phase = run.motion.fastest_rate * std::fabs(later);
+    const Row<L> cosine(run.cosine[last]), sine(run.sine[last]);
+    if (phase <= HARDLY_SHIFTED)
+        shift_waves<L, TWO_TERMS>(run.motion, later, cosine, sine, run.end_cosine, run.end_sine);
+    else if (phase <= FEW_SHIFTED)
+        shift_waves<L, FEW_TERMS>(run.motion, later, cosine, sine, run.end_cosine, run.end_sine);
     else
         waves<L>(run.motion, h, run.end_cosine, run.end_sine);
 }
@@ -83,18 +90,24 @@ void finish_end(const Model& model, Integrator& integrator) {
     advance_clock(model, integrator, h);
 }
 
-// Time [s] until `mesh` reaches the edge of its segment, if its cycle rate changes at the same rate
-// as between the last two nodes.
-double time_by_pace(const Model& model, const Integrator& integrator, std::int64_t mesh) {
+// Time [s] until a mesh reaches the edge of its segment, and the part due to the change of its
+// cycle rate.
+struct TimeToEdge {
+    double gap, bent;
+};
+
+// The cycle rate is taken to change as between the last two nodes.
+TimeToEdge time_by_pace(const Model& model, const Integrator& integrator, std::int64_t mesh) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;
     const std::int64_t last = run.nodes.count - 1;
     double gap = time_to_edge(model, integrator, mesh);
-    if (last == 0) return gap;
+    if (last == 0) return {gap, gap};
     double cycle_rate = integrator.constants.cycle_rate + cycle_shift(train, integrator.end.v);
     double faster = cycle_shift(train, run.node[last].v) - cycle_shift(train, run.node[last - 1].v);
     double between = (run.nodes.abscissa[last] - run.nodes.abscissa[last - 1]) * run.motion.step;
-    return gap - 0.5 * gap * gap * faster / (between * cycle_rate);
+    double bent = -0.5 * gap * gap * faster / (between * cycle_rate);
+    return {gap + bent, bent};
 }
 
 // Move the end of the step to the instant at which `mesh` reaches the edge of its segment. If the
@@ -102,10 +115,11 @@ double time_by_pace(const Model& model, const Integrator& integrator, std::int64
 template <int L>
 void end_step_at_edge(const Model& model, Integrator& integrator, std::int64_t mesh, double h) {
     for (int k = 0; k < MOST_CORRECTIONS; ++k) {
-        double gap = time_by_pace(model, integrator, mesh);
+        auto [gap, bent] = time_by_pace(model, integrator, mesh);
         if (std::fabs(gap) < ON_EDGE || !(std::fabs(gap) < WITHIN * h)) return;
         h += gap;
         place_end<L>(model, integrator, h);
+        if (std::fabs(bent) < ON_EDGE) return;  // what is left is smaller still
     }
 }
 
@@ -118,15 +132,39 @@ std::int64_t end_on_flank_event(const Model& model, Integrator& integrator, doub
     return event.mesh;
 }
 
-// First trial: the step that was accepted when this contact state started the last time, or the
-// step that follows from the last one. Shorter ones than those that are resolved are not tried.
-double first_trial(const Integrator& integrator, std::int64_t bodies, double longest,
-                   double event) {
-    const ContactState& contacts = contacts_of(integrator.run);
-    bool known = integrator.control.changed && contacts.step > 0.0;
-    double h = known ? contacts.step : integrator.control.next_step;
+// Whether the step starts as long before an event as the step with this number in the last mesh
+// cycle.
+bool repeats(Propagation& run, double event) {
+    const StoredIncrement* past = stored_increment(run);
+    return past && past->step > 0.0 && std::fabs(past->event - event) < REPEATED * event;
+}
+
+// First trial: what was planned for this step in the last mesh cycle, or the step that follows from
+// the last one. Shorter ones than those that are resolved are not tried.
+double first_trial(Integrator& integrator, std::int64_t bodies, double longest, double event) {
+    const StoredIncrement* past = stored_increment(integrator.run);
+    const bool first = integrator.control.changed && past->step > 0.0;
+    const bool planned_before = first || repeats(integrator.run, event);
+    double h = planned_before ? past->next : integrator.control.next_step;
     h = shortest_resolved(integrator.run, bodies, h);
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
+}
+
+// Choose the first trial for the step with this number and these contacts in the next mesh cycle,
+// after one of h; `next` is that of the next step, `refused` the shortest length that failed.
+//
+// Equal steps in every mesh cycle need few sweeps, so a length is not changed by little. Halfway to
+// a length that failed, it approaches the longest that does not fail.
+void plan_next_cycle(Propagation& run, double h, double next, double refused, double event) {
+    StoredIncrement* const plan = stored_increment(run);
+    if (plan == nullptr) return;
+    const bool again = repeats(run, event);
+    plan->event = event;
+    plan->refused = again ? std::min(FORGET * plan->refused, refused) : refused;
+    plan->next = next;
+    if (!again || h == event) return;
+    if (plan->refused > h) plan->next = std::min(plan->next, 0.5 * (h + plan->refused));
+    if (plan->next >= SHORTEN * h && plan->next <= LENGTHEN * h) plan->next = h;
 }
 
 // Length of an accepted step, 0 if there is none, with its error in tolerances; then also the
@@ -135,6 +173,7 @@ struct Accepted {
     double step;
     double error;
     std::int64_t fallback_steps = 0;
+    double refused = LONGEST;  // shortest length that failed [s]
 };
 
 template <int L>
@@ -143,18 +182,20 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double first,
     double h = first;
     const double order = static_cast<double>(integrator.run.nodes.count);
     int unconverged = 0;
+    double refused = LONGEST;
     while (true) {
         if (control.method != COLLOCATION && !resolves(integrator.run, model.train.bodies, h))
             return {0.0, 0.0, h < first ? FALLBACK_STEPS : BRIEF_FALLBACK_STEPS};
         Outcome tried = collocate<L>(model, integrator, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < DIVERGED))
-            return {h, tried.error};
+            return {h, tried.error, 0, refused};
         unconverged += tried.converged ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
         if (h <= SHORTEST_STEP ||
             rosenbrock_is_faster(control, shorter, tried.converged, unconverged))
             return {0.0, 0.0, FALLBACK_STEPS};
         ++control.rejected;
+        refused = h;
         h = std::max(shorter, SHORTEST_STEP);
     }
 }
@@ -181,7 +222,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
     double first = first_trial(integrator, model.train.bodies, longest, event.time);
-    auto [h, error, fallback_steps] = accepted_step<L>(model, integrator, first, fresh);
+    auto [h, error, fallback_steps, refused] = accepted_step<L>(model, integrator, first, fresh);
     if (h == 0.0) {
         control.fallback_steps = fallback_steps;
         return FAILED;
@@ -191,7 +232,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     const bool helical = has_contact_lines(model.train);
     const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
-    if (fresh) contacts_of(run).step = control.next_step;
+    plan_next_cycle(run, h, control.next_step, refused, event.time);
     store_increment<L>(model, integrator);
     // For helical teeth, a step whose error allows a longer one was short because of its trial
     // length after close edges, not because of its error.
@@ -201,7 +242,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     store_step<L>(run);
     control.collocated = true;
     control.changed = false;
-    integrator.end = integrator.begin;
+    copy_without_bristles(integrator.begin, integrator.end);
     place_end<L>(model, integrator, h);
     if (event.mesh != NO_MESH && h == event.time)
         end_step_at_edge<L>(model, integrator, event.mesh, h);
@@ -216,7 +257,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
 }  // namespace
 
 void end_within(const Model& model, Integrator& integrator, double h) {
-    integrator.end = integrator.begin;
+    copy_without_bristles(integrator.begin, integrator.end);
     with_lanes(model.train, [&](auto lanes) {
         place_end<lanes>(model, integrator, h);
         finish_end<lanes>(model, integrator);

@@ -52,8 +52,11 @@ struct alignas(64) StoredWaves {
 
 // Remainder and friction of a step: at its nodes, and in the last row at its start.
 struct alignas(64) StoredIncrement {
-    double step = 0.0;  // its length, 0: none yet [s]
-    bool predictable;   // whether friction converged in one sweep
+    double step = 0.0;     // its length, 0: none yet [s]
+    double next;           // first trial for its length the next time [s]
+    double refused = 0.0;  // shortest length that failed [s]
+    double event;          // time from its start to the next event [s]
+    bool predictable;      // whether friction converged in one sweep
     alignas(64) double remainder[MOST_NODES + 1][BODIES];
     alignas(64) double friction_force[MOST_NODES + 1][BODIES];  // [N]
 };
@@ -122,7 +125,6 @@ private:
 struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t successor;  // the state that came next the last time
-    double step;             // accepted step when this state started the last time, 0: none yet [s]
     double contraction[2];   // contraction factor of a sweep per step length, without and with
                              // friction [1/s]
     bool varies;             // whether a stiffness changes within its segment

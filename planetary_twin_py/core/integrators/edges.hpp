@@ -79,10 +79,11 @@ inline double time_to_edge(const Model& model, const Integrator& integrator, std
     return (left - side * cycles_of_step(train, integrator)) / rate;
 }
 
-// Whether mesh i has reached the edge of its segment in this direction.
-inline bool at_edge(const Train& train, const State& end, std::int64_t i, int direction) {
+// Whether mesh i has reached the edge of its segment in this direction after `cycles` of the train.
+inline bool at_edge(const Train& train, const State& end, std::int64_t i, int direction,
+                    double cycles) {
     std::int64_t kind = train.kind[i], segment = end.segment[i];
-    double cycle = mesh_cycle(train, end, i, end.side[i]);
+    double cycle = cycle_on_side(train, i, end.side[i], cycles, 1);
     cycle = nearest_to_segment(train, kind, segment, cycle);
     if (direction > 0) return cycle >= train.edge[kind][segment + 1] - EDGE;
     return cycle <= train.edge[kind][segment] + EDGE;
@@ -91,8 +92,12 @@ inline bool at_edge(const Train& train, const State& end, std::int64_t i, int di
 // Change the segment of mesh i until it is no longer at the edge of its segment.
 inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i, int direction) {
     const Train& train = model.train;
+    const State& end = integrator.end;
+    const double cycles = frame_cycle(train, end, 1) + cycle_shift(train, end.x);
     for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
-        if (integrator.end.side[i] == OPEN || !at_edge(train, integrator.end, i, direction)) return;
+        if (end.side[i] == OPEN || !at_edge(train, end, i, direction, cycles)) return;
+        if (integrator.control.creeping)
+            pass_bristles(train, integrator.end.bristle, i, end.segment[i], direction);
         change_segment(model, integrator.end, integrator.scratch, i, direction);
         integrator.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
         integrator.control.changed = true;

@@ -68,6 +68,38 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
+// Whether all meshes are closed and none has errors of form.
+bool all_closed(const Train& train, const State& state) {
+    if (train.lines[0] + train.lines[1] > 0) return false;
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        if (state.side[i] == OPEN) return false;
+    return true;
+}
+
+// Sides of the meshes, which are all closed or have an entry for each flank.
+template <int M>
+ALWAYS_INLINE Row<M> sides_of(const Train& train, const StepConstants& constants) {
+    if constexpr (!MOVING) return Row<M>(constants.side);
+    return select(first_of_row<M>(train.meshes / FLANKS), Row<M>(1.0), -1.0);
+}
+
+// The same as `left_without_waves` for all meshes, without errors of form.
+template <int M>
+ALWAYS_INLINE Row<M> left_in_rows(const Model& model, const Integrator& integrator, int n,
+                                  const RowPair<M>& waves) {
+    using V = Row<M>;
+    const StepConstants& constants = integrator.constants;
+    const Node& node = integrator.run.node[n];
+    const double half = model.load.half_backlash;
+    V tau = model.load.release * V(constants.damping), side = sides_of<M>(model.train, constants);
+    V d = side * V(node.d), normal_force = d + tau * (side * V(node.rate));
+    V added = side * (waves.first + tau * waves.second);
+    V closed = normal_force - added - half;
+    if constexpr (!MOVING) return closed;
+    V open = half - smaller(d, normal_force) - absolute(added);
+    return select(V(constants.side) == 0.0, open, closed);
+}
+
 // Free waves of the modes that may oscillate, at node n, and their rates.
 template <int L>
 ALWAYS_INLINE RowPair<L> free_waves(const Propagation& run, int n) {
@@ -98,9 +130,7 @@ bool loaded_throughout(const Model& model, const Integrator& integrator, const R
     using V = Row<L>;
     const Train& train = model.train;
     const Propagation& run = integrator.run;
-    if (train.lines[0] + train.lines[1] > 0) return false;
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        if (integrator.begin.side[i] == OPEN) return false;
+    if (!all_closed(train, integrator.begin)) return false;
     V side(integrator.constants.side), tau = model.load.release * V(integrator.constants.damping),
                                        least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n)
@@ -117,7 +147,7 @@ bool contacts_stay(const Model& model, const Integrator& integrator, const Row<L
     const Train& train = model.train;
     const Propagation& run = integrator.run;
     if (train.lines[0] + train.lines[1] > 0) return false;
-    V own = select(first_of_row<L>(train.meshes / FLANKS), V(1.0), -1.0);
+    V own = sides_of<L>(train, integrator.constants);
     V tau = model.load.release * V(integrator.constants.damping);
     const Mask<L> open = V(integrator.constants.side) == 0.0;
     V least(std::numeric_limits<double>::infinity());
@@ -145,21 +175,29 @@ bool flanks_may_change(const Model& model, Integrator& integrator) {
     if (MOVING ? contacts_stay<M>(model, integrator, bound)
                : loaded_throughout<M>(model, integrator, bound))
         return false;
-    double least[M];
-    for (int i = 0; i < M; ++i) least[i] = std::numeric_limits<double>::infinity();
+    const bool in_rows =
+        MOVING ? train.lines[0] + train.lines[1] == 0 : all_closed(train, integrator.begin);
+    Row<M> least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n) {
-        auto [d, rate] = sum_rows<M>(contacts.matrices.motion(), free_waves<L>(run, n));
+        const RowPair<M> waves = sum_rows<M>(contacts.matrices.motion(), free_waves<L>(run, n));
+        if (in_rows) {
+            least = smaller(least, left_in_rows<M>(model, integrator, n, waves));
+            continue;
+        }
+        alignas(64) double left[M] = {}, d[M], rate[M];
+        waves.first.store(d);
+        waves.second.store(rate);
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             double tau = model.load.release * integrator.constants.tau[train.kind[i]];
-            double left = left_without_waves(model, integrator, i, n, tau, d[static_cast<int>(i)],
-                                             rate[static_cast<int>(i)]);
-            least[i] = std::min(least[i], left);
+            left[i] = left_without_waves(model, integrator, i, n, tau, d[i], rate[i]);
         }
+        least = smaller(least, Row<M>(left));
     }
+    alignas(64) double sure[M];
+    (least - bound - integrator.control.tolerance_x).store(sure);
     bool found = false;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const double sure = least[i] - bound[static_cast<int>(i)] - integrator.control.tolerance_x;
-        run.may_change[i] = !(sure >= 0.0);
+        run.may_change[i] = !(sure[i] >= 0.0);
         found |= run.may_change[i] != 0;
     }
     return found;

@@ -86,7 +86,10 @@ void write_due_samples(const Model& model, Integrator& integrator, Sampling& sam
 }  // namespace
 
 void begin_step(const Model& model, Integrator& integrator) {
-    integrator.begin = integrator.end;
+    if (integrator.control.creeping)
+        integrator.begin = integrator.end;
+    else
+        copy_without_bristles(integrator.end, integrator.begin);
     rebase(model.train, integrator.begin);
     set_step_constants(model, integrator.begin, integrator.constants);
     select_friction_model(model, integrator);

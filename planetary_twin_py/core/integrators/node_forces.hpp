@@ -39,6 +39,13 @@ NOINLINE inline void find_friction_forces(const Model& model, const Integrator& 
                node.power);
 }
 
+// Set the forces on bodies and ground to zero.
+template <int L>
+ALWAYS_INLINE void clear_bodies(const Train& train, double* force) {
+    Row<L>(0.0).store(force);
+    force[train.bodies] = 0.0;
+}
+
 // Friction and drag at a node in the modes.
 template <int L>
 ALWAYS_INLINE void find_node_friction(const Model& model, const Integrator& integrator,
@@ -49,7 +56,8 @@ ALWAYS_INLINE void find_node_friction(const Model& model, const Integrator& inte
         print_torques(train, integrator.constants, node.v, node.friction.drag);
     V friction_force(0.0);
     if (MOVING || train.printed_torque || train.joints + train.discs > 0) {
-        alignas(64) double on_bodies[BODIES] = {};
+        alignas(64) double on_bodies[BODIES];
+        clear_bodies<L>(train, on_bodies);
         find_friction_forces(model, integrator, node, on_bodies);
         friction_force = sum_rows<L>(contacts.matrices.shapes_transposed(), V(on_bodies));
     } else if (train.friction) {
@@ -102,7 +110,8 @@ NOINLINE Row<L> node_force(const Model& model, const Integrator& integrator,
         force += V(share[train.coupling[c][1]]) * forces.member[c];
     }
     if constexpr (MOVING) {
-        alignas(64) double on_axes[BODIES] = {};
+        alignas(64) double on_axes[BODIES];
+        clear_bodies<L>(train, on_axes);
         apply_axes(train, integrator.begin, integrator.constants.rigid, delay, node.x, node.v,
                    on_axes, node.power);
         if (tilts(train)) add_slope_moments(train, node.meshes, on_axes);

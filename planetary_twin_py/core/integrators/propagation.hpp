@@ -28,9 +28,9 @@ inline constexpr double ROUNDED_UP = 1.0 + 1e-12;
 // Relative change of the damping times below which the damping of the modes is not updated.
 inline constexpr double DAMPING_KEPT = 5e-3;
 // Terms of the series of a free wave a short time later, and the phase up to which it is accurate
-// to eleven digits.
-inline constexpr int FEW_TERMS = 5, MANY_TERMS = 9;
-inline constexpr double FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
+// to eleven digits. Two terms are enough for steps between the same edges in a later mesh cycle.
+inline constexpr int TWO_TERMS = 2, FEW_TERMS = 5, MANY_TERMS = 9;
+inline constexpr double HARDLY_SHIFTED = 3e-4, FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
 
 inline ContactState& contacts_of(Propagation& run) {
     return run.known.states[run.motion.modes];
@@ -91,7 +91,7 @@ ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, Row<L> c
     V square(motion.square), damping(motion.damping);
     V sum_c = c, sum_s = s;
     for (int k = 1; k <= TERMS; ++k) {
-        const double part = delay / k;
+        const double part = delay * (1.0 / k);
         V next_c = square * s * -part, next_s = fused(-damping, s, c) * part;
         c = next_c;
         s = next_s;
@@ -153,6 +153,7 @@ void find_waves(Propagation& run, double h) {
     StoredWaves* stored = place < STORED_STEPS ? &contacts_of(run).waves[place] : nullptr;
     if (stored && stored->step > 0.0 && stored->nodes == run.nodes.count) {
         const double longer = h - stored->step, phase = run.motion.fastest_rate * std::fabs(longer);
+        if (phase <= HARDLY_SHIFTED) return shift_all_waves<L, TWO_TERMS>(run, *stored, longer);
         if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, *stored, longer);
         if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, *stored, longer);
     }
@@ -179,6 +180,7 @@ void set_step(Propagation& run, double h) {
     V remainder = V(run.force) + damper * V(run.start.p) + spring * V(run.start.q);
     spring.store(run.spring);
     damper.store(run.damper);
+    (1.0 / select(spring + damper == 0.0, 1.0, spring)).store(run.flexibility);
     run.motion.fastest_rate = largest(square_root(spring) + damper);
     find_waves<L>(run, h);
     for (int n = 0; n < run.nodes.count; ++n) {
@@ -227,7 +229,7 @@ void respond(Propagation& run) {
     const double inertia = per_step * per_step;
     V spring(run.spring), loss = V(run.damper) * per_step;
     Mask<L> free = spring + loss == 0.0;
-    V inverse = 1.0 / select(free, 1.0, spring);
+    V inverse(run.flexibility);
     V a = power<L>(run, 0), b = power<L>(run, 1), c = power<L>(run, 2);
     V d(0.0), e(0.0);
     if (run.nodes.count > 3) d = power<L>(run, 3);
@@ -302,9 +304,11 @@ inline void trim_at(const Model& model, const Integrator& integrator, double del
     }
 }
 
-// Speeds of the gears relative to their lines of action at a node, from the speeds of the bodies.
+// Speeds of the gears of closed flanks relative to their lines of action at a node, from the speeds
+// of the bodies. Open flanks have no friction.
 inline void turn_gears(const Train& train, const StepConstants& constants, Node& node) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (constants.side[i] == 0.0) continue;
         const double line = turning_of_line(train, i, node.v);
         for (int g = 0; g < GEARS - 1; ++g) {
             double turning = node.v[train.body[i][g]] * train.lever[g][i];

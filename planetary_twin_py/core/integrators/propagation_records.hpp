@@ -39,6 +39,7 @@ struct alignas(64) Propagation {
     std::int64_t place;                 // number of the step since the contacts changed, from 0
     alignas(64) double spring[BODIES];  // w^2 and c, 0 for free masses
     alignas(64) double damper[BODIES];
+    alignas(64) double flexibility[BODIES];  // 1/w^2 [s^2]
     Node start;
     alignas(64) double force[BODIES];         // at the start, with the friction of the last step
     alignas(64) double remainder[5][BODIES];  // at the nodes

@@ -70,11 +70,7 @@ ALWAYS_INLINE Row<L> damped(const Propagation& run, double h, const double* cosi
 // Sum of a row over all meshes and their copies.
 template <int L>
 ALWAYS_INLINE double sum_of_meshes(const Train& train, const Row<L>& row) {
-    alignas(64) double value[L];
-    row.store(value);
-    double sum = 0.0;
-    for (std::int64_t i = 0; i < train.meshes; ++i) sum += train.copies[i] * value[i];
-    return sum;
+    return total(Row<L>(train.copies) * row);
 }
 
 // Fill the ledger h seconds after the start of the step, by quadrature at the nodes; the

@@ -163,6 +163,12 @@ struct Neighbours {
     double left, right, inverse_left, inverse_right, inverse_span;
 };
 
+// With one division for all.
+ALWAYS_INLINE Neighbours neighbours_at(double left, double right) {
+    const double span = right - left, product = left * right, inverse = 1.0 / (product * span);
+    return {left, right, right * span * inverse, left * span * inverse, product * inverse};
+}
+
 // Vertex of the parabola through three values, if it lies between them; else the middle one.
 template <int L>
 ALWAYS_INLINE Row<L> vertex(const Neighbours& at, const double* before, const double* middle,
@@ -191,8 +197,8 @@ void add_series_in_lanes(const StepConstants& constants, const Series& series, M
         force_peak = larger(force_peak, force);
     }
     for (std::int64_t n = 1; n < series.count - 1; ++n) {
-        double left = series.at[n - 1] - series.at[n], right = series.at[n + 1] - series.at[n];
-        Neighbours at{left, right, 1.0 / left, 1.0 / right, 1.0 / (right - left)};
+        const Neighbours at =
+            neighbours_at(series.at[n - 1] - series.at[n], series.at[n + 1] - series.at[n]);
         V d = vertex<L>(at, series.d[n - 1], series.d[n], series.d[n + 1]);
         dte = larger(dte, absolute(d));
         V normal_force = vertex<L>(at, series.normal_force[n - 1], series.normal_force[n],

@@ -4,22 +4,23 @@
 
 #include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "vector/math.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
-// Extend `total` by `step`; `lanes` is that of the meshes.
+// Extend `total` by `step`; `lanes` is that of the meshes, in whole rows.
 inline void add_sums(const MeshSums& step, MeshSums& total, std::int64_t lanes) {
     if (total.time == 0.0) {
         total = step;
         return;
     }
     total.time += step.time;
-    for (int row = 0; row < SUMS; ++row)
-        for (std::int64_t i = 0; i < lanes; ++i) total.integral[row][i] += step.integral[row][i];
-    for (std::int64_t i = 0; i < lanes; ++i) {
-        total.dte_peak[i] = at_least(total.dte_peak[i], step.dte_peak[i]);
-        total.force_peak[i] = at_least(total.force_peak[i], step.force_peak[i]);
+    using V = Row<FEW_LANES>;
+    for (std::int64_t i = 0; i < lanes; i += FEW_LANES) {
+        for (int row = 0; row < SUMS; ++row)
+            (V(total.integral[row] + i) + V(step.integral[row] + i)).store(total.integral[row] + i);
+        larger(V(total.dte_peak + i), V(step.dte_peak + i)).store(total.dte_peak + i);
+        larger(V(total.force_peak + i), V(step.force_peak + i)).store(total.force_peak + i);
     }
 }
 

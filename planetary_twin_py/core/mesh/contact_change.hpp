@@ -83,7 +83,6 @@ inline void change_segment(const Model& model, State& state, StepConstants& step
     const Train& train = model.train;
     const std::int64_t kind = train.kind[i], segment = state.segment[i];
     const std::int64_t count = train.segments[kind], after = (segment + direction + count) % count;
-    pass_bristles(train, state.bristle, i, segment, direction);
     if (train.faults == 0 && !stiffness_jumps(train, i, segment, after, direction > 0)) {
         state.segment[i] = after;
         return;

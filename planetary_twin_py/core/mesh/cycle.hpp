@@ -11,6 +11,7 @@
 #include "capacities.hpp"
 #include "train/state.hpp"
 #include "train/train.hpp"
+#include "vector/lanes.hpp"
 
 namespace gearbox {
 
@@ -22,7 +23,7 @@ inline double cycle_shift(const Train& train, const double* x) {
 // Mesh cycles of the rigid frame since the start, modulo `modulus`.
 inline double frame_cycle(const Train& train, const State& state, std::int64_t modulus) {
     double total = 0.0;
-    for (int a = 0; a < AXES; ++a) {
+    for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t denominator = train.cycles_denominator[a];
         std::int64_t period = denominator * modulus;
         std::int64_t turns = static_cast<std::int64_t>(state.turns[a]);
@@ -81,11 +82,17 @@ inline std::int64_t find_segment(const Train& train, std::int64_t kind, double c
     return segment;
 }
 
-// The representative of `cycle` modulo 1 that lies in or next to a segment.
+// The representative of `cycle` modulo 1 that lies in or next to a segment between two edges.
+template <class Real>
+ALWAYS_INLINE Real nearest_between(const Real& low, const Real& high, const Real& cycle) {
+    Real middle = 0.5 * (low + high);
+    return cycle - whole_below(cycle - middle + 0.5);
+}
+
 inline double nearest_to_segment(const Train& train, std::int64_t kind, std::int64_t segment,
                                  double cycle) {
-    double middle = 0.5 * (train.edge[kind][segment] + train.edge[kind][segment + 1]);
-    return cycle - std::floor(cycle - middle + 0.5);
+    const double* edge = train.edge[kind];
+    return nearest_between(edge[segment], edge[segment + 1], cycle);
 }
 
 }  // namespace gearbox

@@ -15,9 +15,10 @@ namespace gearbox {
 // Mesh cycles per second from the speeds of the motors, unsigned.
 inline double passing_rate(const Train& train, const StepConstants& step, const double* v) {
     double rate = step.cycle_rate;
-    for (int a = 0; a < AXES; ++a) {
+    for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
-        rate += train.cycles[a] * v[motor] * train.inverse_radius[motor] / (2.0 * std::numbers::pi);
+        rate +=
+            train.cycles[a] * v[motor] * train.inverse_radius[motor] * (0.5 * std::numbers::inv_pi);
     }
     return std::abs(rate);
 }

@@ -12,7 +12,7 @@ namespace gearbox {
 
 namespace {
 
-constexpr int PLACES = 256;    // in a mesh cycle; a jump of the torque counts as a slope between
+constexpr int POINTS = 256;    // in a mesh cycle; a jump of the torque counts as a slope between
                                // adjacent ones
 constexpr double RIGID = 1e9;  // factor on the stiffness for a rigid coupling
 
@@ -29,14 +29,14 @@ double steepest_torque(const Model& model, double tolerance, std::int64_t closin
     if (rate == 0.0) return 0.0;
     auto run = std::make_unique<Equilibrium>(first_guess(closing_side));
     double shown[QUANTITIES][MESHES], before = 0.0, steepest = 0.0;
-    for (int n = 0; n <= PLACES; ++n) {
-        advance_shafts(*rigid, begin, n / (PLACES * rate), run->state);
+    for (int n = 0; n <= POINTS; ++n) {
+        advance_shafts(*rigid, begin, n / (POINTS * rate), run->state);
         solve_equilibrium(*rigid, tolerance, *run, shown);
         double torque = run->torque[SECOND_MOTOR];
         if (n > 0) steepest = std::max(steepest, std::abs(torque - before));
         before = torque;
     }
-    return steepest * PLACES;
+    return steepest * POINTS;
 }
 
 }  // namespace gearbox

@@ -11,6 +11,7 @@
 #include "mesh/form_errors.hpp"
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
@@ -24,6 +25,7 @@ inline void copy_segment(const Train& train, const State& state, StepConstants& 
     step.gain[i] = train.stiffness_factor[i] * train.stiffness_gain[kind];
     step.fixed[i] = train.damping_time[kind];
     step.external[i] = train.external[kind];
+    step.lead[i] = side == COAST_SIDE ? train.coast_lead[kind] : 0.0;
     step.low[i] = train.edge[kind][segment];
     step.high[i] = train.edge[kind][segment + 1];
     for (std::int64_t t = 0; t < train.terms; ++t) {
@@ -41,28 +43,51 @@ inline void copy_segment(const Train& train, const State& state, StepConstants& 
     }
 }
 
-// Fill the entries of mesh i in `step`, from the cycles of its drive side.
+// Fill the tables of mesh i in `step` for its side and segment.
+inline void select_tables(const Train& train, const State& state, StepConstants& step,
+                          std::int64_t i) {
+    if (train.lines[train.kind[i]] > 0) place_lines(train, state, i, step.line_angle);
+    if (step.segment[i] != state.segment[i] + 1 ||
+        step.side[i] != static_cast<double>(state.side[i]))
+        copy_segment(train, state, step, i);
+}
+
+// Position of a closed mesh in its cycle, from the `cycles` of its drive side.
+template <class Real>
+ALWAYS_INLINE Real place_in_cycle(double cycles, const Real& phase, const Real& side,
+                                  const Real& lead, const Real& low, const Real& high) {
+    return nearest_between(low, high, side * (cycles - phase) + lead);
+}
+
+// Fill the entries of mesh i in `step`.
 inline void place_mesh(const Train& train, const State& state, StepConstants& step, std::int64_t i,
                        double cycles) {
-    std::int64_t side = state.side[i], kind = train.kind[i];
-    if (train.lines[kind] > 0) place_lines(train, state, i, step.line_angle);
-    if (step.segment[i] != state.segment[i] + 1 || step.side[i] != static_cast<double>(side))
-        copy_segment(train, state, step, i);
-    if (side == OPEN) {
-        step.start[i] = step.low[i];
-        return;
-    }
-    double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
-    if (side == COAST_SIDE) cycle += train.coast_lead[kind];
-    step.start[i] = nearest_to_segment(train, kind, state.segment[i], cycle);
-    if (train.faults > 0) find_faults(train, state, i, side, step.start[i], step.faulty);
+    select_tables(train, state, step, i);
+    step.start[i] = step.low[i];
+    if (state.side[i] == OPEN) return;
+    step.start[i] = place_in_cycle(cycles, train.phase[i], step.side[i], step.lead[i], step.low[i],
+                                   step.high[i]);
+    if (train.faults > 0) find_faults(train, state, i, state.side[i], step.start[i], step.faulty);
+}
+
+// The same for all meshes.
+template <int L>
+void place_all_meshes(const Train& train, const State& state, StepConstants& step, double cycles) {
+    using V = Row<L>;
+    for (std::int64_t i = 0; i < train.meshes; ++i) select_tables(train, state, step, i);
+    V side(step.side), low(step.low);
+    V start = place_in_cycle(cycles, V(train.phase), side, V(step.lead), low, V(step.high));
+    select(side == 0.0, low, start).store(step.start);
+    for (std::int64_t i = 0; train.faults > 0 && i < train.meshes; ++i)
+        if (state.side[i] != OPEN)
+            find_faults(train, state, i, state.side[i], step.start[i], step.faulty);
 }
 
 // Mesh cycles per second of the rigid frame, signed.
 inline double frame_cycle_rate(const Train& train, const State& state) {
     double rate = 0.0;
     for (int a = 0; a < AXES; ++a) rate += train.cycles[a] * state.speed[a];
-    return rate / (2.0 * std::numbers::pi);
+    return rate * (0.5 * std::numbers::inv_pi);
 }
 
 // Torques of the load at a state; given ones may change with time.
@@ -91,7 +116,8 @@ inline void set_step_constants(const Model& model, const State& state, StepConst
     for (int kind = 0; kind < KINDS; ++kind) step.tau[kind] = damping_time(train, kind, rate);
     for (std::int64_t i = 0; i < train.meshes; ++i) step.damping[i] = step.tau[train.kind[i]];
     double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
-    for (std::int64_t i = 0; i < train.meshes; ++i) place_mesh(train, state, step, i, cycles);
+    with_mesh_lanes(train,
+                    [&](auto lanes) { place_all_meshes<lanes>(train, state, step, cycles); });
 }
 
 }  // namespace gearbox

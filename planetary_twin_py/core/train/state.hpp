@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "capacities.hpp"
 
@@ -22,5 +24,21 @@ struct alignas(64) State {
     alignas(64) double bristle[PAIR_CAPACITY];  // of the tooth pairs with bristles: share of
                                                 // full friction [-]
 };
+
+// Copy all but the bristles, which only creeping gears have and which are most of the numbers of a
+// state. By cache lines, because the compiler's own copy of a structure starts slowly.
+inline void copy_without_bristles(const State& source, State& target) {
+    constexpr std::size_t LINE = 64;
+    static_assert(offsetof(State, bristle) % LINE == 0);
+    const auto* from = reinterpret_cast<const std::byte*>(&source);
+    auto* to = reinterpret_cast<std::byte*>(&target);
+    using Line [[gnu::vector_size(LINE)]] = double;
+#pragma GCC unroll 64
+    for (std::size_t k = 0; k < offsetof(State, bristle); k += LINE) {
+        Line line;
+        std::memcpy(&line, from + k, LINE);
+        std::memcpy(to + k, &line, LINE);
+    }
+}
 
 }  // namespace gearbox

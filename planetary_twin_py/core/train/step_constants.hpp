@@ -12,6 +12,7 @@ struct alignas(64) StepConstants {
     alignas(64) std::int64_t segment[MESHES];  // 1 + segment of the following arrays, 0: not set
     alignas(64) double low[MESHES];            // edges of the segment [cycles]
     alignas(64) double high[MESHES];
+    alignas(64) double lead[MESHES];  // of coast flanks before drive flanks [cycles]
     alignas(64) double base[MESHES];  // law of stiffness [N/m]
     alignas(64) double gain[MESHES];
     alignas(64) double fixed[MESHES];     // damping time, if independent of the speed [s]

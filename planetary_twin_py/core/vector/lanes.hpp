@@ -149,6 +149,28 @@ ALWAYS_INLINE Lanes fused(Lanes a, double b, double c) {
     return fused(a, b - Lanes{}, c - Lanes{});
 }
 
+// Whether all bits of all lanes are zero.
+ALWAYS_INLINE bool is_zero(LanesBits x) {
+#if defined(__AVX512F__)
+    auto bits = std::bit_cast<__m512i>(x);
+    return _mm512_test_epi64_mask(bits, bits) == 0;
+#elif defined(__AVX__)
+    auto bits = std::bit_cast<__m256i>(x);
+    return _mm256_testz_si256(bits, bits) != 0;
+#else
+    return (x[0] | x[1]) == 0;
+#endif
+}
+
+// The largest whole number that is not above x, for magnitudes below 2^51. Adding 1.5 * 2^52 rounds
+// to a whole number.
+template <class Real>
+ALWAYS_INLINE Real whole_below(Real x) {
+    constexpr double ROUNDING = 0x1.8p52;
+    Real near = (x + ROUNDING) - ROUNDING;
+    return near > x ? near - 1.0 : near;
+}
+
 ALWAYS_INLINE double square_root(double x) {
     return std::sqrt(x);
 }

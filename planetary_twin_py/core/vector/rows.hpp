@@ -5,6 +5,7 @@
 // Every operation acts on each number separately, so results do not depend on the width of the
 // registers.
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -134,9 +135,7 @@ template <int L>
 ALWAYS_INLINE bool none(const Mask<L>& a) {
     MaskRegister any = a.part[0];
     for (int k = 1; k < L / WIDTH; ++k) any |= a.part[k];
-    std::int64_t found = 0;
-    for (int i = 0; i < WIDTH; ++i) found |= any[i];
-    return found == 0;
+    return is_zero(std::bit_cast<LanesBits>(any));
 }
 
 struct Places {
@@ -195,39 +194,56 @@ ALWAYS_INLINE Row<L> absolute(const Row<L>& a) {
 }
 
 template <int L>
+ALWAYS_INLINE Row<L> whole_below(const Row<L>& a) {
+    Row<L> out;
+    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = whole_below(a.part[k]);
+    return out;
+}
+
+template <int L>
 ALWAYS_INLINE Row<L> square_root(const Row<L>& a) {
     Row<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = square_root(a.part[k]);
     return out;
 }
 
-// Join all numbers of a row by halves, in an order that does not depend on the registers.
+// Join the numbers of a register by halves.
+template <class Part, class Join>
+ALWAYS_INLINE double fold_register(const Part& a, Join&& join) {
+    if constexpr (sizeof(Part) == 64)
+        return fold_register(join(__builtin_shufflevector(a, a, 0, 1, 2, 3),
+                                  __builtin_shufflevector(a, a, 4, 5, 6, 7)),
+                             join);
+    else if constexpr (sizeof(Part) == 32)
+        return fold_register(
+            join(__builtin_shufflevector(a, a, 0, 1), __builtin_shufflevector(a, a, 2, 3)), join);
+    else
+        return join(a[0], a[1]);
+}
+
+// Join all numbers of a row: blocks of eight one after another, then the numbers of the result by
+// halves, an order that does not depend on the registers.
 template <int L, class Join>
 ALWAYS_INLINE double fold(const Row<L>& a, Join&& join) {
-    double part[L];
-#pragma GCC unroll 64
-    for (int i = 0; i < L; ++i) part[i] = a[i];
-    if constexpr ((L & (L - 1)) == 0) {
-#pragma GCC unroll 4
-        for (int half = L / 2; half > 0; half /= 2)
-#pragma GCC unroll 8
-            for (int i = 0; i < half; ++i) part[i] = join(part[i], part[i + half]);
-    } else {  // the upper half may be one number shorter
-        for (int size = L; size > 1; size -= size / 2)
-            for (int i = 0; i < size / 2; ++i) part[i] = join(part[i], part[i + size - size / 2]);
-    }
-    return part[0];
+    constexpr int BLOCK = 8 / WIDTH;
+    Row<8> sum;
+    for (int k = 0; k < BLOCK; ++k) sum.part[k] = a.part[k];
+    for (int k = BLOCK; k < Row<L>::PARTS; ++k)
+        sum.part[k % BLOCK] = join(sum.part[k % BLOCK], a.part[k]);
+    for (int half = BLOCK / 2; half > 0; half /= 2)
+        for (int k = 0; k < half; ++k) sum.part[k] = join(sum.part[k], sum.part[k + half]);
+    return fold_register(sum.part[0], join);
 }
 
 template <int L>
 ALWAYS_INLINE double total(const Row<L>& a) {
-    return fold(a, [](double x, double y) { return x + y; });
+    return fold(a, [](auto x, auto y) { return x + y; });
 }
 
 // The largest number; NaN may be ignored.
 template <int L>
 ALWAYS_INLINE double largest(const Row<L>& a) {
-    return fold(a, [](double x, double y) { return y > x ? y : x; });
+    return fold(a, [](auto x, auto y) { return y > x ? y : x; });
 }
 
 // Lanes of small trains: 3 planets, or planets of the same motion where axes move; then 4 planets
@@ -283,6 +299,45 @@ struct MatrixRows {
     const double* operator[](std::int64_t m) const { return first + m * lanes; }
 };
 
+// Number m of a row in all lanes of a register, by a single permutation.
+template <int M, int L>
+ALWAYS_INLINE Lanes spread(const Row<L>& row) {
+    constexpr int K = M % WIDTH;
+    const Lanes part = row.part[M / WIDTH];
+    if constexpr (WIDTH == 8)
+        return __builtin_shufflevector(part, part, K, K, K, K, K, K, K, K);
+    else if constexpr (WIDTH == 4)
+        return __builtin_shufflevector(part, part, K, K, K, K);
+    else
+        return __builtin_shufflevector(part, part, K, K);
+}
+
+// Add the row of L numbers at `row`, times a register with the same number in all lanes.
+template <int L>
+ALWAYS_INLINE void add_row(const double* row, const Lanes& weight, Row<L>& sum) {
+    const Row<L> values(row);
+    for (int k = 0; k < Row<L>::PARTS; ++k)
+        sum.part[k] = fused(values.part[k], weight, sum.part[k]);
+}
+
+// Call `function` with the constants FIRST to LAST - 1.
+template <int FIRST, int LAST, class Function>
+ALWAYS_INLINE void for_each_of(Function&& function) {
+    [&]<int... M>(std::integer_sequence<int, M...>) __attribute__((always_inline)) {
+        (function(std::integral_constant<int, FIRST + M>{}), ...);
+    }(std::make_integer_sequence<int, LAST - FIRST>{});
+}
+
+// Call `function` with the constants 1 to COUNT - 1, but not with those beyond the rows in use.
+template <int COUNT, class Function>
+ALWAYS_INLINE void for_each_after_first(const MatrixRows& rows, Function&& function) {
+    constexpr int ALWAYS = COUNT < FEW_LANES ? COUNT : FEW_LANES;
+    for_each_of<1, ALWAYS>(function);
+    for_each_of<ALWAYS / REGISTER, COUNT / REGISTER>([&](auto k) __attribute__((always_inline)) {
+        if (rows.count > k * REGISTER) for_each_of<k * REGISTER, (k + 1) * REGISTER>(function);
+    });
+}
+
 // Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero. The rows have L
 // lanes.
 //
@@ -293,8 +348,9 @@ ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights)
     const double* row = rows.first;
     if constexpr (COUNT <= MORE_LANES) {
         Row<L> sum = Row<L>(row) * weights[0];
-#pragma GCC unroll 16
-        for (int m = 1; m < COUNT; ++m) sum = fused(Row<L>(row + m * L), weights[m], sum);
+        for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
+            add_row<L>(row + m * L, spread<m>(weights), sum);
+        });
         return sum;
     } else {
         alignas(64) double weight[COUNT];
@@ -316,7 +372,13 @@ struct RowPair {
 template <int L, int COUNT>
 ALWAYS_INLINE RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& weights) {
     if constexpr (COUNT <= MORE_LANES) {
-        return {sum_rows<L>(rows, weights.first), sum_rows<L>(rows, weights.second)};
+        const double* row = rows.first;
+        RowPair<L> sum{Row<L>(row) * weights.first[0], Row<L>(row) * weights.second[0]};
+        for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
+            add_row<L>(row + m * L, spread<m>(weights.first), sum.first);
+            add_row<L>(row + m * L, spread<m>(weights.second), sum.second);
+        });
+        return sum;
     } else {
         alignas(64) double first[COUNT], second[COUNT];
         weights.first.store(first);

@@ -175,6 +175,7 @@ void bind_train_records(nb::module_& m) {
         .FIELD(StepConstants, segment)
         .FIELD(StepConstants, low)
         .FIELD(StepConstants, high)
+        .FIELD(StepConstants, lead)
         .FIELD(StepConstants, base)
         .FIELD(StepConstants, gain)
         .FIELD(StepConstants, fixed)
