@@ -1,14 +1,14 @@
 """Processor time and latency of the follower node beside a plant in real time.
 
-Usage: python benchmarks/follower_load.py [SECONDS [vibration]]. A plant has torques and speeds at
-100 Hz and encoders at 20 kHz, and with `vibration` an accelerometer at 20 kHz too. The start, with
+A plant has torques and speeds at 100 Hz and encoders at 20 kHz, and with `--vibration` an
+accelerometer at 20 kHz too; `--packet` is the number of their samples in a message. The start, with
 tables and signatures, is left out: the second half is measured.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -26,9 +26,9 @@ sensors:
   input_torque: {noise: 0.1 N m}
   output_torque: {noise: 0.25 N m}
   speed_noise: 0.02 rad/s
-  encoders: {rate: 20 kHz, lost: 0.003}
+  encoders: {rate: 20 kHz, lost: 0.003, packet: PACKET}
 """
-VIBRATION = "  vibration: {rate: 20 kHz}\n"
+VIBRATION = "  vibration: {rate: 20 kHz, packet: PACKET}\n"
 NAMESPACE = "/follower_load"
 TICK = os.sysconf("SC_CLK_TCK")
 
@@ -71,11 +71,17 @@ def _processor_time(pid: int) -> float:
 
 def main() -> None:
     """Measure, and print one line for each figure."""
-    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 120.0
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("seconds", nargs="?", type=float, default=120.0, help="duration")
+    parser.add_argument("--vibration", action="store_true", help="also an accelerometer")
+    parser.add_argument("--packet", type=int, default=200, help="samples in a message")
+    asked = parser.parse_args()
+    seconds = asked.seconds
     stay_on_this_machine()
     with tempfile.TemporaryDirectory() as folder:
         hidden = Path(folder, "hidden.yaml")
-        hidden.write_text(HIDDEN + VIBRATION * ("vibration" in sys.argv[2:]))
+        text = HIDDEN + VIBRATION * asked.vibration
+        hidden.write_text(text.replace("PACKET", str(asked.packet)))
         given = {"hidden": hidden, "duration": seconds, "wait_for": "[follower]"}
         with (
             Child("follower", NAMESPACE, {}) as follower,

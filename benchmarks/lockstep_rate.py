@@ -1,7 +1,8 @@
 """Steps per second of the service ~/step, for one step in a call and for several.
 
 Usage: python benchmarks/lockstep_rate.py. Prints steps per second, and the processor time of a step
-of 1 ms in the simulation and in the client, which is this process.
+of 1 ms in the simulation and in the client, which is this process. The last line has calls of a
+service of the same node that only returns a stored answer: no service of rclpy is faster.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import os
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,7 @@ from planetary_twin.benchmark.process import processor_time
 from planetary_twin.network import stay_on_this_machine
 from planetary_twin.running.children import Child
 from planetary_twin_msgs.srv import Step
+from rcl_interfaces.srv import GetParameters
 from rclpy import create_node, init
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import JointState
@@ -49,9 +52,12 @@ class Caller:
         future = self._clients[name].call_async(request)
         while not future.done():
             self._executor.spin_once(timeout_sec=1.0)
-        response = future.result()
+        return future.result()
+
+    def step(self, steps: int) -> None:
+        """Make steps in one call."""
+        response = self.call(Step, "step", _request(steps))
         assert response.success, response.message
-        return response
 
 
 def _request(steps: int) -> Step.Request:
@@ -60,6 +66,16 @@ def _request(steps: int) -> Step.Request:
     if steps == 1:
         return Step.Request(duration=1e-3, command=commands[0])
     return Step.Request(duration=1e-3, commands=commands)
+
+
+def _timed(call: Callable[[], None], calls: int, server: int) -> tuple[float, float, float]:
+    """Calls per second, and processor time of a call in `server` and in this process [ms]."""
+    before, own, begin = processor_time(server), time.process_time(), time.monotonic()
+    for _ in range(calls):
+        call()
+    passed = time.monotonic() - begin
+    used = processor_time(server) - before, time.process_time() - own
+    return calls / passed, 1e3 * used[0] / calls, 1e3 * used[1] / calls
 
 
 def main() -> None:
@@ -73,17 +89,20 @@ def main() -> None:
             caller.call(SetBool, "pause", SetBool.Request(data=True))
             caller.call(Trigger, "reset", Trigger.Request())
             for steps, calls in ROUNDS:
-                before, own = processor_time(simulation.pid), time.process_time()
-                begin = time.monotonic()
-                for _ in range(calls):
-                    caller.call(Step, "step", _request(steps))
-                passed, count = time.monotonic() - begin, steps * calls
-                server = 1e3 * (processor_time(simulation.pid) - before) / count
-                client = 1e3 * (time.process_time() - own) / count
+                rate, server, client = _timed(lambda n=steps: caller.step(n), calls, simulation.pid)
                 print(
-                    f"{steps:3d} steps in a call: {count / passed:5.0f} steps/s, processor time of "
-                    f"a step {server:.2f} ms in the simulation, {client:.2f} ms in the client"
+                    f"{steps:3d} steps in a call: {rate * steps:5.0f} steps/s, processor time of a "
+                    f"step {server / steps:.2f} ms in the simulation, {client / steps:.2f} ms in "
+                    "the client"
                 )
+            rate, server, client = _timed(
+                lambda: caller.call(GetParameters, "get_parameters", GetParameters.Request()),
+                ROUNDS[0][1], simulation.pid,
+            )  # fmt: skip
+            print(
+                f"no step, get_parameters of nothing: {rate:.0f} calls/s, processor time of a call "
+                f"{server:.2f} ms in the simulation, {client:.2f} ms in the client"
+            )
     print(f"load of the machine: {os.getloadavg()[0]:.1f}")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
+from lifecycle_msgs.srv import ChangeState
 from planetary_twin.client import Client
 from planetary_twin_msgs.msg import GearboxState
 from planetary_twin_msgs.srv import SetOperatingPoint
@@ -18,11 +19,16 @@ CHANGES = {  # [s] simulated: what holds from the first interval after it, in SI
 }
 END = 1.15  # [s] by then the motor has got there
 TIMEOUT = 60.0  # [s]
+STARTS = 30.0  # [s] for a transition, which may have to wait for subscribers
 TOPIC = "gearbox_state"
+SUBSCRIBERS = 2  # this node and the logger
 
 
 def main() -> None:
-    """Subscribe once the logger has: the simulation waits for this node, so for both."""
+    """Start the simulation once this node and the logger subscribe, and change it as it runs.
+
+    So the recording has no gap between its first latched message and the first state.
+    """
     newest = [0.0]
 
     def keep(state: GearboxState) -> None:
@@ -31,8 +37,10 @@ def main() -> None:
     with Client("changes", "/planetary_twin") as client:
         service = client.node.create_client(SetOperatingPoint, "simulation/set_operating_point")
         wait(client, service.service_is_ready)
-        wait(client, lambda: client.node.count_subscribers(TOPIC) > 0)
         client.node.create_subscription(GearboxState, TOPIC, keep, 10)
+        transition(client, "configure")
+        wait(client, lambda: client.node.count_subscribers(TOPIC) >= SUBSCRIBERS)
+        transition(client, "activate")
         for instant, values in CHANGES.items():
             wait(client, partial(reached, newest, instant))
             request = SetOperatingPoint.Request(names=list(values), values=list(values.values()))
@@ -40,6 +48,17 @@ def main() -> None:
             if answer is None or not answer.success:
                 raise SystemExit(f"{values}: {answer.message if answer else 'no answer'}")
         wait(client, partial(reached, newest, END))
+
+
+def transition(client: Client, label: str) -> None:
+    """Change the lifecycle state of the simulation."""
+    service = client.node.create_client(ChangeState, "simulation/change_state")
+    wait(client, service.service_is_ready)
+    request = ChangeState.Request()
+    request.transition.label = label
+    answer = client.call(service, request, STARTS)
+    if answer is None or not answer.success:
+        raise SystemExit(f"{label}: failed")
 
 
 def reached(newest: list[float], instant: float) -> bool:

@@ -25,7 +25,7 @@ constexpr double STRETCH = 1.2;     // factor by which a step may be lengthened 
 constexpr int MOST_CORRECTIONS = 3;
 constexpr double REPEATED = 1e-3;  // relative change of times to events in repeated mesh cycles
 constexpr double SHORTEN = 0.95, LENGTHEN = 1.3;  // factors by which a step is not changed there
-constexpr double FORGET = 1.02;                   // factor per mesh cycle on a length that failed
+constexpr double FORGET = 1.002;                  // factor per mesh cycle on a length that failed
 constexpr double LONGEST = std::numeric_limits<double>::infinity();
 
 // Whether Rosenbrock's method replaces collocation over h seconds: if the sweeps do not converge,
