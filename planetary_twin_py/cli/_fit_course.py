@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
 from ._fitted import Fitted, Part
@@ -81,9 +82,9 @@ def _print(console: Console, found: FittedCourse) -> None:
         table.add_column(heading, justify="right")
     for k, parameter in enumerate(found.parameters):
         low, high, _ = estimate.intervals[k]
-        value = f"{estimate.values[k]:.6g}" if estimate.identifiable(k) else "not identifiable"
-        span = "-" if math.isnan(low) else f"{low:.6g} to {high:.6g}"
-        table.add_row(parameter.name, value, span, parameter.unit)
+        value, span = interval_text(estimate.values[k], low, high)
+        shown_value = value if estimate.identifiable(k) else "not identifiable"
+        table.add_row(parameter.name, shown_value, span, parameter.unit)
     console.print(table)
     if found.held_out is not None:
         console.print(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
 from ._fitted import Fitted, Part
@@ -77,11 +78,11 @@ def _print(console: Console, found: Identified) -> None:
         low, high, profiled = estimate.intervals[k]
         identifiable = estimate.identifiable(k)
         source = ("profile" if profiled else "curvature") if identifiable else "search range"
-        value = f"{estimate.values[k]:.6g}" if identifiable else "not identifiable"
-        span = f"{low:.6g} to {high:.6g}"
+        value, span = interval_text(estimate.values[k], low, high)
         if math.isnan(low):
-            span, source = "-", "combination only"
-        table.add_row(parameter.name, value, span, parameter.unit, source)
+            source = "combination only"
+        shown_value = value if identifiable else "not identifiable"
+        table.add_row(parameter.name, shown_value, span, parameter.unit, source)
     console.print(table)
     for one in found.predictions:
         console.print(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
+from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
 
@@ -37,8 +38,7 @@ def print_state(console: Console, name: str, span: tuple[float, float], state: F
         table.add_column(heading, justify="left" if heading == REMEDY else "right")
     for one in state.estimates:
         known = one.status in ("ESTIMATED", "STALE")
-        value = f"{one.value:.4g}" if known else "-"
-        interval = f"{one.low:.4g} to {one.high:.4g}" if known else "-"
+        value, interval = interval_text(one.value, one.low, one.high) if known else ("-", "-")
         status = one.status.replace("_", " ")
         table.add_row(one.name, value, interval, one.unit or "-", status, one.remedy)
     console.print(table)

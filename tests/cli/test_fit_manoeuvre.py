@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from command_line import run
 
+from planetary_twin_py.interval_text import interval_text
+
 RAMP = Path(__file__).parents[1] / "data/compact/ramp.parquet"
 DRAG = "losses.sun_drag.coulomb"
 
@@ -23,7 +25,8 @@ def test_a_manoeuvre_is_fitted_and_reported(tmp_path, suffix):
     found = json.loads(figures.read_text())["parameters"][DRAG]
     assert found["low"] < found["estimate"] < found["high"]
     text = report.read_text()
-    assert DRAG in text and f"{found['estimate']:.6g}" in text and "Held out" in text
+    shown = interval_text(found["estimate"], found["low"], found["high"])
+    assert DRAG in text and all(part in text for part in shown) and "Held out" in text
     picture = (tmp_path / "report-1.png").exists()
     assert picture if suffix == ".md" else "data:image/png;base64," in text
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import base64
 import html
 import io
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...interval_text import interval_text
 from ...plots.fit import course_figure, points_figure
 from ...plots.style import applied, save
 from .estimate import Estimate
@@ -135,9 +135,9 @@ def _rows(report: Report) -> Sequence[tuple[str, str, str, str]]:
     for k, parameter in enumerate(report.parameters):
         low, high, _ = report.estimate.intervals[k]
         known = report.estimate.identifiable(k)
-        value = f"{report.estimate.values[k]:.6g}" if known else "not identifiable"
-        span = "-" if math.isnan(low) else f"{low:.6g} to {high:.6g}"
-        rows.append((parameter.name, value, span, parameter.unit or "-"))
+        value, span = interval_text(report.estimate.values[k], low, high)
+        shown = value if known else "not identifiable"
+        rows.append((parameter.name, shown, span, parameter.unit or "-"))
     return rows
 
 
