@@ -3,7 +3,9 @@
 import json
 
 import numpy as np
+import pyarrow as pa
 import pytest
+from pyarrow import parquet
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
@@ -159,3 +161,18 @@ def test_a_table_without_headings_or_without_a_time_is_refused(tmp_path):
 def test_options_of_tables_are_refused_for_recordings(tmp_path):
     done = invoke(tmp_path / "run.npz", "--scene", "paper")
     assert done.exit_code != 0 and "are for tables" in done.stderr
+
+
+def test_the_unit_of_a_parquet_column_may_be_in_its_metadata(tmp_path):
+    time = np.arange(2000) / 1000.0
+    stated = [("time", "ms", 1e3 * time), ("acceleration", "m/s^2", np.sin(200.0 * np.pi * time))]
+    schema = pa.schema(
+        [pa.field(name, pa.float64(), metadata={"unit": unit}) for name, unit, _ in stated]
+    )
+    table = pa.table([values for _, _, values in stated], schema=schema)
+    parquet.write_table(table, tmp_path / "vibration.parquet")
+    done = invoke(tmp_path / "vibration.parquet")
+    assert done.exit_code == 0, done.stderr
+    assert "amplitude [m/s^2]" in done.stdout
+    frequency, amplitude = map(float, done.stdout.splitlines()[1].split()[:2])
+    assert frequency == pytest.approx(100.0, rel=1e-3) and amplitude == pytest.approx(1.0, rel=0.01)

@@ -63,7 +63,7 @@ class Column(NamedTuple):
 
     heading: str
     unit: str | None
-    """Unit in brackets or parentheses in the heading; None without."""
+    """Unit in the heading or in the metadata of the column; None without."""
     values: pa.ChunkedArray
     """(rows,)."""
     path: Path
@@ -139,6 +139,8 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 def read_columns(path: Path) -> dict[str, Column]:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
+    A column of Parquet may have its unit in its metadata instead, as `unit`.
+
     Args:
         path: path of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or
             tabs. The columns of a MAT file are its vectors.
@@ -168,12 +170,18 @@ def read_columns(path: Path) -> dict[str, Column]:
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
     columns: dict[str, Column] = {}
-    for heading, values in zip(table.column_names, table.columns, strict=True):
-        name, unit = name_and_unit(heading)
+    for field, values in zip(table.schema, table.columns, strict=True):
+        name, unit = name_and_unit(field.name)
         if name and name in columns:
-            raise ValueError(f"{path}: column {heading!r}: {name} is given twice")
-        columns[name] = Column(heading, unit, values, path)
+            raise ValueError(f"{path}: column {field.name!r}: {name} is given twice")
+        columns[name] = Column(field.name, unit or _unit_of(field), values, path)
     return columns
+
+
+def _unit_of(field: pa.Field) -> str | None:
+    """Unit in the metadata of a Parquet column, as tables of this project have it."""
+    stated = (field.metadata or {}).get(b"unit", b"").decode(errors="replace")
+    return None if stated in ("", "-") else stated
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
