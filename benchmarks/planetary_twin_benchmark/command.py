@@ -37,7 +37,7 @@ def bench(
     ] = False,
     peers: Annotated[
         bool,
-        typer.Option("--peers", help="Also measure general-purpose solvers (15 minutes)."),
+        typer.Option("--peers", help="Also measure general-purpose solvers (about 25 minutes)."),
     ] = False,
 ) -> None:
     """Measure computing time against error; the reference is a converged run of SciPy's DOP853.
