@@ -1,4 +1,5 @@
 #include "bindings/parts.hpp"
+#include "bindings/unlocked.hpp"
 #include "vector/lanes.hpp"
 
 namespace gearbox_axes {
@@ -17,6 +18,8 @@ NB_MODULE(CORE_MODULE, m) {
     m.attr("SOURCES") = gearbox::SOURCES;
     m.attr("FUSES") = gearbox::FUSES;
     nanobind::set_leak_warnings(false);  // caches hold records until the interpreter ends
+    nanobind::module_::import_("atexit").attr("register")(
+        nanobind::cpp_function([] { interpreter::hold_threads(); }));
     gearbox::bind_records(m);
     gearbox::bind_train(m);
     gearbox::bind_tribology(m);

@@ -2,11 +2,35 @@
 
 // Releases the interpreter's lock during a call of the core.
 //
-// Python would unwind a thread that returns while the interpreter ends, through C++ frames: the
-// process would abort. The thread waits for the end of the process instead.
+// A Python that ends unwinds every other thread that asks for its lock, here through C++ frames:
+// the process would abort. So, before it ends, threads that return from the core are held until the
+// process is gone.
 
 #include <Python.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <thread>
+
+// For models with fixed and with moving axes alike.
+namespace interpreter {
+
+inline std::atomic<bool> ends{false};
+inline std::atomic<int> returning{0};  // number of threads that ask for the lock
+inline std::thread::id last_thread;    // which ends the interpreter
+
+// Hold all other threads that return from the core from now on. Call it with the lock.
+inline void hold_threads() {
+    last_thread = std::this_thread::get_id();
+    ends = true;
+    while (returning > 0) {
+        Py_BEGIN_ALLOW_THREADS;
+        usleep(100);
+        Py_END_ALLOW_THREADS;
+    }
+}
+
+}  // namespace interpreter
 
 namespace gearbox {
 
@@ -14,21 +38,18 @@ class Unlocked {
 public:
     Unlocked() : thread(PyEval_SaveThread()) {}
     ~Unlocked() {
-        while (is_ending()) pause();
+        ++interpreter::returning;
+        if (interpreter::ends && std::this_thread::get_id() != interpreter::last_thread) {
+            --interpreter::returning;
+            while (true) pause();
+        }
         PyEval_RestoreThread(thread);
+        --interpreter::returning;
     }
     Unlocked(const Unlocked&) = delete;
     Unlocked& operator=(const Unlocked&) = delete;
 
 private:
-    static bool is_ending() {
-#if PY_VERSION_HEX >= 0x030D0000
-        return Py_IsFinalizing();
-#else
-        return _Py_IsFinalizing();
-#endif
-    }
-
     PyThreadState* thread;
 };
 
