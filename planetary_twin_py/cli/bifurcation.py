@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 from ..terminal.arguments import SceneArgument, SetOption, ToleranceOption
-from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
+from ..terminal.unit_options import SECONDS
 from ._study import TABLES, axis, check_suffix, progress, write_results
 
 

@@ -10,12 +10,12 @@ import typer
 from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.console import print_list
-from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, remark
 from ..terminal.names import shown
 from ..terminal.settings import changed_scene, settings
+from ..terminal.unit_options import SECONDS
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
-from ..terminal.durations import SECONDS
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
 from ..terminal.output_files import file_ending_in, writing
+from ..terminal.unit_options import SECONDS
 from ._fit_course import fit_manoeuvre
 from ._fit_points import fit_points
 from ._fit_texts import field_names, free_fields, held_out_span, noise_levels

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import SceneArgument, SetOption
+from ..terminal.arguments import DurationOption, SceneArgument, SetOption
 from ..terminal.console import make_console
 from ..terminal.messages import fail, need
 from ..terminal.output_files import TABLES, file_ending_in
@@ -51,7 +51,7 @@ def plant(
             callback=file_ending_in(*TABLES),
         ),
     ] = None,
-    duration: Annotated[float, typer.Option(help="Simulated time [s].")] = 60.0,
+    duration: DurationOption = 60.0,
     set_: SetOption = None,
 ) -> None:
     """Simulate sensor readings of the gearbox of SCENE, with hidden changes, for `follow`.

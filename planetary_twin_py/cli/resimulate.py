@@ -9,10 +9,10 @@ import typer
 
 from ..terminal.arguments import FileArgument, NamespaceOption, SetOption
 from ..terminal.console import make_console
-from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import check_recording
 from ..terminal.settings import say_units, settings
+from ..terminal.unit_options import SECONDS
 
 
 def resimulate(

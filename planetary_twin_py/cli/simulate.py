@@ -17,13 +17,13 @@ from ..terminal.arguments import (
     ToleranceOption,
 )
 from ..terminal.console import print_list
-from ..terminal.durations import SECONDS
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.names import shown
 from ..terminal.output_files import check_file, check_recording
 from ..terminal.settings import changed_scene, settings
+from ..terminal.unit_options import HERTZ, SECONDS
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -39,7 +39,9 @@ if TYPE_CHECKING:
 def simulate(
     scene: SceneArgument = "paper",
     duration: DurationOption = 1.0,
-    sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.")] = 50_000.0,
+    sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.", **HERTZ)] = (
+        50_000.0
+    ),
     settling: Annotated[
         float,
         typer.Option(help="Simulated time before, excluded from results and samples.", **SECONDS),

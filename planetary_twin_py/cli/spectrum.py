@@ -13,11 +13,11 @@ import typer
 
 from ..terminal.arguments import JsonOption, SetOption, complete_recording, complete_scene
 from ..terminal.console import busy
-from ..terminal.durations import SECONDS
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import output_file
 from ..terminal.settings import changed_scene, settings
+from ..terminal.unit_options import HERTZ, SECONDS
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -85,7 +85,7 @@ class Options:
     ] = None
     sample_rate: Annotated[
         float | None,
-        typer.Option(help="Of a table: samples per second, in place of a column time."),
+        typer.Option(help="Of a table: samples per second, in place of a column time.", **HERTZ),
     ] = None
     scene: Annotated[
         str | None,

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..terminal.arguments import SceneArgument, ToleranceOption
-from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
+from ..terminal.unit_options import SECONDS
 from ._study import TABLES, axis, check_suffix, progress, warn, write_results
 
 if TYPE_CHECKING:

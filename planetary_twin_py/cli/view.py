@@ -14,9 +14,9 @@ import typer
 
 from ..terminal.arguments import complete_recording, complete_scene
 from ..terminal.console import busy
-from ..terminal.durations import SECONDS, read_seconds
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import output_file
+from ..terminal.unit_options import SECONDS, read_seconds
 from ._live import print_address, view_live
 
 if TYPE_CHECKING:

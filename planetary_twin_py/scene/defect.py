@@ -12,6 +12,7 @@ from pydantic_core import ErrorDetails
 
 from ..units import UnitError
 from .names import nearest, no_such_field
+from .paths import field_paths
 from .quantity import Section, bounds, listed, sections_in, unit_of, within
 
 _REASONS = {  # in place of pydantic's messages, by error type
@@ -58,7 +59,7 @@ def explain(
         line.removeprefix("operating_point.")
         for defect, place in defects
         if not (defect["type"] == "missing" and place.name in meant)
-        for line in _lines(defect, place)
+        for line in _lines(defect, place, model)
     ]
     return listed([*lines, *further], what)
 
@@ -87,9 +88,10 @@ def _meant(defect: ErrorDetails, place: _Place) -> Iterator[str]:
         yield from (f"{above}{dot}{name}" for name in nearest(own, place.section.model_fields))
 
 
-def _lines(defect: ErrorDetails, place: _Place) -> Iterator[str]:
+def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterator[str]:
     if defect["type"] == "extra_forbidden":
-        yield no_such_field(place.name, place.section.model_fields if place.section else ())
+        beside = place.section.model_fields if place.section else ()
+        yield no_such_field(place.name, beside, field_paths(model))
         return
     if defect["type"] == "missing":
         yield f"{place.name}: missing"

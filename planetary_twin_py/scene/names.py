@@ -10,10 +10,14 @@ _MOST = 3
 _FEW = 20  # names of a section that a message lists
 
 
-def no_such_field(name: str, known: Iterable[str]) -> str:
-    """Error message for `name`: with similar `known` names, else with all, if they are few."""
+def no_such_field(name: str, known: Iterable[str], elsewhere: Iterable[str] = ()) -> str:
+    """Error message for `name`, with the names that may be meant.
+
+    These are similar `known` names, else similar names `elsewhere`, else all `known` names, if they
+    are few.
+    """
     names = list(known)
-    meant = did_you_mean(name, names)
+    meant = did_you_mean(name, names) or did_you_mean(name, elsewhere)
     if not meant and 0 < len(names) <= _FEW:
         meant = f"; there are {', '.join(sorted(names))}"
     return f"{name}: no such field{meant}"

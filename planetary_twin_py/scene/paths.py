@@ -64,6 +64,14 @@ def paths(data: Any) -> Iterator[str]:
         yield from (f"{name}.{path}" for path in paths(inner))
 
 
+def field_paths(section: type[Section]) -> Iterator[str]:
+    """Dotted names of all fields of a section and of the sections within it, parents first."""
+    for name, field in section.model_fields.items():
+        yield name
+        for inner in sections_in(field.annotation):
+            yield from (f"{name}.{path}" for path in field_paths(inner))
+
+
 def leaves(data: Any) -> Iterator[tuple[str, Any]]:
     """Dotted names and values of plain data that are neither mappings nor lists."""
     for name, inner in _entries(data):

@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 from .completion import scene_fields
-from .durations import SECONDS
 from .output_files import output_file
+from .unit_options import SECONDS
 
 RECORDINGS = Path("recordings")
 _PACKAGED = Path(__file__).parents[1] / "scene" / "packaged"

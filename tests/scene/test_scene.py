@@ -170,6 +170,30 @@ def test_a_mistyped_name_is_reported_instead_of_the_missing_one():
 
 
 @pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (
+            "input_speed: 3000 rpm",
+            "input_speed: no such field; did you mean operating_point.input_speed?",
+        ),
+        (
+            "mesh: {viscosity: 1}",
+            "mesh.viscosity: no such field; did you mean lubrication.viscosity?",
+        ),
+        (
+            "operating_point: {colour: 1}",
+            "colour: no such field; there are backlash, input_speed, input_torque, lambda_ratio, "
+            "oil_temperature, second_input_speed, torque_ripple",
+        ),
+    ],
+)
+def test_a_field_in_the_wrong_section_is_reported_with_the_right_one(line, message):
+    with pytest.raises(pt.SceneError) as refusal:
+        pt.parse_scene(f"base: paper\n{line}\n")
+    assert str(refusal.value) == message
+
+
+@pytest.mark.parametrize(
     ("name", "meant"),
     [
         ("viscosity", "; did you mean lubrication.viscosity?"),

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption, SceneArgument
-from planetary_twin_py.terminal.durations import SECONDS
 from planetary_twin_py.terminal.interrupts import interrupt
 from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail, need, remark
 from planetary_twin_py.terminal.settings import changed_scene, settings
+from planetary_twin_py.terminal.unit_options import SECONDS
 
 from .pacing import check_rate_factor
 

@@ -13,6 +13,7 @@ from planetary_twin_py.terminal.arguments import complete_parameter
 from planetary_twin_py.terminal.console import make_console
 from planetary_twin_py.terminal.messages import fail, note, remark
 from planetary_twin_py.terminal.settings import in_words
+from planetary_twin_py.terminal.unit_options import SECONDS
 
 if TYPE_CHECKING:
     from .remote import Remote
@@ -99,7 +100,7 @@ def op(
         list[str], typer.Argument(metavar="NAME=VALUE...", help="In SI, or with a unit.")
     ],
     ramp: Annotated[
-        float, typer.Option(help="Simulated seconds until the values are reached.", min=0.0)
+        float, typer.Option(help="Simulated time until the values are reached.", **SECONDS)
     ] = 0.0,
     namespace: Namespace = NAMESPACE,
 ) -> None:
