@@ -12,7 +12,7 @@
 #include <atomic>
 #include <thread>
 
-// For models with fixed and with moving axes alike.
+// For models with fixed and with moving axes.
 namespace interpreter {
 
 inline std::atomic<bool> ends{false};

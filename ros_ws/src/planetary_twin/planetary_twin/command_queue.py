@@ -43,7 +43,7 @@ class CommandQueue:
             self._gathering[0].update(values)
             return self._gathering[1]
 
-    def execute(self, timeout: float) -> list[Callable[[], None]]:
+    def execute(self, timeout: float = 0.0) -> list[Callable[[], None]]:
         """
         Execute the queued commands, and return the functions that set their futures.
 

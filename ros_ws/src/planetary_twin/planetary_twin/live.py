@@ -19,10 +19,12 @@ from .hold import Hold
 from .live_interface import Listener, PortCommands, Progress, State
 from .pacing import Pace
 from .ramps import Ramps
+from .turns import Turns
 
 LONGEST_STEP = 10.0  # [s] simulated time of one step of a paused twin
-_STOP_POLL = 0.1  # [s] between two checks of a paused twin for a stop
+_STOP_POLL = 0.1  # [s] between two checks of a halted twin whether it may run
 _ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
+_STOPPED = "the simulation has stopped"
 
 
 class LiveTwin:
@@ -31,7 +33,8 @@ class LiveTwin:
 
     It runs at `rate_factor` simulated seconds per second, or as fast as possible if that is 0.
     `quality` chooses tolerance and sample rate; any thread may replace it at any time. Commands
-    are executed between two intervals; their futures return the simulated instant [s].
+    are executed between two intervals, those of a halted twin at once in the thread that gives
+    them; their futures return the simulated instant [s].
 
     `port_commands` are asked for the commands at the ports before each interval.
 
@@ -57,6 +60,7 @@ class LiveTwin:
         self.quality = quality
         self._listener = listener
         self._commands = CommandQueue(self._set)
+        self._turns = Turns(self._serve)
         self._ramps = Ramps()
         self._paused = False
         self._failure = ""  # why the twin is stopped until a restart
@@ -69,30 +73,32 @@ class LiveTwin:
         self._repeated = False
         self._ran = self._lasted = 0.0  # see `Progress`
         self._mark = 0.0  # [s] wall time at which the last interval ended
+        self._cpu = 0.0  # [s] processor time of the thread
         self.progress = self._present()
 
     def start(self) -> Progress:
         """Start at the twin's present time; returns the progress at the start."""
-        start = self.progress = self._present()._replace(cpu=0.0)
+        start = self.progress = self._present()
         self._thread.start()
         return start
 
     def stop(self) -> None:
         """Stop after the interval in progress, which is published at once."""
         self._stop.set()
+        self._turns.wake()
         self._thread.join()
 
     def submit(self, values: Mapping[str, Any]) -> Future[float]:
         """Set `values` of the operating point and the ports, by the arguments of `Twin.set`."""
-        return self._commands.change(values)
+        return self._given_in_turn(self._commands.change(values))
 
     def ramp(self, values: Mapping[str, float], duration: float) -> Future[float]:
         """Change the operating point linearly to `values` within `duration` [s]."""
-        return self._commands.put(lambda: self._ramp(values, duration))
+        return self._given_in_turn(self._commands.put(lambda: self._ramp(values, duration)))
 
     def pause(self, paused: bool) -> Future[float]:
         """Pause simulated time, or resume it."""
-        return self._commands.put(lambda: self._pause(paused))
+        return self._given_in_turn(self._commands.put(lambda: self._pause(paused)))
 
     def step(
         self,
@@ -104,43 +110,59 @@ class LiveTwin:
         Advance a paused twin by `duration` [s] for each of `commands`, as fast as possible.
 
         Each command acts at the ports from the start of its step. `show` is called with the twin
-        at the end of each step, in its thread. Steps have no deadline, so their results do not
-        depend on the load of the computer, see `QualityControl.without_deadline`.
+        at the end of each step. Steps have no deadline, so their results do not depend on the load
+        of the computer, see `QualityControl.without_deadline`.
         """
-        return self._commands.put(lambda: self._steps(duration, commands, show))
+        return self._given_in_turn(
+            self._commands.put(lambda: self._steps(duration, commands, show))
+        )
 
     def restart(self, twin: Twin) -> Future[float]:
         """Replace the twin by `twin`."""
-        return self._commands.put(lambda: self._restart(twin))
+        return self._given_in_turn(self._commands.put(lambda: self._restart(twin)))
+
+    def _given_in_turn(self, command: Future[float]) -> Future[float]:
+        """Have the queued `command` executed."""
+        self._turns.call()
+        if self._turns.ended:
+            self._commands.refuse(_STOPPED)
+        return command
 
     def _run(self) -> None:
         try:
-            while not self._stop.is_set():
-                answers = self._commands.execute(self._patience())
-                was_halted, self._halted = self._halted, self._must_halt()
-                if self._halted:
-                    self._port_commands.collect()
-                if was_halted and not self._halted:
-                    self._resume()
-                    self._pace.start()
-                    self._mark = time.monotonic()
-                running = not (self._halted or self._hold.active)
-                if running:
-                    self._follow_ramps()
-                self._announce()
-                if answers:  # the progress that a client reads next includes its command
+            with self._turns:
+                while not self._stop.is_set():
+                    self._turns.rest(self._patience())
+                    if self._serve() and self._run_on():
+                        before, self._mark = self._mark, time.monotonic()
+                        self._ran += self._interval
+                        self._lasted += self._mark - before
+                    self._cpu = time.thread_time()
                     self.progress = self._present()
-                for answer in answers:
-                    answer()
-                if running and self._run_on():
-                    before, self._mark = self._mark, time.monotonic()
-                    self._ran += self._interval
-                    self._lasted += self._mark - before
-                self.progress = self._present()
         except Exception as defect:
             self._listener.stopped(defect)
         finally:
-            self._commands.refuse("the simulation has stopped")
+            self._commands.refuse(_STOPPED)
+
+    def _serve(self) -> bool:
+        """Execute the commands that wait, and publish what they change; whether time runs."""
+        answers = self._commands.execute()
+        was_halted, self._halted = self._halted, self._must_halt()
+        if self._halted:
+            self._port_commands.collect()
+        if was_halted and not self._halted:
+            self._resume()
+            self._pace.start()
+            self._mark = time.monotonic()
+        running = not (self._halted or self._hold.active)
+        if running:
+            self._follow_ramps()
+        self._announce()
+        if answers:  # the progress that a client reads next includes its command
+            self.progress = self._present()
+        for answer in answers:
+            answer()
+        return running
 
     def _resume(self) -> None:
         """Resume time; at time zero, publish a new origin of the run and all changes after it."""
@@ -330,7 +352,7 @@ class LiveTwin:
         return bool(self._failure) or self._paused or not self._listener.ready()
 
     def _patience(self) -> float:
-        """Return how long to wait for a command [s]."""
+        """Return how long to rest [s]."""
         if self._must_halt():
             self._hold.end()
             return _STOP_POLL
@@ -350,7 +372,7 @@ class LiveTwin:
             time.monotonic(),
             self._ran,
             self._lasted,
-            time.thread_time(),
+            self._cpu,
             self._pace.overruns,
             self._repeated,
             self._state(),

@@ -11,7 +11,7 @@ from planetary_twin_py.twin import Change
 
 
 class Listener(Protocol):
-    """Callbacks of a live twin, called in the thread of the twin."""
+    """Callbacks of a live twin, in its thread, or in that of a command while it halts."""
 
     def prepare(self, window: Window) -> None:
         """Receive a computed interval before the wall time of its end."""
@@ -57,7 +57,7 @@ class Progress(NamedTuple):
     wall: float  # [s] steady clock
     ran: float  # [s] simulated time of all intervals; steps of a paused twin do not count
     lasted: float  # [s] wall time of these intervals; pauses do not count
-    cpu: float  # [s] processor time of the thread
+    cpu: float  # [s] processor time of the thread, without steps of a paused twin
     overruns: int
     repeats: bool  # steady running: mesh cycles are repeated, not computed
     state: State
@@ -66,7 +66,7 @@ class Progress(NamedTuple):
 
 
 class PortCommands(Protocol):
-    """Commands at the ports of a twin, called in its thread."""
+    """Commands at the ports of a twin, used by one thread at a time."""
 
     def collect(self) -> None:
         """Take the commands that have arrived, also while the twin halts."""

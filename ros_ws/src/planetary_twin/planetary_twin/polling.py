@@ -24,7 +24,7 @@ class PolledSubscription:
     """
     A subscription outside the executor, which takes longer for a message than its processing.
 
-    Only one thread may call `take`.
+    Only one thread at a time may call `take`.
     """
 
     def __init__(self, node: Node, kind: type, topic: str, qos: QoSProfile) -> None:

@@ -133,7 +133,7 @@ class Simulation(ManagedNode):
             self._telemetry.close()
             self._before, self._telemetry = self._telemetry, None
 
-    # Called by the live twin, in its thread.
+    # Called by the live twin, in its thread, or in that of a command while it halts.
 
     def prepare(self, window: pt.Window) -> None:
         """Fill the messages for an interval before the wall time of its end."""
