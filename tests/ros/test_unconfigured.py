@@ -86,7 +86,7 @@ def test_a_simulation_uses_parameters_set_before_it_is_configured(peer: Peer, st
     assert peer.set(SIMULATION, publish_rate=20).successful
 
 
-def test_an_invalid_scene_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
+def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation", *UNCONFIGURED, "-p", "input_torque:=80")
     before = values(peer, "scene", "input_torque", "gearset.teeth.sun")
     for given in (
@@ -94,6 +94,7 @@ def test_an_invalid_scene_is_refused_and_changes_nothing(peer: Peer, start: Star
         {"scene": "lightly_loaded", "input_torque": 1e9},
         {"scene": 3.5},
         {"rate_factor": 1e-3},
+        {"command_silence": "loud"},
     ):
         answer = peer.set(SIMULATION, atomically=True, **given)
         assert not answer.successful and "\n" not in answer.reason

@@ -18,6 +18,7 @@ from planetary_twin_py.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 from .pacing import check_rate_factor
 from .parameter_node import ParameterNode
 from .parameters import (
+    brief,
     declare_bounded,
     declare_fixed,
     declare_geometry,
@@ -102,10 +103,7 @@ class SimulationParameters:
         self._compute_share: float = value["compute_share"]
         self.command_timeout: float = value["command_timeout"]
         self.command_silence: str = value["command_silence"]
-        if self.command_silence not in SILENCE:
-            raise ValueError(
-                f"command_silence = {self.command_silence!r}: must be one of {', '.join(SILENCE)}"
-            )
+        _check_silence(self.command_silence)
 
     @property
     def period(self) -> float:
@@ -161,6 +159,8 @@ class SimulationParameters:
                 ladder_of(values[TOLERANCE.name])
             if "rate_factor" in values:
                 check_rate_factor(values["rate_factor"])
+            if "command_silence" in values:
+                _check_silence(values["command_silence"])
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
         self._wanted = scene
@@ -230,6 +230,11 @@ def _declare_settings(node: ParameterNode) -> None:
         "after command_timeout: hold the last command; zero torque and speed; or brake the input "
         "shaft to rest at the slew rate of the drive",
     )
+
+
+def _check_silence(value: str) -> None:
+    if value not in SILENCE:
+        raise ValueError(f"command_silence = {brief(value)}: must be one of {', '.join(SILENCE)}")
 
 
 def changing(parameters: list[Parameter]) -> dict[str, Any]:
