@@ -4,9 +4,11 @@ Speeds run from 0.001 to 20 000 rpm in both senses, with standstill; gear sets, 
 faults and errors of planets are drawn; with planar dynamics masses, bearings and weight as well.
 Prints a line for each scene whose error exceeds ten tolerances, with "warned" where its run says
 so, or whose ledger misses a millionth of the turnover at 1e-5; then how many there are.
+With spatial dynamics, teeth are helical, and bearings have axial and tilting stiffnesses.
 
     python benchmarks/random_scenes.py --count 100 --seed 1 --tolerance 1e-4
     python benchmarks/random_scenes.py --count 100 --seed 1 --dynamics planar
+    python benchmarks/random_scenes.py --count 100 --seed 1 --dynamics spatial
 """
 
 from __future__ import annotations
@@ -132,6 +134,21 @@ def moving_axes(random: np.random.Generator, planets: int) -> dict[str, Any]:
     return changes
 
 
+def tilting_axes(random: np.random.Generator) -> dict[str, Any]:
+    """Further settings of a random scene whose axes move and tilt: helix and bearings."""
+
+    def stiffness() -> float:
+        return float(10.0 ** random.uniform(6.0, 10.0))
+
+    helix = (0.0, *random.uniform(-0.2, 0.2, 5))[random.integers(6)]
+    bearings = {
+        f"supports.{body}.{way}": stiffness()
+        for body in ("sun", "planet", "ring", "carrier")
+        for way in ("axial", "tilting")
+    }
+    return {"dynamics": "spatial", "gearset.helix_angle": float(helix)} | bearings
+
+
 def measure(scene: pt.Scene, tolerance: float) -> Errors:
     """Compare a run of some mesh cycles with one of the other method at 1e-7."""
     speed = abs(scene.operating_point.input_speed)
@@ -160,7 +177,9 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100, help="scenes to draw")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tolerance", type=float, default=1e-4)
-    parser.add_argument("--dynamics", choices=("torsional", "planar"), default="torsional")
+    parser.add_argument(
+        "--dynamics", choices=("torsional", "planar", "spatial"), default="torsional"
+    )
     given = parser.parse_args()
     warnings.simplefilter("ignore")
     random, paper = np.random.default_rng(given.seed), pt.load_scene("paper")
@@ -168,9 +187,11 @@ def main() -> None:
     for number in range(given.count):
         try:
             changes = random_changes(random)
-            if given.dynamics == "planar":
+            if given.dynamics != "torsional":
                 changes |= moving_axes(random, len(changes["gearset.planet_angles"]))
             scene = paper.replace(**changes)
+            if given.dynamics == "spatial":
+                scene = scene.replace(**tilting_axes(random))
             found = measure(scene, given.tolerance)
         except (ValueError, pt.RunawayError) as refusal:
             print(f"{number:4d}  refused: {str(refusal)[:90]}")

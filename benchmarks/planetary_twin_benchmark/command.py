@@ -50,7 +50,7 @@ def bench(
         need("plots", "matplotlib")
 
     from .batch import batch_markdown, batch_table, measure_batch
-    from .cases import CASES
+    from .cases import CASES, PLANAR_CASES
     from .costs import cost_markdown, cost_tables, measure_costs
     from .equal_error import equal_error_markdown
     from .peers.problem import Problem
@@ -63,7 +63,7 @@ def bench(
     with console.status("starting") as status:
         beside = peer_rows(status.update) if peers else nothing
         rows = measure(CASES, progress=status.update, beside=beside)
-        steady = measure_steady(CASES, progress=status.update)
+        steady = measure_steady((*CASES, *PLANAR_CASES), progress=status.update)
         batches = measure_batch(progress=status.update)
         dear = measure_costs(progress=status.update) if costs else []
     console.print(as_table(rows))

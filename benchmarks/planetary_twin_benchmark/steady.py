@@ -160,8 +160,8 @@ def steady_markdown(rows: Sequence[Steady]) -> str:
     return f"""
 ## Steady running
 
-The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they
-are repeated instead of computed (`core/integrators/periodic.hpp`).
+The default method, `auto`, over {MINUTE:g} s in the same cases, and in some whose axes move. Once
+mesh cycles are periodic, they are repeated instead of computed (`core/integrators/periodic.hpp`).
 
 - *repeats from*: simulated time from which cycles are repeated.
 - *a minute*: simulated time over processor time from the start, without samples, with settling; in

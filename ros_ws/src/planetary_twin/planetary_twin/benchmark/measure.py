@@ -26,7 +26,7 @@ _PERIOD = 0.5  # [s] between two samples of the memory
 _VALUES = (1.5, 2.0)  # of the lambda ratio, in turn
 CASES = [("paper", AUTOMATIC, n) for n in SUBSCRIBERS] + [
     (scene, tolerance, 1)
-    for scene in ("differential", "wind_turbine_stage")
+    for scene in ("floating_sun", "differential", "wind_turbine_stage")
     for tolerance in (AUTOMATIC, 1e-3)
 ]
 """Scene, tolerance and number of subscribers of each measurement of the processor share."""
