@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ._core import CREEPING, Control
 from .dynamics.bodies import rigid_ratios
+from .planar.held_axes import held_axes_warning
 from .scene import OperatingPoint, Scene
 from .spatial.face_contact import face_warning
 
@@ -96,6 +97,8 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     Returns:
         A sentence per warning.
     """
+    if line := held_axes_warning(scene):
+        yield line
     if line := face_warning(scene, run):
         yield line
     stats, rate = run.stats, settling_rate(scene, scene.operating_point)

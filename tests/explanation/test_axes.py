@@ -36,7 +36,7 @@ def test_planets_out_of_phase_would():
 
 
 def test_with_bearings_both_factors_are_named():
-    scene = pt.load_scene("floating_sun")
+    scene = pt.load_scene("floating_sun").replace(dynamics="torsional")
     held = pt.load_sharing(scene.replace(supports=None)).factor
     moving = pt.load_sharing(scene).factor
     text = meaning_of_held_axes(scene)

@@ -18,13 +18,15 @@ class AccuracyReport:
     Checks the intervals since the last report as one run.
 
     The twin's thread adds intervals; the node's thread takes reports. `hardware` is the namespace
-    of the twin, the `hardware_id` of the status.
+    of the twin, the `hardware_id` of the status. `lasting` is a warning that applies to the whole
+    run.
     """
 
     def __init__(self, hardware: str) -> None:
         self._hardware = hardware
         self._lock = threading.Lock()
         self._course = Course()
+        self.lasting: str | None = None
 
     def add(self, window: Window) -> None:
         """Add an interval."""
@@ -35,7 +37,8 @@ class AccuracyReport:
         """Return the report on the intervals added since the last report."""
         with self._lock:
             course, self._course = self._course, Course()
-        warnings = list(course_warnings(course))
+        warnings = [self.lasting] if self.lasting else []
+        warnings += course_warnings(course)
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN if warnings else DiagnosticStatus.OK,
             name=status_name(ACCURACY, self._hardware),

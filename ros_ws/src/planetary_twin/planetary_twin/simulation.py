@@ -16,6 +16,7 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
+from planetary_twin_py.planar.held_axes import held_axes_warning
 from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.recording.ros2.given import joint_names, values_of
 from planetary_twin_py.robot import robot_description
@@ -87,6 +88,9 @@ class Simulation(ManagedNode):
         self._backlog = Backlog(self, self._given.wait_for, self._telemetry.streamed, room)
         self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
         self._twin = self._new_twin()
+        self._accuracy.lasting = held_axes_warning(self._twin.scene)
+        if self._accuracy.lasting:
+            self.get_logger().warning(self._accuracy.lasting)
         # Exclude the objects loaded so far from garbage collection: scanning them takes 0.1 s.
         gc.collect()
         gc.freeze()

@@ -1,0 +1,74 @@
+"""Whether planets share their load with held axes as with the bearings of the scene."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..dynamics.bodies import rigid_ratios
+from ..gearset.kinematics import mesh_cycles_per_turn
+from ..scene import Scene
+
+UNEQUAL = 0.05  # of a share: smallest difference that is reported
+_POSITIONS = 4  # in a mesh cycle
+
+
+class Shares(NamedTuple):
+    """Load shares of the N planets in statics, means over a mesh cycle, (N,) each."""
+
+    held: np.ndarray
+    """With held axes."""
+    moving: np.ndarray
+    """With the bearings of `scene.supports`."""
+
+
+def static_shares(scene: Scene) -> Shares:
+    """Compare the shares of the load.
+
+    Args:
+        scene: scene with `supports` and a torque.
+
+    Returns:
+        The shares of the planets.
+
+    Raises:
+        ValueError: the torque is 0, the teeth are impossible, or bearings cannot hold the load.
+    """
+    from .load_sharing import load_sharing  # most runs do without
+
+    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    cycle = 1.0 / abs(float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios)))
+    turns = (np.arange(_POSITIONS) + 0.5) / _POSITIONS * cycle
+    held, moving = (
+        load_sharing(given, turns).share.mean(axis=0)
+        for given in (scene.replace(supports=None), scene)
+    )
+    return Shares(held, moving)
+
+
+def held_axes_warning(scene: Scene) -> str | None:
+    """Warn if axes are held although their bearings would change the shares of the load.
+
+    Args:
+        scene: the scene.
+
+    Returns:
+        A sentence, or None.
+    """
+    if scene.moving_axes or scene.supports is None or scene.operating_point.input_torque == 0.0:
+        return None
+    try:
+        held, moving = static_shares(scene)
+    except ValueError:  # no equilibrium with these bearings, so nothing to compare with
+        return None
+    planet = int(np.argmax(np.abs(held - moving)))
+    if abs(held[planet] - moving[planet]) <= UNEQUAL:
+        return None
+    dynamics = "quasi_static_planar" if scene.quasi_static else "planar"
+    return (
+        f"dynamics = {scene.dynamics} holds all axes: planet {planet + 1} carries "
+        f"{held[planet]:.2f} times its share of the load, but {moving[planet]:.2f} times with the "
+        f"bearings of supports, so mesh forces and transmission error are wrong; set dynamics = "
+        f"{dynamics} or auto"
+    )

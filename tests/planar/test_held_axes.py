@@ -1,0 +1,67 @@
+"""Runs with held axes warn where bearings would change the load shares of the planets."""
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.planar.held_axes import held_axes_warning, static_shares
+
+FLOATING = pt.load_scene("floating_sun")
+HELD = FLOATING.replace(dynamics="torsional")
+
+
+def test_shares_are_those_of_whole_mesh_cycles():
+    held, moving = static_shares(HELD)
+    assert held == pytest.approx(
+        pt.load_sharing(HELD.replace(supports=None)).share.mean(axis=0), abs=0.05
+    )
+    assert moving == pytest.approx(pt.load_sharing(HELD).share.mean(axis=0), abs=0.005)
+    assert held.sum() == pytest.approx(4.0) and moving.sum() == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize(
+    ("dynamics", "moving"), [("torsional", "planar"), ("quasi_static", "quasi_static_planar")]
+)
+def test_a_run_with_held_axes_names_the_shares_and_the_dynamics_that_move_them(dynamics, moving):
+    with pytest.warns(
+        pt.AccuracyWarning, match=rf"planet 1 carries 3\.64 times .* 1\.16 .* = {moving} or auto"
+    ):
+        run = pt.simulate(FLOATING.replace(dynamics=dynamics), 0.01)
+    force = run.mesh["mesh_force_mean"][:4]
+    assert force[0] / force.mean() > 3.0  # what the warning is about
+
+
+def test_the_packaged_scene_lets_its_sun_float():
+    run = pt.simulate(FLOATING, 0.04, settling=0.04)
+    assert run.axes.mean_load_share == pytest.approx(static_shares(HELD).moving, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        FLOATING,
+        HELD.replace(supports=None),
+        HELD.replace(input_torque=0.0),
+        HELD.replace(**{"errors.pin_tangential": (0.0, 0.0, 0.0, 0.0)}),
+        HELD.replace(**{"errors.pin_tangential": (5e-7, 0.0, 5e-7, 0.0)}),  # shares change by 0.03
+        pt.load_scene("paper"),
+        pt.load_scene("wind_turbine_stage"),
+    ],
+    ids=["moving", "no supports", "no load", "no errors", "small errors", "paper", "equal planets"],
+)
+def test_there_is_no_warning_where_shares_hardly_differ_or_nothing_is_known(scene):
+    assert held_axes_warning(scene) is None
+
+
+def test_three_planets_with_a_floating_sun_share_equally_whatever_their_errors():
+    # Evenly spaced planets: 30 + 69 teeth are divisible by 3.
+    angles = tuple(2.0 * np.pi * n / 3 for n in range(3))
+    three = HELD.replace(
+        **{
+            "gearset.teeth": {"sun": 30, "planet": 21, "ring": 72},
+            "gearset.planet_angles": angles,
+            "errors.pin_tangential": (-2e-5, 0.0, 0.0),
+        }
+    )
+    assert static_shares(three).moving == pytest.approx(1.0, abs=0.02)
+    assert held_axes_warning(three) is not None
