@@ -43,6 +43,26 @@ def test_energy_balances_whatever_is_held_and_driven(flow):
     assert imbalance(planar(flow), 1e-5) < 1e-6
 
 
+@pytest.mark.parametrize("flow", [FLOWS[3], FLOWS[4]], ids=flow_name)
+@pytest.mark.parametrize("slew", [500.0, -500.0])
+def test_energy_balances_while_a_fast_carrier_with_displaced_planets_changes_its_speed(flow, slew):
+    # The centrifugal force displaces planets by 0.2 mm, 1 % of their distance from the centre.
+    scene = planar(flow, {"bearing": 1e8}).replace(
+        **{
+            "supports.planet.mass": 1.5,
+            "gearset.planet_mass": 1.5,
+            "drive.speed_limit": 2600.0,
+            "drive.speed_control.start_speed": 1000.0,
+            "drive.speed_control.slew_rate": abs(slew),
+            "input_speed": 1000.0 + 0.1 * slew,
+        }
+    )
+    run = simulate(scene, 0.03, tolerance=1e-5)
+    assert abs(run.energy.kinetic) > 0.05 * run.energy.driving_work
+    assert abs(run.axes.displacement[:, 3:]).max() > 1e-4
+    assert abs(run.energy.residual) < 2e-6 * sum(map(abs, run.energy.machines))
+
+
 @pytest.mark.parametrize(
     "changes",
     [

@@ -218,10 +218,23 @@ inline double centrifugal_energy(const Train& train, double turning, const doubl
     return turning * turning * total;
 }
 
+// Reaction of planets that are displaced along their radius, on a carrier that is faster by `rate`
+// [rad/s]: the force that accelerates a planet acts at its displaced place.
+//
+// Without it, the moment of inertia would be that of planets in their places, but the centrifugal
+// forces would do work on displaced ones.
+inline void accelerate_displaced(const Train& train, double rate, State& state) {
+    const MovingAxes& axes = train.moving;
+    for (std::int64_t b = 0; b < axes.bearings; ++b)
+        state.v[train.carrier] -= axes.carried[b] * axes.mass[b] * state.x[axes.place[b][0]] *
+                                  rate / train.mass[train.carrier];
+}
+
 // Transform the displacements to a frame that is ahead by `angle` [rad] and faster by `rate`
 // [rad/s], after the rigid motion has been subtracted.
 inline void turn_displacements(const Train& train, double angle, double rate, State& state) {
     const MovingAxes& axes = train.moving;
+    accelerate_displaced(train, rate, state);
     auto [sine, cosine] = sin_cos(angle);
     for (std::int64_t b = 0; b < axes.bearings; ++b) {
         if (axes.leads[b] == 0) continue;

@@ -23,7 +23,7 @@ inline double kinetic(const Model& model, const State& state) {
         total += 0.5 * train.mass[j] * speed * speed;
     }
     if constexpr (MOVING) {
-        double turning = body_speed(train, state, state.v, train.moving.frame);
+        double turning = rigid_speed(train, state, train.moving.frame);
         total += centrifugal_energy(train, turning, state.x);
         if (!tilts(train)) return total;
         for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
