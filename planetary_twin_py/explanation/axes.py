@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from cmath import exp
-
 from ..gearset.phasing import mesh_phases
+from ..planar.held_axes import equal_planets
 from ..planar.load_sharing import load_sharing
 from ..scene import Scene
 
@@ -35,16 +34,7 @@ def meaning_of_held_axes(scene: Scene) -> str:
 
 def _in_balance(scene: Scene) -> bool:
     """Whether planets are equal, in phase, and evenly spaced, so that their forces balance."""
-    gearset, runout = scene.gearset, scene.mesh.runout
-    errors = [scene.errors.of_planet(i) for i in range(gearset.planets)]
-    uneven = scene.errors.of_axes or any(planet.uneven for planet in errors)
-    if uneven or scene.faults or runout.sun or runout.planet or runout.ring:
+    if not equal_planets(scene):
         return False
-    teeth = gearset.tooth_numbers
-    sun, ring = mesh_phases(teeth, gearset.planet_angles)
-    in_phase = all(phase % 1 == phases[0] % 1 for phases in (sun, ring) for phase in phases)
-    return in_phase and _evenly_spaced(gearset.planet_angles)
-
-
-def _evenly_spaced(angles: tuple[float, ...]) -> bool:
-    return len(angles) > 2 and abs(sum(exp(1j * angle) for angle in angles)) < 1e-6
+    sun, ring = mesh_phases(scene.gearset.tooth_numbers, scene.gearset.planet_angles)
+    return all(phase % 1 == phases[0] % 1 for phases in (sun, ring) for phase in phases)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import exp
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,17 @@ class Shares(NamedTuple):
     """With held axes."""
     moving: np.ndarray
     """With the bearings of `scene.supports`."""
+
+
+def equal_planets(scene: Scene) -> bool:
+    """Whether planets are evenly spaced, without errors, faults and runout."""
+    gearset, runout = scene.gearset, scene.mesh.runout
+    errors = [scene.errors.of_planet(i) for i in range(gearset.planets)]
+    uneven = scene.errors.of_axes or any(planet.uneven for planet in errors)
+    if uneven or scene.faults or runout.sun or runout.planet or runout.ring:
+        return False
+    angles = gearset.planet_angles
+    return len(angles) > 2 and abs(sum(exp(1j * angle) for angle in angles)) < 1e-6
 
 
 def static_shares(scene: Scene) -> Shares:
@@ -57,6 +69,8 @@ def held_axes_warning(scene: Scene) -> str | None:
         A sentence, or None.
     """
     if scene.moving_axes or scene.supports is None or scene.operating_point.input_torque == 0.0:
+        return None
+    if equal_planets(scene):  # also have equal shares
         return None
     try:
         held, moving = static_shares(scene)
