@@ -18,6 +18,7 @@ NB_MODULE(CORE_MODULE, m) {
     m.attr("SOURCES") = gearbox::SOURCES;
     m.attr("FUSES") = gearbox::FUSES;
     nanobind::set_leak_warnings(false);  // caches hold records until the interpreter ends
+    pthread_atfork(nullptr, nullptr, interpreter::forget_threads);
     nanobind::module_::import_("atexit").attr("register")(
         nanobind::cpp_function([] { interpreter::hold_threads(); }));
     gearbox::bind_records(m);

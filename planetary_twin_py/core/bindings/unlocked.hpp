@@ -7,6 +7,7 @@
 // process is gone.
 
 #include <Python.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -18,6 +19,11 @@ namespace interpreter {
 inline std::atomic<bool> ends{false};
 inline std::atomic<int> returning{0};  // number of threads that ask for the lock
 inline std::thread::id last_thread;    // which ends the interpreter
+
+// After a fork, no other thread asks for the lock of the new process.
+inline void forget_threads() {
+    returning = 0;
+}
 
 // Hold all other threads that return from the core from now on. Call it with the lock.
 inline void hold_threads() {
