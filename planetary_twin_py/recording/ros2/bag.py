@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import reprlib
+import shutil
 import tempfile
 import time
 from collections import Counter
@@ -54,7 +55,11 @@ class BagWriter:
         self._described: dict[str, Mapping[str, str]] = {}
         self._latched = Latched()
         self._finished: list[McapFile] = []
-        self._file = self._next_file()
+        try:
+            self._file = self._next_file()
+        except BaseException:  # Ctrl-C, for example: there is no recording then
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
 
     @property
     def file(self) -> Path:
@@ -142,6 +147,11 @@ class BagWriter:
     def abandon(self) -> None:
         """Close a file that is no longer writable, e.g. on a full disk."""
         self._file.abandon()
+
+    def discard(self) -> None:
+        """Delete the recording."""
+        self.abandon()
+        shutil.rmtree(self.folder, ignore_errors=True)
 
     def _next_file(self) -> McapFile:
         name = f"{self.folder.name}_{len(self._finished)}.mcap"

@@ -21,6 +21,7 @@ from planetary_twin_py.recording.ros2.bag import (
     free_folder,
     named_folder,
 )
+from planetary_twin_py.recording.ros2.mcap_file import McapFile
 from planetary_twin_py.recording.ros2.schema import message_definition
 
 _TYPES = {
@@ -119,3 +120,15 @@ def test_a_name_that_is_not_plain_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="must be a plain name"):
         named_folder(tmp_path, name)
     assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"
+
+
+def test_an_interrupt_while_the_first_file_is_created_leaves_no_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(file: McapFile) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(McapFile, "flush", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        BagWriter(tmp_path / "run")
+    assert list(tmp_path.iterdir()) == []

@@ -184,15 +184,21 @@ class Recorder:
             logger.info(text)
 
     def _open(self, sink: BagWriter | Ring) -> None:
-        if self._scene:
-            sink.attach("scene.yaml", self._scene, "application/yaml")
         self._sink = sink
-        self._topics = RecordedTopics(
-            self._node, self._options.topics, self._own, sink, self._fail, self._progressed
-        )
-        self._start = time.monotonic()
-        if self.file:
-            self._node.get_logger().info(f"recording into {self.file}")
+        try:
+            if self._scene:
+                sink.attach("scene.yaml", self._scene, "application/yaml")
+            self._topics = RecordedTopics(
+                self._node, self._options.topics, self._own, sink, self._fail, self._progressed
+            )
+            self._start = time.monotonic()
+            if self.file:
+                self._node.get_logger().info(f"recording into {self.file}")
+        except BaseException:  # Ctrl-C, for example: nothing has been recorded
+            self._sink = None
+            if isinstance(sink, BagWriter):
+                sink.discard()
+            raise
 
     def _bag_in_progress(self) -> BagWriter:
         if not isinstance(self._sink, BagWriter):

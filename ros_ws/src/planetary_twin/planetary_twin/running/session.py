@@ -64,18 +64,17 @@ def run_session(plan: Plan, console: Console) -> Outcome:
 def _run(plan: Plan, console: Console) -> Outcome:
     logger = Child("logger", plan.namespace, _logger_parameters(plan))
     with logger:
-        simulation = Child("simulation", plan.namespace, _simulation_parameters(plan))
-
-        def watch() -> None:
-            logger.check()
-            simulation.check()
-
-        with (
-            simulation,
-            Operator(plan.namespace, watch) as operator,
-            Show(console, plan.duration) as show,
-        ):
+        with contextlib.ExitStack() as stack:
             with _removed_on_failure(logger, plan.folder):
+                simulation = Child("simulation", plan.namespace, _simulation_parameters(plan))
+                stack.enter_context(simulation)
+
+                def watch() -> None:
+                    logger.check()
+                    simulation.check()
+
+                operator = stack.enter_context(Operator(plan.namespace, watch))
+                show = stack.enter_context(Show(console, plan.duration))
                 _begin(operator, simulation)
             interrupted = False
             with _named_on_failure(plan.folder):
