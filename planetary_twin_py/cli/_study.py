@@ -96,14 +96,16 @@ def write_results(
         write(table, out)
 
 
-def warn(table: pa.Table) -> None:
-    """Print the warnings that apply to the results of a study, a line each."""
+def warn(table: pa.Table, scene: Scene) -> None:
+    """Print the warnings that apply to the results of a study of `scene`, a line each."""
+    from ..planar.held_axes import held_axes_warning
     from ..studies.clipping import clipping_of_study
     from ..studies.energy_balance import unbalanced_runs
     from ..studies.inaccurate import inaccuracies
     from ..studies.turning import turning_of_study
 
     lines = (
+        held_axes_warning(scene),
         clipping_of_study(table),
         unbalanced_runs(table),
         *inaccuracies(table),

@@ -42,6 +42,7 @@ def bifurcation(
     check_suffix(out, TABLES + PICTURES)
     from pyarrow import compute as pc
 
+    from ..planar.held_axes import held_axes_warning
     from ..scene.unused import without_effect
     from ..studies.axes import Axis
     from ..studies.bifurcation import Dwell
@@ -67,6 +68,7 @@ def bifurcation(
     except (ValueError, OSError) as error:
         fail(error)
     runs = table.filter(pc.equal(table["cycle"], 0))
-    for line in (*without_effect(loaded, changes), *inaccuracies(runs)):
+    held = held_axes_warning(loaded)
+    for line in filter(None, (held, *without_effect(loaded, changes), *inaccuracies(runs))):
         remark(f"warning: {line}")
     typer.echo(f"{out}: {len(speeds.values)} speeds, rising and falling")

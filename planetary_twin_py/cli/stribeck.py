@@ -50,7 +50,7 @@ def stribeck(
         write_results(table, out, kind="stribeck")
     except (ValueError, OSError) as error:
         fail(error)
-    warn(table)
+    warn(table, loaded)
     oil = loaded.lubrication
     if oil.boundary == "greenwood_tripp" and oil.traction not in ("schlenk", "table"):
         remark(

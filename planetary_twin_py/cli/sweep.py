@@ -83,7 +83,7 @@ def sweep(
         fail(error)
     for line in _without_effect(study, fixed):
         remark(f"warning: {line}")
-    warn(table)
+    warn(table, loaded)
     failed = len(table) - table["failure"].null_count
     typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
 

@@ -38,6 +38,13 @@ def test_settings_apply_at_every_point(tmp_path):
     assert table["mesh_frequency"].to_pylist() == pytest.approx([5500.0, 6000.0], rel=1e-3)
 
 
+def test_a_study_with_held_axes_warns_if_bearings_would_change_the_shares(tmp_path):
+    given = ["--set", "dynamics=torsional", "--lambda-ratio", "1,2"]
+    done = run("floating_sun", *given, "--out", tmp_path / "study.csv", *QUICK)
+    assert done.exit_code == 0, done.output
+    assert "warning: dynamics = torsional holds all axes: planet 1 carries 3.64" in done.output
+
+
 def test_points_are_sampled_on_request(tmp_path):
     out = tmp_path / "study.csv"
     done = run("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
 from domains import private_domain
+from planetary_twin.accuracy_report import ACCURACY
 from planetary_twin.dynamics_report import DYNAMICS
 from planetary_twin.monitor import Monitor
 from planetary_twin.watching import follow
@@ -186,6 +187,30 @@ def test_a_node_picks_the_dynamics_of_a_scene_that_leaves_them_open_and_reports_
     peer.until(warned)
     now = report()
     assert now is not None and now.message.startswith("input_torque changed since; dynamics =")
+
+
+def test_a_node_with_held_axes_warns_while_the_load_makes_shares_wrong(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    scene = tmp_path / "held.yaml"
+    point = "operating_point: {input_torque: 0 N m}"
+    scene.write_text(f"base: floating_sun\nname: held\ndynamics: torsional\n{point}\n")
+    reports = listen_to_reports(peer)
+    start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={scene}")
+
+    def texts() -> list[str]:
+        return [
+            status.message
+            for message in reports[-1:]
+            for status in message.status
+            if is_status(status.name, ACCURACY)
+        ]
+
+    peer.until(lambda: texts() and "holds all axes" not in texts()[0], 120.0)
+    assert peer.set(f"{TWIN}/simulation", input_torque=63.0).successful
+    peer.until(lambda: texts() and "planet 1 carries 3.64 times its share" in texts()[0], 60.0)
+    assert peer.set(f"{TWIN}/simulation", input_torque=0.0).successful
+    peer.until(lambda: texts() and "holds all axes" not in texts()[0], 60.0)
 
 
 def test_a_twin_without_vibration_moves_its_axes_and_is_repeated_bit_for_bit(

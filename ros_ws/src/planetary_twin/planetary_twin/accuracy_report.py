@@ -18,8 +18,8 @@ class AccuracyReport:
     Checks the intervals since the last report as one run.
 
     The twin's thread adds intervals; the node's thread takes reports. `hardware` is the namespace
-    of the twin, the `hardware_id` of the status. `lasting` is a warning that applies to the whole
-    run.
+    of the twin, the `hardware_id` of the status. `lasting` is a warning that applies to all
+    intervals, until it is replaced.
     """
 
     def __init__(self, hardware: str) -> None:

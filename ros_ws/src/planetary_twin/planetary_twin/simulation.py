@@ -62,6 +62,7 @@ class Simulation(ManagedNode):
         self._given = SimulationParameters(self)
         self._ledger = LedgerReport(self.get_namespace())
         self._accuracy = AccuracyReport(self.get_namespace())
+        self._checked: pt.Scene | None = None  # by `_check_held_axes`
         self._telemetry: Telemetry | None = None
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._wait: SubscriptionWait | None = None
@@ -88,9 +89,7 @@ class Simulation(ManagedNode):
         self._backlog = Backlog(self, self._given.wait_for, self._telemetry.streamed, room)
         self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
         self._twin = self._new_twin()
-        self._accuracy.lasting = held_axes_warning(self._twin.scene)
-        if self._accuracy.lasting:
-            self.get_logger().warning(self._accuracy.lasting)
+        self._check_held_axes(self._twin)
         # Exclude the objects loaded so far from garbage collection: scanning them takes 0.1 s.
         gc.collect()
         gc.freeze()
@@ -281,11 +280,22 @@ class Simulation(ManagedNode):
                 message.status.append(self._commands.status(self.get_namespace()))
             return message
 
+        self._check_held_axes(self._running_twin())
         message = self._telemetry.diagnose(report_now)
         self._warn_of_other_publishers()
         if report.verdict != self._verdict:
             self._verdict = report.verdict
             self._log(message.status[0])
+
+    def _check_held_axes(self, twin: pt.Twin) -> None:
+        """Find out again whether axes may be held, if the load has changed."""
+        checked = twin.scene.model_copy(update={"operating_point": twin.operating_point})
+        if checked == self._checked:
+            return
+        self._checked = checked
+        before, self._accuracy.lasting = self._accuracy.lasting, held_axes_warning(checked)
+        if self._accuracy.lasting and not before:
+            self.get_logger().warning(self._accuracy.lasting)
 
     def _warn_of_other_publishers(self) -> None:
         """Warn once of each other publisher of the state: subscribers receive both."""
