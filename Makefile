@@ -29,9 +29,8 @@ run: setup
 PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=5 --dist=loadfile --no-loadscope-reorder
 
 test:
-	@echo "tests of every feature, and lint beside them: about 6 minutes on 2 idle cores"
-	@$(MAKE) --no-print-directory setup
-	@$(MAKE) --no-print-directory --jobs=2 lint test-features
+	@echo "tests of every feature: five to six minutes on 2 idle cores"
+	@$(MAKE) --no-print-directory test-features
 
 test-features: setup
 	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
@@ -41,7 +40,7 @@ test-features: setup
 test-all:
 	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
 	@$(MAKE) --no-print-directory test
-	@$(MAKE) --no-print-directory test-cosimulation
+	@$(MAKE) --no-print-directory lint test-cosimulation
 	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),300)
 
 test-exhaustive: setup

@@ -103,6 +103,7 @@ def test_explain_and_simulate_print_the_same_figures_of_the_same_run(name):
     assert explained[0]["remarks"] == explained[1]["remarks"]
 
 
+@pytest.mark.exhaustive
 def test_a_crack_shows_in_the_peaks_of_a_turn_that_means_do_not_show():
     """The cracked tooth yields more, in one of thirty mesh cycles of each planet."""
     found = explain(pt.load_scene("cracked_tooth"), 0.06)

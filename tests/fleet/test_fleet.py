@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from fleet.fleets import Played, paper
-from tiers import first
 
 from planetary_twin_py.fleet.cusums import Cusums, limit
 from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
@@ -41,7 +40,8 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
 
 
-@pytest.mark.parametrize("gain", first(1, [-0.1, 0.1]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("gain", [-0.1, 0.1])
 def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(gain):
     played = Played(20, 1)
     played.gain[1][:5] += gain

@@ -39,7 +39,7 @@ def viewers():
     return [child for child in psutil.Process().children(recursive=True) if "rerun" in child.name()]
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver on this machine")
 def test_the_picture_shows_gears_on_the_left_and_follows_the_time_cursor(rrd, tmp_path):
     pictures = []

@@ -87,7 +87,7 @@ def test_an_estimate_at_the_end_of_its_range_is_remarked_upon(tmp_path):
     assert any("is at the end of its range, 0" in line for line in course_remarks(found))
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_run_of_the_rig_predicts_its_end_within_a_second_of_processor_time_per_second():
     scene = pt.load_scene("compact_actuator")
     found = fit_course(

@@ -17,7 +17,7 @@ def find(path, *free, begin=None, end=None, **search):
     return identify(path, Search(free, start=start, **search), begin=begin, end=end)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_rattle_identifies_the_backlash(tmp_path):
     errors = []
     for seed in range(3):
