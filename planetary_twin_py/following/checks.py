@@ -116,7 +116,14 @@ class Checks:
         loaded &= np.isfinite(input_torque) & np.isfinite(output_torque) & (input_torque != 0.0)
         if loaded.any():
             ratio = float(np.median(output_torque[loaded] / input_torque[loaded]))
-            yield from self._torque_fault(ratio, float(np.median(np.abs(input_torque[loaded]))))
+            size = float(np.median(np.abs(input_torque[loaded])))
+            yield from self._torque_fault(ratio, size)
+            if size > 1.2 * train.torque_limit:
+                yield (
+                    f"input_torque = {size:.4g}: exceeds drive.torque_limit = "
+                    f"{train.torque_limit:.4g} N m; if torques are in N mm, scale input_torque "
+                    "and output_torque by 0.001"
+                )
         yield from self._negative_loss(input_torque, output_torque, speed_in, speed_out)
 
     def _negative_loss(

@@ -24,6 +24,8 @@ class FollowedTrain(NamedTuple):
     """Magnitude of the input speed of the scene [rad/s]; a tenth of its limit if it is zero."""
     speed_limit: float
     """Largest speed of the input [rad/s]."""
+    torque_limit: float
+    """Largest torque of a motor [N m]."""
     oil_temperature: float
     """Oil temperature of the scene [K]."""
     members: tuple[str, str]
@@ -68,6 +70,7 @@ def followed_train(scene: Scene) -> FollowedTrain:
         torque=abs(point.input_torque) or 0.1 * scene.drive.torque_limit,
         speed=abs(point.input_speed) or 0.1 * scene.drive.speed_limit,
         speed_limit=scene.drive.speed_limit,
+        torque_limit=scene.drive.torque_limit,
         oil_temperature=point.oil_temperature,
         members=members,
         cycles=mesh_cycles_per_turn(numbers, {name: ratios[name] for name in (*CENTRAL, "planet")}),

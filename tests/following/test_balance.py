@@ -17,6 +17,7 @@ from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
 
+RPM = 30.0 / np.pi
 DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found
 
 
@@ -240,6 +241,29 @@ def test_a_decrease_by_more_than_all_friction_is_not_one_of_friction():
     follower.add(time, columns)
     (event,) = follower.events
     assert event.size.value < -1.2 and event.causes and "friction" not in event.causes
+
+
+@pytest.mark.parametrize(
+    "factors, question",
+    [
+        ({}, None),
+        ({"input_torque": 1e-3, "output_torque": 1e-3}, "is the unit of both torques right"),
+        ({"input_speed": RPM, "output_speed": RPM}, "A reading in rpm is 9.55 times"),
+    ],
+)
+def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
+    scene = paper().replace(input_speed="200 rpm")  # in rpm below the limit of speed in rad/s
+    _, time, columns = played("steady", {}, 8.0, 1)
+    slow = {"input_speed": 0.2, "output_speed": 0.2}
+    columns = {
+        name: values * factors.get(name, 1.0) * slow.get(name, 1.0)
+        for name, values in columns.items()
+    }
+    follower = BalanceFollower(scene)
+    follower.add(time, columns)
+    lines = [line for line in follower.remarks() if "unit" in line]
+    assert len(lines) == (question is not None)
+    assert all(question in line for line in lines)
 
 
 def test_stamps_in_a_wrong_unit_are_remarked():

@@ -22,6 +22,9 @@ WRONG = {
     ),
     "torque in N mm": ({"output_torque": 1e3}, "output_torque is probably in N mm"),
     "torque in kN m": ({"input_torque": 1e-3}, "input_torque is probably in kN m"),
+    "both torques in N mm": (
+        {"input_torque": 1e3, "output_torque": 1e3}, "if torques are in N mm, scale input_torque",
+    ),
     "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "probably degC"),
     "exchanged shafts": (
         {"input_speed": -3 / 7, "output_speed": -7 / 3}, "input and output are exchanged",
