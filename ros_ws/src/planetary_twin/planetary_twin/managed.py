@@ -17,6 +17,7 @@ from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 
 from planetary_twin_py.scene.names import did_you_mean
 
+from .ending import shut_down
 from .heap import return_freed_memory
 from .namesakes import Namesakes
 from .parameter_node import ParameterNode
@@ -93,7 +94,7 @@ class ManagedNode(ParameterNode):
         """
         if self._autostart:
             self.failure = reason
-            rclpy.try_shutdown(context=self.context)
+            shut_down(self.context)
         else:
             self.executor.create_task(self._break_down, reason)
 
@@ -248,15 +249,14 @@ def _run_to_end(
         if rclpy.ok():
             raise
     finally:
-        if rclpy.ok():  # otherwise rclpy's signal thread shuts down; two at once would collide
-            rclpy.try_shutdown()
+        shut_down()
         SIGNALS.stop.set()
         for thread in (waker, *beside):
             thread.join()
         for name, node in nodes.items():
             if failure := _end(node):
                 failures[name] = failure
-        rclpy.try_shutdown()
+        shut_down()
         SIGNALS.ignore()
     return refusals, failures
 
@@ -295,7 +295,7 @@ def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
         if rclpy.ok():  # otherwise rcl refused the callback because ROS has been shut down
             node.get_logger().error(traceback.format_exc())
             node.failure = f"{type(defect).__name__}: {defect}"
-            rclpy.try_shutdown()
+            shut_down()
 
 
 def _initialize(args: list[str] | None) -> None:

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import rclpy
 from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
@@ -22,6 +21,7 @@ from planetary_twin_py.plant.hidden import Hidden, read_hidden
 from planetary_twin_py.plant.readings import Plant as Played
 from planetary_twin_py.plant.timeline import Measured, timeline
 
+from .ending import shut_down
 from .managed import ManagedNode, run_node
 from .parameters import declare_bounded, declare_fixed
 from .plant_player import PlantMessages, PlantPlayer
@@ -124,7 +124,7 @@ class Plant(ManagedNode):
         for publisher in self._outlets.values():
             publisher.wait_for_all_acked(_LAST)
         self.get_logger().info("the run has ended")
-        rclpy.try_shutdown(context=self.context)
+        shut_down(self.context)
 
     def _hidden(self, name: str, scene: pt.Scene) -> Hidden:
         if not name:

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
-import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.logging import get_logger
 from rclpy.parameter import Parameter
@@ -17,6 +16,7 @@ from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
 from planetary_twin_py.recording.ros2.playback import Playback, TimedMessage
 from planetary_twin_py.recording.ros2.renaming import moved
 
+from .ending import shut_down
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets
 from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
@@ -163,7 +163,7 @@ class Replay(ManagedNode):
     def ended(self) -> None:
         """End the process once subscribers have acknowledged the last messages."""
         self._outlets.wait(_DELIVERY)
-        rclpy.try_shutdown(context=self.context)
+        shut_down(self.context)
 
     def stopped(self, defect: Exception) -> None:
         """End the process with the reason, unless a signal has shut down ROS."""
