@@ -16,7 +16,13 @@ from ...scene import Scene
 from .course import FEWEST, Array, Course, read_course
 from .course_model import CourseModel
 from .estimate import Estimate, conclude
-from .least_squares import Minimum, differentiate, minimise
+from .least_squares import (
+    Minimum,
+    Residuals,
+    differentiate,
+    minimise,
+    with_initial_magnitudes,
+)
 from .parameter import Parameter, read_parameters
 from .residual_runs import Runs, count_runs
 
@@ -101,6 +107,7 @@ def fit_course(
         )
     parameters = read_parameters(scene, free, start or {})
     model = CourseModel(scene, tuple(free), report)
+    parameters = with_initial_magnitudes(_scaled_by_start(model, course, parameters), parameters)
     minimum, noise, correlation = _minimise(model, course, parameters)
     weight = _weight(noise, correlation)
     freedom = max(len(course.time) * (1.0 - correlation) / (1.0 + correlation), 2.0)
@@ -115,6 +122,15 @@ def fit_course(
         scene, parameters, estimate, course, simulated, noise, correlation, runs, held_out,
         predicted, reach, model.count, time.process_time() - began,
     )  # fmt: skip
+
+
+def _scaled_by_start(
+    model: CourseModel, course: Course, parameters: tuple[Parameter, ...]
+) -> Residuals:
+    """Residuals, divided by their root mean square at the start."""
+    (first,) = model.residuals(course, 1.0)([np.array([p.start for p in parameters])])
+    size = 1.0 if first is None else math.sqrt(float(np.mean(first**2)))
+    return model.residuals(course, 1.0 / max(size, LEAST))
 
 
 def _minimise(

@@ -117,3 +117,19 @@ def test_a_part_that_overlaps_is_refused(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "run-up")
     with pytest.raises(ValueError, match="overlaps the fitted part"):
         fit_course(path, SCENE, (DRAG,), span=(0.0, 15.0), hold_out=(10.0, 20.0))
+
+
+def test_a_drag_that_starts_at_zero_is_found_as_from_another_start(tmp_path):
+    scene = pt.load_scene("paper")
+    true = scene.replace(**{DRAG: 0.03})
+    train, losses = followed_train(true), LossMap(true)
+    time = np.arange(1, 501) / RATE
+    torque, speed = np.full(len(time), 63.0), np.full(len(time), pt.rpm(1000))
+    lost = sum(losses(63.0, pt.rpm(1000), train.oil_temperature)[::2])
+    table = {"time": time, "input_speed": speed}
+    table["input_torque"] = torque + NOISE * np.random.default_rng(1).standard_normal(len(time))
+    table["output_torque"] = (lost - torque) / train.ratio
+    savemat(tmp_path / "rig.mat", table)
+    for start in (None, {DRAG: 0.2}):
+        (drag,) = fit_course(tmp_path / "rig.mat", scene, (DRAG,), start=start).estimate.values
+        assert drag == pytest.approx(0.03, abs=0.004)
