@@ -1,4 +1,4 @@
-"""ROS is shut down once, whoever is first."""
+"""ROS is shut down once, by a signal or by the node."""
 
 from __future__ import annotations
 
