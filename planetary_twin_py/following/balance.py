@@ -39,8 +39,8 @@ from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
 from .merging import Merge
 from .sensors import Sensors, torque_gain, torque_noise, torque_zero
-from .sizes import Sizes
 from .train import followed_train
+from .unit_remarks import UnitRemarks
 from .variety import Variety
 from .vibration import Turning
 
@@ -163,7 +163,7 @@ class BalanceFollower:
             torque_gain(self.sensors),
         )
         self._cusum, self._refusals, self._spacing = Cusum(), _Refusals(), _Spacing()
-        self._sizes = Sizes(self.train)
+        self._unit_remarks = UnitRemarks(self.scene.operating_point)
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
         self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
@@ -213,7 +213,7 @@ class BalanceFollower:
         self.time = (time_bin.number + 1) * self.period
         self._spacing.add(self.time)
         read = self._measured(time_bin)
-        self._sizes.add(read.input_torque, read.speed)
+        self._unit_remarks.add(read.input_torque, read.speed)
         if math.isfinite(read.input_torque):
             self._torques.add(self.time, read.input_torque)
         if math.isfinite(read.speed):
@@ -428,7 +428,7 @@ class BalanceFollower:
             )
         yield from self.counters.remarks()
         yield from self._spacing.remarks(self.period)
-        yield from self._sizes.remarks()
+        yield from self._unit_remarks.remarks()
         if self.gated:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"
 

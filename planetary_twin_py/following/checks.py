@@ -16,6 +16,7 @@ RPM = 30.0 / math.pi
 NEAR = 0.02  # relative deviation within which two speed ratios agree
 EFFICIENCY = 0.3, 1.15  # plausible range of a torque ratio over that without loss
 LOADED = 0.2  # share of the torque of the scene below which torques are not compared
+EXCESS = 10.0  # multiple of the torque limit that no overload reaches, but a wrong unit does
 SMALL = 0.05  # share of the torque of the scene below which a unit may be 1000 times too large
 MOVING = 0.05  # share of the speed of the scene below which speeds are not compared
 CELSIUS = 200.0  # below this, a temperature is not in kelvin
@@ -118,9 +119,9 @@ class Checks:
             ratio = float(np.median(output_torque[loaded] / input_torque[loaded]))
             size = float(np.median(np.abs(input_torque[loaded])))
             yield from self._torque_fault(ratio, size)
-            if size > 1.2 * train.torque_limit:
+            if size > EXCESS * train.torque_limit:
                 yield (
-                    f"input_torque = {size:.4g}: exceeds drive.torque_limit = "
+                    f"input_torque = {size:.4g} N m: exceeds {EXCESS:g} times drive.torque_limit = "
                     f"{train.torque_limit:.4g} N m; if torques are in N mm, scale input_torque "
                     "and output_torque by 0.001"
                 )

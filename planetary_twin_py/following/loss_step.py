@@ -65,7 +65,7 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     inner = covariance @ np.linalg.inv(np.eye(len(covariance)) + slopes.T @ slopes @ covariance)
     along = _from_each(shapes[:, :, None] * slopes[:, None, :])  # (n, causes, parameters)
     square = _from_each(shapes**2) - np.einsum("nci,ij,ncj->nc", along, inner, along)
-    square = np.where(square > 0.0, square, np.inf)  # readings that say nothing have no weight
+    square = np.where(square > 0.0, square, np.inf)  # round-off: no information, so no weight
     product = _from_each(shapes * value[:, None]) - along @ inner @ (slopes.T @ value)
     amount = product / square
     score = 0.5 * product * amount - 0.5 * np.log(square)

@@ -248,7 +248,7 @@ def test_a_decrease_by_more_than_all_friction_is_not_one_of_friction():
     [
         ({}, None),
         ({"input_torque": 1e-3, "output_torque": 1e-3}, "is the unit of both torques right"),
-        ({"input_speed": RPM, "output_speed": RPM}, "A reading in rpm is 9.55 times"),
+        ({"input_speed": RPM, "output_speed": RPM}, "is the unit of both speeds right"),
     ],
 )
 def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
@@ -264,6 +264,16 @@ def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
     lines = [line for line in follower.remarks() if "unit" in line]
     assert len(lines) == (question is not None)
     assert all(question in line for line in lines)
+
+
+def test_a_gearbox_at_standstill_and_a_scene_without_load_cause_no_question_about_units():
+    _, time, columns = played("steady", {}, 8.0, 1)
+    zero = {name: 0.0 * values for name, values in columns.items() if name != "oil_temperature"}
+    unloaded = paper().replace(input_torque=0.0, input_speed=0.0)
+    for scene, readings in ((paper(), columns | zero), (unloaded, columns)):
+        follower = BalanceFollower(scene)
+        follower.add(time, readings)
+        assert not any("unit" in line for line in follower.remarks())
 
 
 def test_stamps_in_a_wrong_unit_are_remarked():

@@ -10,10 +10,13 @@ import time
 from pathlib import Path
 
 import pytest
+import rclpy
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
+from planetary_twin.shutdown import shut_down
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from planetary_twin_msgs.srv import Step
+from rclpy.context import Context
 from std_srvs.srv import SetBool
 
 from .conftest import Start
@@ -173,3 +176,26 @@ def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
     second.terminate()
     ended_well(second)
     assert counts(tmp_path / "recordings/second")[STATES] > before + 50
+
+
+@pytest.mark.parametrize("faster", [True, False])
+def test_a_signal_that_is_faster_is_no_failure_and_another_error_of_rcl_is(
+    monkeypatch: pytest.MonkeyPatch, faster: bool
+) -> None:
+    context = Context()
+    rclpy.init(context=context)
+
+    def refused(context: Context) -> None:
+        if faster:
+            context.try_shutdown()
+        raise RuntimeError("rcl_shutdown failed")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(rclpy, "try_shutdown", refused)
+        if faster:
+            shut_down(context)
+        else:
+            with pytest.raises(RuntimeError, match="rcl_shutdown failed"):
+                shut_down(context)
+    shut_down(context)
+    assert not context.ok()

@@ -17,11 +17,11 @@ from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 
 from planetary_twin_py.scene.names import did_you_mean
 
-from .ending import shut_down
 from .heap import return_freed_memory
 from .namesakes import Namesakes
 from .parameter_node import ParameterNode
 from .parameters import brief, declare_at_start
+from .shutdown import shut_down
 from .signals import SIGNALS
 from .stamps import STEADY
 from .standard_error import nonblocking_stderr

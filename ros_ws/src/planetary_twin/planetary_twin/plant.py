@@ -21,10 +21,10 @@ from planetary_twin_py.plant.hidden import Hidden, read_hidden
 from planetary_twin_py.plant.readings import Plant as Played
 from planetary_twin_py.plant.timeline import Measured, timeline
 
-from .ending import shut_down
 from .managed import ManagedNode, run_node
 from .parameters import declare_bounded, declare_fixed
 from .plant_player import PlantMessages, PlantPlayer
+from .shutdown import shut_down
 from .subscription_wait import SubscriptionWait
 
 _TOPICS = {

@@ -16,13 +16,13 @@ from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
 from planetary_twin_py.recording.ros2.playback import Playback, TimedMessage
 from planetary_twin_py.recording.ros2.renaming import moved
 
-from .ending import shut_down
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets
 from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from .parameters import declare_bounded, declare_changing, declare_fixed
 from .playing import Excerpt, Player
 from .playing_services import PlayingServices
+from .shutdown import shut_down
 
 # Participants discover each other at once, or, if a packet of the first exchange was lost, at the
 # next announcement: every 3 s. An existing subscriber must not miss the first messages.

@@ -1,4 +1,4 @@
-"""Shuts ROS down, though a signal may do so at the same moment."""
+"""Shuts ROS down; a signal may do so at the same moment."""
 
 from __future__ import annotations
 
