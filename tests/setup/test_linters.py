@@ -10,13 +10,11 @@ ROOT = Path(__file__).parents[2]
 PACKAGES = [str(ROOT / "ros_ws/src/planetary_twin"), str(ROOT / "msgs_spec")]
 
 
-@pytest.mark.exhaustive
 def test_flake8_of_ament_finds_nothing() -> None:
     code, errors = flake8(argv=PACKAGES)
     assert code == 0, "\n".join(errors)
 
 
-@pytest.mark.exhaustive
 def test_pep257_of_ament_finds_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     assert pep257(argv=PACKAGES) == 0, capsys.readouterr().err
 

@@ -8,13 +8,9 @@ from rclpy.context import Context
 
 def shut_down(context: Context | None = None) -> None:
     """
-    Shut a context down, unless it is already shut down.
+    Shut `context`, or the default one of rclpy, down unless it is already shut down.
 
-    Args:
-        context: the context; the default one of rclpy if it is left out.
-
-    Raises:
-        RuntimeError: rcl fails, and the context is still valid.
+    Raises `RuntimeError` if rcl fails and the context is still valid.
     """
     try:
         rclpy.try_shutdown(context=context)
