@@ -17,7 +17,7 @@ from .dynamics.static_load import static_torques
 from .given_numbers import check_number
 from .integrators.clock import TICKS
 from .scene import Scene
-from .scene.drive import Causality
+from .scene.drive import Causality, Ports
 
 NAMES = (
     "input_torque",
@@ -62,11 +62,11 @@ class Command(NamedTuple):
         for name, value in self.values.items():
             check_number(name, value, UNITS[name.split("_")[1]])
 
-    def check(self, scene: Scene, ranges: PortRanges) -> None:
-        """Check that the ports of a scene accept this command.
+    def check(self, ports: Ports, ranges: PortRanges) -> None:
+        """Check that ports accept this command.
 
         Args:
-            scene: the scene, with its present ports.
+            ports: what acts on the shafts.
             ranges: from `port_ranges`.
 
         Raises:
@@ -77,7 +77,7 @@ class Command(NamedTuple):
                 continue
             side, quantity = name.split("_")
             field, needed = f"drive.{side}.port", CAUSALITIES[quantity]
-            port = getattr(scene.drive.ports, side)
+            port = getattr(ports, side)
             if port != needed:
                 raise ValueError(f"{name} = {value!r}: requires {field} = {needed!r}, not {port!r}")
             if quantity == "position":

@@ -37,7 +37,7 @@ class DrivenRun:
         if not isinstance(run, DrivenEngine):
             raise SceneError(f"dynamics = {scene.dynamics!r}: does not allow commands")
         for action in self._pending:
-            action.command.check(scene, run.port_ranges)
+            action.command.check(scene.drive.ports, run.port_ranges)
 
     def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
         """Simulate until `until`, see `Run.advance`.

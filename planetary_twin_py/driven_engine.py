@@ -147,7 +147,7 @@ class DrivenEngine(Engine):
             ValueError: a value is no number, is out of range, or is not given at its port.
         """
         command.check_numbers()
-        command.check(self.scene, self.port_ranges)
+        command.check(self.scene.drive.ports, self.port_ranges)
         duration = (end - begin) / TICKS
         command.check_positions(self.port_states(begin), duration, self.port_ranges)
 

@@ -2,6 +2,7 @@
 
 The residual of the energy balance is an error of the integration, and the losses are uncertain by
 the same amount. It must be at most 1 % of the loss, or 1e-5 of the turnover if losses are small.
+At standstill all of these vanish; residuals far below any energy in a gearbox are allowed.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from .window import Window
 OF_LOSS = 0.01  # allowed residual/loss
 OF_TURNOVER = 1e-5  # allowed residual/turnover, for trains with small losses
 OF_STORED = ROUNDING  # allowed residual/stored energy
+FLOOR = 1e-15  # [J] allowed at standstill; a tooth pressed by 1 mN stores about that energy
 
 
 class LedgerWarning(UserWarning):
@@ -38,11 +40,9 @@ class Balance(NamedTuple):
     def excess(self) -> float:
         """Residual over allowed residual; the ledger balances if it is at most 1."""
         allowed = max(
-            OF_LOSS * abs(self.loss), OF_TURNOVER * self.turnover, OF_STORED * self.stored
+            OF_LOSS * abs(self.loss), OF_TURNOVER * self.turnover, OF_STORED * self.stored, FLOOR
         )
-        if self.residual == 0.0:
-            return 0.0
-        return abs(self.residual) / allowed if allowed > 0.0 else math.inf
+        return abs(self.residual) / allowed
 
     def joined(self, other: Balance) -> Balance:
         """Balance of this part of a run together with the following part.

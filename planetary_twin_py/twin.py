@@ -10,7 +10,7 @@ from .accuracy import Course, Settling, course_so_far, unsettled
 from .brief import brief
 from .commands import NOTHING, Command, CommandLog, Commands
 from .driven_engine import DrivenEngine
-from .dynamics.bodies import body_names, build_report, mesh_names
+from .dynamics.bodies import LOAD_MACHINE, MOTOR, body_names, build_report, mesh_names
 from .dynamics.library import library
 from .given_numbers import check_number
 from .integrators.clock import TICKS
@@ -154,6 +154,32 @@ class Twin:
             ValueError: the scene is quasi-static.
         """
         return self._driven().port_states(self._ticks)
+
+    @property
+    def speed_limits(self) -> tuple[float, float]:
+        """Largest speeds of commands for the input and the output shaft [rad/s].
+
+        Raises:
+            ValueError: the scene is quasi-static.
+        """
+        most = self._driven().port_ranges.speed
+        return float(most[MOTOR]), float(most[LOAD_MACHINE])
+
+    def check_command(self, command: Command, ports: Ports, duration: float) -> None:
+        """Check that ports accept a command from the current time on.
+
+        Args:
+            command: values at the ports.
+            ports: what acts on the shafts.
+            duration: time in which positions are reached [s]; 0: positions are not checked.
+
+        Raises:
+            ValueError: a value is out of range, or is not given at its port.
+        """
+        ranges = self._driven().port_ranges
+        command.check(ports, ranges)
+        if duration:
+            command.check_positions(self.port_states, duration, ranges)
 
     def set(self, **changes: Any) -> float:
         """Change fields of the operating point, and ports, at the current time.

@@ -15,6 +15,7 @@ from ..terminal.output_files import PICTURES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
 
+LARGE_SHARE = 0.45  # of the torque; at 0.5 the branches end
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -33,7 +34,8 @@ def lost_motion(
         ),
     ] = None,
     share: Annotated[
-        float, typer.Option(help="Part of the torque at which lost motion is measured.")
+        float,
+        typer.Option(help="Part of the torque at which lost motion is measured, below 0.5."),
     ] = 0.03,
     set_: SetOption = None,
     picture: Annotated[
@@ -71,7 +73,7 @@ def lost_motion(
     if not found.hysteresis_resolved:
         remark(
             f"warning: the hysteresis is not resolved: twists are read to "
-            f"{math.degrees(found.resolution):.2g} deg; measure it at a larger --share"
+            f"{math.degrees(found.resolution):.2g} deg; {_better(found)}"
         )
     if picture is not None:
         from ..plots.lost_motion import lost_motion_diagram
@@ -87,11 +89,26 @@ def _print(console: Console, found: LostMotion, largest: float) -> None:
     for name, value in (
         ("largest torque on the output [N m]", largest),
         (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),
-        (f"hysteresis at {100 * found.share:g} % of it [deg]", math.degrees(found.hysteresis)),
+        (f"hysteresis at {100 * found.share:g} % of it [deg]", _hysteresis(found)),
         ("torsional stiffness, half to full torque [N m/rad]", found.stiffness),
         ("the same, motor to load with couplings [N m/rad]", found.stiffness_with_couplings),
     ):
-        console.print(f"{name:<52}{value:.6g}", highlight=False, markup=False)
+        shown = value if isinstance(value, str) else f"{value:.6g}"
+        console.print(f"{name:<52}{shown}", highlight=False, markup=False)
+
+
+def _hysteresis(found: LostMotion) -> float | str:
+    """Hysteresis [deg], or its upper bound if it is not resolved."""
+    if found.hysteresis_resolved:
+        return math.degrees(found.hysteresis)
+    return f"below {math.degrees(found.hysteresis + 2.0 * found.resolution):.2g}"
+
+
+def _better(found: LostMotion) -> str:
+    """What would resolve the hysteresis: friction grows with the torque, the resolution also."""
+    if found.share < LARGE_SHARE:
+        return f"measure it at a larger --share, up to {LARGE_SHARE:g}"
+    return "this friction is too small for this test"
 
 
 def _figures(found: LostMotion) -> dict[str, object]:

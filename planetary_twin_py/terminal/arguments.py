@@ -40,10 +40,10 @@ def complete_setting(incomplete: str) -> list[str]:
 
 
 def complete_parameter(incomplete: str) -> list[str]:
-    """Fields of the operating point, which a running twin can change."""
-    from ..scene import TUNABLES
+    """Parameters of a running twin that can change."""
+    from ..scene.live import LIVE
 
-    return [name for name in TUNABLES if name.startswith(incomplete)]
+    return [name for name in (*LIVE, "tolerance") if name.startswith(incomplete)]
 
 
 def _recordings(folder: Path) -> Iterator[Path]:

@@ -84,5 +84,5 @@ def ignored(diagnostics: list[DiagnosticArray]) -> set[str] | None:
     for array in reversed(diagnostics):
         for status in array.status:
             if "commands" in status.name:
-                return {each.key for each in status.values}
+                return {each.key for each in status.values if each.key.startswith("ignored")}
     return None

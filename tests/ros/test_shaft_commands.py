@@ -230,8 +230,65 @@ def test_the_report_counts_what_was_ignored_and_names_the_silence() -> None:
     assert [(v.key, v.value) for v in status.values] == [("ignored: repeated or out of order", "1")]
     assert received().status("/twin").message == "no command yet"
     silent = received(command((1.0, 2.0)), timeout=1e-3)
+    torques(silent)
     time.sleep(0.01)
     assert silent.status("/twin").message.endswith("s: hold")
+
+
+def test_a_fault_is_reported_once_with_its_reason() -> None:
+    commands = received(command((1.0, 2.0)), command((1e9, 2.0)))
+    torques(commands)
+    first, second = commands.status("/twin"), commands.status("/twin")
+    assert (ord(first.level), ord(second.level)) == (1, 0)
+    assert first.message.startswith(
+        "without effect since the last report: 1 out of range (input_torque = 1000000000.0 N m: "
+        "must be within"
+    )
+    assert second.message == "received; none yet for sun_joint"
+    assert [(each.key, each.value) for each in second.values] == [("ignored: out of range", "1")]
+
+
+def test_a_misspelt_joint_is_named_while_its_shaft_has_no_command() -> None:
+    commands = received(JointState(name=[SUN, "rin_joint"], effort=[1.0, 2.0]))
+    assert torques(commands) == {"input_torque": 1.0}
+    status = commands.status("/twin")
+    assert ord(status.level) == 1
+    assert status.message == (
+        "no command yet for ring_joint, but one for 'rin_joint', which is not a joint of a shaft"
+    )
+    commands.receive(command((1.0, 2.0)))
+    torques(commands)
+    assert (ord(commands.status("/twin").level), commands.status("/twin").message) == (
+        0,
+        "received",
+    )
+
+
+def test_messages_with_fewer_values_than_names_are_counted() -> None:
+    """ros2_control sends them, if only the first joint has a command."""
+    commands = received(JointState(name=[SUN, RING], effort=[1.0]))
+    assert torques(commands) == {"input_torque": 1.0}
+    status = commands.status("/twin")
+    assert (ord(status.level), status.message) == (0, "received; none yet for ring_joint")
+    assert [(each.key, each.value) for each in status.values] == [("fewer values than names", "1")]
+
+
+def test_a_command_out_of_range_leaves_the_other_joint_its_own() -> None:
+    assert torques(received(command((1e9, 2.0)))) == {"output_torque": 2.0}
+
+
+def test_a_shaft_faster_than_the_limit_of_commands_is_reported() -> None:
+    ports = {"drive.input.port": "torque", "drive.output.port": "torque"}
+    fast = pt.Twin(PAPER.replace(**ports, **{"drive.speed_limit": 105.0}))
+    commands = received()
+    for _ in range(8):
+        fast.advance(0.01, **commands.given(fast, 0.01), input_torque=150.0)
+    assert fast.port_states.input_speed > 105.0
+    commands.given(fast, 0.01)
+    status = commands.status("/twin")
+    assert ord(status.level) == 1
+    assert status.message.startswith("speed of the input shaft = ")
+    assert "rad/s: exceeds 105 rad/s, from drive.speed_limit; speed of the output" in status.message
 
 
 def test_late_commands_have_no_effect() -> None:
@@ -295,6 +352,24 @@ def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:
     assert f"no command for {RING} for" in watched.status("/twin").message
 
 
+@pytest.mark.parametrize(
+    "refused",
+    [command((1e9, -1e9)), JointState(name=[SUN, RING], velocity=[1.0, 1.0])],
+    ids=["out of range", "not of the port"],
+)
+def test_refused_commands_do_not_keep_a_brake_off(clock: list[float], refused: JointState) -> None:
+    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
+    commands.given(braked, 0.01)
+    for clock[0] in (0.3, 0.6):
+        commands.receive(refused)
+        given = commands.given(braked, 0.01)
+    assert braked.ports == ("motion", "torque")
+    assert given["input_speed"] < pt.rpm(1000)
+    commands.receive(refused)
+    assert "output_torque" in commands.given(braked, 0.01)
+    assert braked.ports == ("motion", "torque")
+
+
 def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> None:
     commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
     assert commands.given(braked, 0.01) == {"input_torque": 63.0, "output_torque": 147.0}
@@ -344,10 +419,14 @@ def test_positions_are_those_of_joint_states(continuous: bool) -> None:
     moved.advance(0.1)  # more than a turn and a half
     angle = moved.port_states.input_angle
     assert angle > 1.5 * 2.0 * math.pi
-    message = JointState(name=[SUN], position=[math.remainder(angle, 2.0 * math.pi) + 0.1])
+    within_a_turn = math.remainder(angle, 2.0 * math.pi) + 0.1
+    message = JointState(name=[SUN], position=[angle + 0.1 if continuous else within_a_turn])
     given = received(message, continuous=continuous).given(moved, 0.01)
-    expected = message.position[0] if continuous else angle + 0.1
-    assert given == {"input_position": pytest.approx(expected, abs=1e-12)}
+    assert given == {"input_position": pytest.approx(angle + 0.1, abs=1e-12)}
+    if continuous:
+        far = received(JointState(name=[SUN], position=[within_a_turn]), continuous=True)
+        assert far.given(moved, 0.01) == {}
+        assert far.ignored == {"out of range": 1}
 
 
 def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:

@@ -62,6 +62,15 @@ void bind_port(nb::class_<PortStates>& states, const char* angle, const char* sp
         "Torque on the train [N m].");
 }
 
+// One line of both shafts, with units.
+nb::object text_of(const PortStates& self) {
+    return nb::str(
+               "PortStates({:.9g} s, input {:.6g} rad, {:.6g} rad/s, {:.6g} N m, "
+               "output {:.6g} rad, {:.6g} rad/s, {:.6g} N m)")
+        .format(self.time, self.angle[MOTOR], self.speed[MOTOR], self.torque[MOTOR],
+                self.angle[LOAD_MACHINE], self.speed[LOAD_MACHINE], self.torque[LOAD_MACHINE]);
+}
+
 void bind_port_states(nb::module_& m) {
     nb::class_<PortStates> states(m, "PortStates",
                                   "Angles, speeds and torques of the input and the output shaft.");
@@ -69,6 +78,7 @@ void bind_port_states(nb::module_& m) {
     states.def_ro("time", &PortStates::time, "Simulated time [s].");
     bind_port<MOTOR>(states, "input_angle", "input_speed", "input_torque");
     bind_port<LOAD_MACHINE>(states, "output_angle", "output_speed", "output_torque");
+    states.def("__repr__", &text_of);
     states.def(
         "copy", [](const PortStates& self) { return PortStates(self); },
         "A copy, which later steps do not change.");

@@ -202,7 +202,7 @@ class LiveTwin:
             self._announce()
             return self._advance(self._interval, self._pace.wait, given, self.quality)
         except ValueError as refusal:
-            self._port_commands.refuse()
+            self._port_commands.refuse(str(refusal))
             self._listener.refused(f"a command has no effect: {refusal}")
             return self._advance(self._interval, self._pace.wait, {}, self.quality)
 

@@ -78,7 +78,7 @@ class PortCommands(Protocol):
         For a step of a paused twin, the interval is 0.
         """
 
-    def refuse(self) -> None:
+    def refuse(self, reason: str) -> None:
         """Count commands that the twin has refused."""
 
     def release(self, twin: Twin) -> None:

@@ -24,7 +24,10 @@ from planetary_twin_py.scene.quantity import unit_of, within
 from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 
 _AT_START = "fixed while the node runs: set it at start, -p {name}:=VALUE"
-_UNCONFIGURED = "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE"
+_UNCONFIGURED = (
+    "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE "
+    "(planetary-twin run: --param {name}=VALUE)"
+)
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60

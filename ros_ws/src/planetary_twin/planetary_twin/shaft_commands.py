@@ -7,21 +7,22 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
-from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Twin
+from planetary_twin_py.commands import Command
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
-from planetary_twin_py.recording.ros2.topics import status_name
-from planetary_twin_py.scene.drive import Causality, Ports
+from planetary_twin_py.scene.drive import Ports
 
-COMMANDS = "simulation: commands"
+from .command_report import CommandReport
+from .input_brake import InputBrake, for_ports
+
 SILENCE = ("hold", "zero", "brake")
 """Reaction to missing commands: hold the last one, remove it, or brake the input shaft."""
-_QUANTITIES = {"machine": (), "torque": ("torque",), "motion": ("speed", "position")}  # by port
 _TURN = 2.0 * math.pi
 _OUT_OF_RANGE = "out of range"
 _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
@@ -39,22 +40,11 @@ class Given(Protocol):
     continuous_joints: bool
 
 
-def for_ports(values: dict[str, float], twin: Twin) -> dict[str, float]:
-    """Return those `values` that are given at the ports of `twin`."""
-    sides = zip(SIDES, twin.ports, strict=True)
-    names = [f"{side}_{quantity}" for side, port in sides for quantity in _QUANTITIES[port]]
-    return {name: values[name] for name in names if name in values}
+class _Arrived(NamedTuple):
+    """The newest command of a shaft."""
 
-
-def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
-    """Return `values`, with whole turns added to positions: nearest to the shafts of `twin`."""
-    near = dict(values)
-    for side in SIDES:
-        name = f"{side}_position"
-        if name in near:
-            angle = getattr(twin.port_states, f"{side}_angle")
-            near[name] += _TURN * round((angle - near[name]) / _TURN)
-    return near
+    values: dict[str, float]
+    time: float  # [s] steady clock
 
 
 class ShaftCommands:
@@ -63,9 +53,10 @@ class ShaftCommands:
 
     Joints are independent of one another, so each can have its own client. A stamped command has
     no effect if it is not newer than the last one of its joint, older than the timeout, or more
-    than a second ahead. A command without a stamp acts in the order of arrival. `now` returns the
-    ROS time of the stamps [ns]. `take` returns the messages that have arrived since its last call,
-    with their times of arrival by the system clock [ns].
+    than a second ahead. A command without a stamp acts in the order of arrival. A command without
+    effect does not end a silence. `now` returns the ROS time of the stamps [ns]. `take` returns
+    the messages that have arrived since its last call, with their times of arrival by the system
+    clock [ns].
     """
 
     def __init__(
@@ -75,16 +66,22 @@ class ShaftCommands:
         take: Callable[[], Iterable[tuple[int, JointState]]],
     ) -> None:
         self.joints = joint_names(given.scene)
-        self.ignored = Counter[str]()
-        """Messages without effect, by reason."""
         self._timeout, self._silence = given.command_timeout, given.command_silence
         self._continuous = given.continuous_joints
         self._now, self._take = now, take
         self._lock = threading.Lock()
-        self._values: dict[str, dict[str, float]] = {}  # by side
+        self._arrived: dict[str, _Arrived] = {}  # by side, since the last interval
         self._newest = dict.fromkeys(SIDES, 0)  # [ns] stamps of the last commands
-        self._received: dict[str, float] = {}  # [s] steady clock, of the last commands
-        self._brake = _Brake()
+        self._accepted: dict[str, float] = {}  # [s] arrivals of the last accepted commands
+        self._before: dict[str, float] = {}  # those before the last interval
+        self._open: dict[str, str] = {}  # joints at ports that have had no command, by side
+        self._brake = InputBrake()
+        self._report = CommandReport(self.joints)
+
+    @property
+    def ignored(self) -> Counter[str]:
+        """Messages without effect, by reason."""
+        return self._report.ignored
 
     def collect(self) -> None:
         """Take the commands that have arrived."""
@@ -113,9 +110,10 @@ class ShaftCommands:
                     reasons.add(reason)
                 elif own:
                     self._newest[side] = stamp or self._newest[side]
-                    self._values[side] = own
-                    self._received[side] = time.monotonic()
-            self.ignored.update(reasons)
+                    self._arrived[side] = _Arrived(own, time.monotonic())
+        self._report.look_at(message)
+        for reason in reasons:
+            self._report.ignore(reason)
 
     def _fault(self, side: str, stamp: int, now: int) -> str:
         if not stamp:
@@ -129,29 +127,24 @@ class ShaftCommands:
             return "repeated or out of order"
         return ""
 
-    def _silent(self) -> dict[str, float]:
-        """Return the sides without a command for longer than the timeout, and for how long [s]."""
-        now = time.monotonic()
-        silent = {side: now - received for side, received in self._received.items()}
-        return {side: t for side, t in silent.items() if self._timeout and t > self._timeout}
-
     def status(self, hardware: str) -> DiagnosticStatus:
         """Return the report on commands for `/diagnostics`; `hardware` is the namespace."""
         with self._lock:
-            silent, ignored = self._silent(), dict(self.ignored)
-            message = "received" if self._received else "no command yet"
+            silent = self._silent()
+            without = [joint for side, joint in self._open.items() if side not in self._arrived]
+            received = bool(self._accepted or self._arrived)
+        reaction = ""
         if silent:
             names = dict(zip(SIDES, self.joints, strict=True))
-            longest = max(silent.values())
             joints = " and ".join(names[side] for side in silent)
-            message = f"no command for {joints} for {longest:.1f} s: {self._silence}"
-        return DiagnosticStatus(
-            level=DiagnosticStatus.WARN if silent or ignored else DiagnosticStatus.OK,
-            name=status_name(COMMANDS, hardware),
-            message=message,
-            hardware_id=hardware,
-            values=[KeyValue(key=f"ignored: {why}", value=str(n)) for why, n in ignored.items()],
-        )
+            reaction = f"no command for {joints} for {max(silent.values()):.1f} s: {self._silence}"
+        return self._report.status(hardware, reaction, without, received)
+
+    def _silent(self) -> dict[str, float]:
+        """Return the sides without a command for longer than the timeout, and for how long [s]."""
+        now = time.monotonic()
+        silent = {side: now - accepted for side, accepted in self._accepted.items()}
+        return {side: t for side, t in silent.items() if self._timeout and t > self._timeout}
 
     def given(self, twin: Twin, interval: float) -> dict[str, float]:
         """
@@ -161,25 +154,35 @@ class ShaftCommands:
         commands cannot be missing.
         """
         self.collect()
+        ports = self._brake.ports(twin)
+        if ports.given:
+            self._watch_speeds(twin)
         with self._lock:
-            received, self._values = self._values, {}
-            self._watch(self._brake.ports(twin))
+            arrived, self._arrived = self._arrived, {}
+        taken = {
+            side: self._taken(side, each.values, twin, ports, interval)
+            for side, each in arrived.items()
+        }
+        with self._lock:
+            self._before = dict(self._accepted)
+            self._accepted |= {side: arrived[side].time for side, own in taken.items() if own}
+            self._watch(ports)
             silent = self._silent() if interval else {}
         if silent and self._silence == "brake":
             return self._brake.slow(twin, interval)
-        if received:
+        if any(taken.values()):
             self._brake.release(twin)
-        values = {name: value for own in received.values() for name, value in own.items()}
-        given = self._taken(values, twin)
+        given = {name: value for own in taken.values() for name, value in own.items()}
         if silent and self._silence == "zero":
             names = (f"{side}_{quantity}" for side in silent for quantity in ("torque", "speed"))
-            given |= for_ports(dict.fromkeys(names, 0.0), twin)
+            given |= for_ports(dict.fromkeys(names, 0.0), ports)
         return given
 
-    def refuse(self) -> None:
+    def refuse(self, reason: str) -> None:
         """Count the commands that `given` has returned last: the twin has refused them."""
+        self._report.ignore(_OUT_OF_RANGE, reason)
         with self._lock:
-            self.ignored[_OUT_OF_RANGE] += 1
+            self._accepted = self._before
 
     def release(self, twin: Twin) -> None:
         """End a brake: restore the ports of `twin`."""
@@ -187,54 +190,53 @@ class ShaftCommands:
 
     def _watch(self, ports: Ports) -> None:
         """Ignore machines in the timeout; a new port is monitored from its first command on."""
-        for side, port in zip(SIDES, ports, strict=True):
-            if port == "machine":
-                self._received.pop(side, None)
+        given = [side for side, port in zip(SIDES, ports, strict=True) if port != "machine"]
+        self._accepted = {side: t for side, t in self._accepted.items() if side in given}
+        names = dict(zip(SIDES, self.joints, strict=True))
+        self._open = {side: names[side] for side in given if side not in self._accepted}
 
-    def _taken(self, values: dict[str, float], twin: Twin) -> dict[str, float]:
-        """Return those `values` that the ports accept; count joints without an accepted value."""
-        taken = for_ports(values, twin)
-        for side, joint, port in zip(SIDES, self.joints, twin.ports, strict=True):
-            given, used = (any(name.startswith(side) for name in each) for each in (values, taken))
-            if given and not used:
-                with self._lock:
-                    self.ignored[f"{joint}: drive.{side}.port = {port}"] += 1
-        return taken if self._continuous else nearest_turn(taken, twin)
+    def _watch_speeds(self, twin: Twin) -> None:
+        """Report a shaft that turns faster than its commands may demand."""
+        for side, most in zip(SIDES, twin.speed_limits, strict=True):
+            speed = abs(getattr(twin.port_states, f"{side}_speed"))
+            if speed > most:
+                self._report.exceed(
+                    side,
+                    f"speed of the {side} shaft = {speed:.4g} rad/s: exceeds {most:.4g} rad/s, "
+                    "from drive.speed_limit",
+                )
+
+    def _taken(
+        self, side: str, values: dict[str, float], twin: Twin, ports: Ports, interval: float
+    ) -> dict[str, float]:
+        """Return those `values` of a side that its port accepts; count them if there are none."""
+        taken = for_ports(values, ports)
+        if not taken:
+            joint = self.joints[SIDES.index(side)]
+            self._report.ignore(f"{joint}: drive.{side}.port = {getattr(ports, side)}")
+            return {}
+        if not self._continuous:
+            taken = nearest_turn(taken, twin)
+        try:
+            twin.check_command(Command(**taken), ports, interval)
+        except ValueError as refusal:
+            self._report.ignore(_OUT_OF_RANGE, str(refusal))
+            return {}
+        return taken
+
+
+def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
+    """Return `values`, with whole turns added to positions: nearest to the shafts of `twin`."""
+    near = dict(values)
+    for side in SIDES:
+        name = f"{side}_position"
+        if name in near:
+            angle = getattr(twin.port_states, f"{side}_angle")
+            near[name] += _TURN * round((angle - near[name]) / _TURN)
+    return near
 
 
 def _has_surplus(message: JointState) -> bool:
     """Return whether `message` has values without a name; ros2_control sends fewer, never more."""
     longest = max(len(message.position), len(message.velocity), len(message.effort))
     return longest > len(message.name)
-
-
-class _Brake:
-    """Brings the input shaft to rest at the slew rate of the drive, and holds it."""
-
-    def __init__(self) -> None:
-        self._before: tuple[Twin, Ports] | None = None  # braked twin, its ports without the brake
-
-    def ports(self, twin: Twin) -> Ports:
-        """Return the ports of `twin` without the brake."""
-        braked, ports = self._before or (None, None)
-        return ports if ports is not None and braked is twin else twin.ports
-
-    def slow(self, twin: Twin, interval: float) -> dict[str, float]:
-        """Return the speed that the input shaft has in the next `interval` [s]."""
-        before = self.ports(twin)
-        twin.set_ports("motion", _braked(before.output))
-        self._before = twin, before
-        speed = twin.port_states.input_speed
-        less = twin.scene.drive.speed_control.slew_rate * interval
-        slower = math.copysign(max(abs(speed) - less, 0.0), speed)
-        return for_ports({"input_speed": slower, "output_torque": 0.0}, twin)
-
-    def release(self, twin: Twin) -> None:
-        """Restore the ports from before the brake."""
-        twin.set_ports(*self.ports(twin))
-        self._before = None
-
-
-def _braked(port: Causality) -> Causality:
-    """Return the port of the output while the input is braked: a torque, which is zero."""
-    return "torque" if port == "motion" else port

@@ -67,6 +67,7 @@ class Simulation(ManagedNode):
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._wait: SubscriptionWait | None = None
         self._commands: ShaftCommands | None = None
+        self._commands_faulty = False  # in the last report
         self._inlet: PolledSubscription | None = None
         self._point = OperatingPointControl(self, self)
         self._backlog: Backlog | None = None
@@ -277,7 +278,7 @@ class Simulation(ManagedNode):
                     dynamics_status(self._given.choice, point, self.get_namespace())
                 )
             if self._running_twin().ports.given:
-                message.status.append(self._commands.status(self.get_namespace()))
+                message.status.append(self._report_commands())
             return message
 
         self._check_held_axes(self._running_twin())
@@ -286,6 +287,15 @@ class Simulation(ManagedNode):
         if report.verdict != self._verdict:
             self._verdict = report.verdict
             self._log(message.status[0])
+
+    def _report_commands(self) -> DiagnosticStatus:
+        """Return the report on commands; a fault is logged when it begins."""
+        status = self._commands.status(self.get_namespace())
+        faulty = status.level == DiagnosticStatus.WARN
+        if faulty and not self._commands_faulty:
+            self._log(status)
+        self._commands_faulty = faulty
+        return status
 
     def _check_held_axes(self, twin: pt.Twin) -> None:
         """Find out again whether axes may be held, if the load has changed."""
