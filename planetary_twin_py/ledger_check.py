@@ -30,7 +30,7 @@ class Balance(NamedTuple):
     residual: float = 0.0
     """Of the energy balance [J]."""
     loss: float = 0.0
-    """Dissipated by tooth friction, bearings and churning [J]."""
+    """Dissipated by tooth friction, bearings, seals and churning [J]."""
     turnover: float = 0.0
     """Sum of the absolute values of the work of all machines and of the changes in energy [J]."""
     stored: float = 0.0

@@ -71,7 +71,7 @@ TRAIN = {
     "output_torque": Quantity("Torque of the load", "N m"),
     "input_power": Quantity("Input power", "W", "from the motors into the train, mean"),
     "output_power": Quantity("Output power", "W", "from the train into the load, mean"),
-    "power_loss": Quantity("Power loss", "W", "tooth friction, bearings and churning, mean"),
+    "power_loss": Quantity("Power loss", "W", "tooth friction, bearings, seals and churning, mean"),
     "stored_power": Quantity(
         "Stored power", "W", "increase of kinetic and elastic energy per second"
     ),

@@ -78,7 +78,7 @@ class Energy:
 
     @property
     def loss(self) -> float:
-        """Dissipated by tooth friction, bearings and churning [J]."""
+        """Dissipated by tooth friction, bearings, seals and churning [J]."""
         return self.friction + self.bearing + self.churning
 
 
@@ -167,13 +167,13 @@ class Result:
 
     @property
     def total_power_loss(self) -> np.ndarray:
-        """Power loss of tooth friction, bearings and churning [W], (samples,)."""
+        """Power loss of tooth friction, bearings, seals and churning [W], (samples,)."""
         total: np.ndarray = self.power_loss.sum(axis=1) + self.bearing_loss + self.churning_loss
         return total
 
     @property
     def mean_power_loss(self) -> float:
-        """Mean power loss of tooth friction, bearings and churning over `duration` [W]."""
+        """Mean power loss of tooth friction, bearings, seals and churning over `duration` [W]."""
         return self.energy.loss / self.duration
 
     @property

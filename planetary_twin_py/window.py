@@ -94,7 +94,7 @@ class Window:
     machine_power: np.ndarray
     """Powers from the machines into the train [W], (machines,)."""
     power_loss: float
-    """Power loss of tooth friction, bearings and churning [W]."""
+    """Power loss of tooth friction, bearings, seals and churning [W]."""
     stored_power: float
     """Rate of increase of kinetic and elastic energy [W]."""
     stored_energy: float

@@ -53,7 +53,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
 class RunSummary(NamedTuple):
     """Summary of a run over its duration and over all meshes."""
 
-    power_loss: float  # tooth friction, bearings and churning, mean [W]
+    power_loss: float  # tooth friction, bearings, seals and churning, mean [W]
     dte_mean: float  # mean over the meshes of each one's mean [m]
     dte_rms: float  # mean over the meshes of the rms about each one's mean [m]
     dte_peak: float  # largest magnitude in any mesh [m]

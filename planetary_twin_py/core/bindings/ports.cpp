@@ -63,12 +63,13 @@ void bind_port(nb::class_<PortStates>& states, const char* angle, const char* sp
 }
 
 // One line of both shafts, with units.
-nb::object text_of(const PortStates& self) {
-    return nb::str(
-               "PortStates({:.9g} s, input {:.6g} rad, {:.6g} rad/s, {:.6g} N m, "
-               "output {:.6g} rad, {:.6g} rad/s, {:.6g} N m)")
-        .format(self.time, self.angle[MOTOR], self.speed[MOTOR], self.torque[MOTOR],
-                self.angle[LOAD_MACHINE], self.speed[LOAD_MACHINE], self.torque[LOAD_MACHINE]);
+nb::str text_of(const PortStates& self) {
+    const nb::str form(
+        "PortStates({:.9g} s, input {:.6g} rad, {:.6g} rad/s, {:.6g} N m, "
+        "output {:.6g} rad, {:.6g} rad/s, {:.6g} N m)");
+    return nb::str(form.format(self.time, self.angle[MOTOR], self.speed[MOTOR], self.torque[MOTOR],
+                               self.angle[LOAD_MACHINE], self.speed[LOAD_MACHINE],
+                               self.torque[LOAD_MACHINE]));
 }
 
 void bind_port_states(nb::module_& m) {

@@ -17,7 +17,7 @@ struct alignas(64) Figures {
     double machine_speed[MACHINES];   // mean [rad/s]
     double machine_torque[MACHINES];  // mean, on their shafts [N m]
     double machine_power[MACHINES];   // mean, into the train [W]
-    double power_loss;                // of tooth friction, bearings and churning [W]
+    double power_loss;                // of tooth friction, bearings, seals and churning [W]
     double stored_power;              // rate of kinetic and elastic energy [W]
     double stored_energy;             // at the end [J]
     double residual_power;            // of the ledger [W]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
@@ -13,7 +14,7 @@ import numpy as np
 from ...accuracy import Course, course_warnings
 from ...ledger_check import Balance, balance_of_window, ledger_warning
 from ...window import Window
-from ..container.records import RecordingError
+from ..container.records import RecordingError, files_of
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_of_kind
 from ..ros2.definitions import OF_AXES
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
@@ -91,6 +92,7 @@ def verify(
         RecordingError: nothing can be simulated again, or the recording was measured.
     """
     result = Comparison()
+    size = _bytes_in(path)
     runs = read_runs(path, namespace, result.remarks)
     _refuse_measured(path, runs)
     here = makers_here()
@@ -113,8 +115,13 @@ def verify(
             strays.append((topic, stamp_of(message)))
     result.ledger = ledger_warning(balance, loosest)
     result.accuracy = list(course_warnings(course))
-    # A recorder may have been stopped between the messages of an interval.
-    left_out = Counter(topic for topic, stamp in strays if not _is_later(topic, stamp, newest))
+    # A recorder may have been stopped between the messages of an interval, or write on meanwhile.
+    until: float = newest + STOPPED
+    if _bytes_in(path) > size:
+        newest, until = runs[-1].intervals[-1].stamp, math.inf
+    left_out = Counter(
+        topic for topic, stamp in strays if not _begin(topic, newest) < stamp < until
+    )
     result.left_out = left_out.total()
     result.remarks += [
         f"{count} messages of {topic} belong to no interval that is simulated again"
@@ -123,10 +130,13 @@ def verify(
     return result
 
 
-def _is_later(topic: str, stamp: int, newest: int) -> bool:
-    """Whether a message belongs to an interval soon after that of the newest state, by stamps."""
-    begin = newest - ROUNDING if topic in (WAVEFORM, AXES_WAVEFORM) else newest
-    return begin < stamp < newest + STOPPED
+def _begin(topic: str, newest: int) -> int:
+    """Stamp above which a message belongs to an interval after that of the newest state."""
+    return newest - ROUNDING if topic in (WAVEFORM, AXES_WAVEFORM) else newest
+
+
+def _bytes_in(path: Path) -> int:
+    return sum(file.stat().st_size for file in files_of(path))
 
 
 def _missing(run: RecordedRun) -> int:

@@ -158,6 +158,19 @@ def test_all_messages_of_an_unfinished_file_are_compared(sound, tmp_path):
     assert "122 messages read, all identical bit for bit" in output
 
 
+def test_messages_written_during_the_comparison_are_left_for_the_next_one(sound, tmp_path):
+    whole, path = sound.read_bytes(), tmp_path / "growing.mcap"
+    path.write_bytes(whole[: len(whole) * 2 // 3])
+
+    def write_the_rest(time):
+        path.write_bytes(whole)
+
+    result = verify(path, NAMESPACE, write_the_rest)
+    assert result.left_out == 0
+    assert result.first_difference is None
+    assert all("belong to no interval" not in remark for remark in result.remarks)
+
+
 def test_the_number_of_messages_not_compared_is_reported(tmp_path):
     file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
     code, output = invoke(file)
