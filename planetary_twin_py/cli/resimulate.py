@@ -25,8 +25,8 @@ def resimulate(
     commands: Annotated[
         Path | None,
         typer.Option(
-            help="Table (.csv, .parquet) of commands at the ports, in place of the recorded ones "
-            "of the same shafts: time, input_torque, output_speed, ..."
+            help="Commands at the ports, in place of the recorded ones of the same shafts: a table "
+            "(.csv, .parquet) of time, input_torque, output_speed, ..., or another recording."
         ),
     ] = None,
     duration: Annotated[
@@ -56,6 +56,7 @@ def resimulate(
     from ..recording.ros2.namespaces import choose_namespace
     from ..recording.ros2.playback import Playback
     from ..recording.runs.branch import Branch
+    from ..recording.runs.recorded_commands import recorded_commands
     from ..recording.runs.what_if import resimulate as simulate_again
     from ..recording.tables.command_table import read_commands
     from ..scene.unused import without_effect
@@ -65,7 +66,10 @@ def resimulate(
     console = make_console()
     try:
         changes = settings(set_ or [])
-        course = None if commands is None else read_commands(commands)
+        course = None
+        if commands is not None:
+            recorded = commands.is_dir() or commands.suffix == ".mcap"
+            course = recorded_commands(commands) if recorded else read_commands(commands)
         branch = Branch(changes, from_, duration, run, course)
         chosen = choose_namespace(Playback(file).counts, namespace, file)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:

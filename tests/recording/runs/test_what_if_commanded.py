@@ -167,6 +167,17 @@ def test_a_table_that_makes_no_sense_is_refused_in_one_line(tmp_path, text, mess
     assert "\n" not in str(refusal.value)
 
 
+def test_commands_of_another_recording_act_at_the_same_times(machine, driven, tmp_path):
+    out = tmp_path / "bag"
+    arguments = ["resimulate", str(machine), "--commands", str(driven), "--out", str(out)]
+    result = CliRunner().invoke(build_app(), arguments)
+    assert result.exit_code == 0, result.output
+    assert commands_of(out) == commands_of(driven)
+    refused = CliRunner().invoke(build_app(), [*arguments[:3], str(machine), "--out", f"{out}2"])
+    assert refused.exit_code == 2
+    assert "the last run has no commands at its ports" in refused.output
+
+
 def test_the_command_replaces_a_load(driven, tmp_path):
     path = table(tmp_path, "time,output_torque\n0,140\n0.1,120\n")
     out = tmp_path / "bag"

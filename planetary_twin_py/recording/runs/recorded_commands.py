@@ -1,0 +1,39 @@
+"""Commands of a recorded run, to act in another one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...commands import NAMES, Commands
+from ...integrators.clock import TICKS
+from ..container.records import RecordingError
+from ..ros2.namespaces import choose_namespace
+from ..ros2.playback import Playback
+from .schedule import read_runs
+
+
+def recorded_commands(path: Path) -> Commands:
+    """Read the commands at the ports of the last run in a recording.
+
+    Args:
+        path: path of the recording, with one gearbox.
+
+    Returns:
+        The commands, at the simulated times at which they acted.
+
+    Raises:
+        ValueError: the recording cannot be read, or has no commands.
+        OSError: the file cannot be read.
+    """
+    namespace = choose_namespace(Playback(path).counts, None, path)
+    run = read_runs(path, namespace, [])[-1]
+    given = [
+        (each.begin, run.given[each.stamp]) for each in run.intervals if each.stamp in run.given
+    ]
+    if not given:
+        raise RecordingError(f"{path}: the last run has no commands at its ports")
+    used = [name for name in NAMES if any(name in values for _, values in given)]
+    columns = {name: np.array([values.get(name, np.nan) for _, values in given]) for name in used}
+    return Commands(np.array([begin for begin, _ in given]) / TICKS, **columns)
