@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh.stiffness import StiffnessLaw, given_stiffness, tooth_stiffness
+from ..mesh.stiffness import DIGITS, StiffnessLaw, given_stiffness, tooth_stiffness
 from ..mesh.tip_relief import PairGap, Relief
 from ..mesh.tooth_pairs import Along
 from ..scene import Scene
@@ -93,7 +93,7 @@ def crack_factor(scene: Scene, crack: Crack, kind: int) -> Along:
     side = "first" if GEARS[kind][0] == crack.gear else "second"
     root_crack = RootCrack(crack.depth, crack.angle)
     cracked = replace(healthy, **{side: replace(getattr(healthy, side), crack=root_crack)})
-    return lambda s: healthy.compliance(s) / cracked.compliance(s)
+    return lambda s: np.round(healthy.compliance(s) / cracked.compliance(s), DIGITS)
 
 
 def _tooth_law(scene: Scene, pair: ToothPair) -> StiffnessLaw:

@@ -8,6 +8,8 @@ import numpy as np
 
 from .tooth_pairs import Along, one
 
+DIGITS = 9  # of a law that libraries compute
+
 
 class StiffnessLaw(NamedTuple):
     """Mesh stiffness base + gain * (sum of the pairs' weights), see `tooth_pairs`."""
@@ -26,6 +28,15 @@ def given_stiffness(single: float, double_pair_ratio: float) -> StiffnessLaw:
 
 
 def tooth_stiffness(stiffness: Along, sharing: float) -> StiffnessLaw:
-    """One pair has `stiffness` [N/m] over its position; two pairs their sum times `sharing`."""
-    single = float(stiffness(np.zeros(1))[0])
-    return StiffnessLaw(single, 0.0, single, lambda s: stiffness(s) / single, sharing)
+    """One pair has `stiffness` [N/m] over its position; two pairs their sum times `sharing`.
+
+    All of it is rounded: teeth are computed by libraries whose last digits differ by machine.
+    """
+    single = float(f"{float(stiffness(np.zeros(1))[0]):.{DIGITS}g}")
+    return StiffnessLaw(
+        single,
+        0.0,
+        single,
+        lambda s: np.round(stiffness(s) / single, DIGITS),
+        round(sharing, DIGITS),
+    )

@@ -15,12 +15,12 @@ from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.polynomial import Polynomial
 
 from .._core import PAIRS, SEGMENTS, TERMS, TOTAL
 from ..gearset.geometry import PathOfContact
+from .interpolation import NODES, through
 from .stiffness import StiffnessLaw
-from .tooth_pairs import PairTable, pair_table
+from .tooth_pairs import PairTable, pair_table, powers
 
 PATH_CORNERS = 6  # ends of the cycle, of the path, and of its ramps
 SAMPLES = 65  # per segment; between two of them a pair comes into contact at most once
@@ -96,13 +96,11 @@ def relieved_table(
     if len(corners) + PATH_CORNERS > SEGMENTS:
         raise ValueError("mesh.tip_relief: too many changes of contact in one mesh cycle")
     table = _table(gap.path, ramp, law, corners)
-    nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
     for j in range(table.segments):
         low, high = table.edge[j], table.edge[j + 1]
-        weights = _weights(table, j, low + (high - low) * nodes, gap, law, force)
+        weights = _weights(table, j, low + (high - low) * NODES, gap, law, force)
         for p in np.flatnonzero(table.present[j]):
-            fitted = Polynomial.fit(nodes, weights[:, p], TERMS - 1, domain=[0, 1], window=[0, 1])
-            table.weight[j, p] = fitted.coef / (high - low) ** np.arange(TERMS)
+            table.weight[j, p] = through(weights[:, p]) / powers(high - low)
         table.weight[j, TOTAL] = table.weight[j, :TOTAL].sum(axis=0)
     return table
 

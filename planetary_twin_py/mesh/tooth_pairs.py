@@ -21,10 +21,10 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import Polynomial
 
 from .._core import PAIRS, SEGMENTS, TERMS, TOTAL
 from ..gearset.geometry import PathOfContact
+from .interpolation import NODES, through
 
 MOST_PAIRS = 3  # of spur teeth in contact at once
 
@@ -170,13 +170,16 @@ def along(table: PairTable, function: Along) -> np.ndarray:
     terms that has its breakpoints at edges.
     """
     result = np.zeros((SEGMENTS, PAIRS, TERMS))
-    nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
     for j, p in zip(*np.nonzero(table.present), strict=True):
         length = table.edge[j + 1] - table.edge[j]
-        s = table.edge[j] + length * nodes + table.shift[j, p]
-        fitted = Polynomial.fit(nodes, function(s), TERMS - 1, domain=[0.0, 1.0], window=[0.0, 1.0])
-        result[j, p] = fitted.coef / length ** np.arange(TERMS)
+        s = table.edge[j] + length * NODES + table.shift[j, p]
+        result[j, p] = through(function(s)) / powers(length)
     return result
+
+
+def powers(length: float) -> np.ndarray:
+    """Powers 0, 1, 2, ... of a length, (TERMS,)."""
+    return np.cumprod(np.append(1.0, np.full(TERMS - 1, length)))
 
 
 def terms_in_use(table: PairTable) -> int:
