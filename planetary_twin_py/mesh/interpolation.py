@@ -18,6 +18,8 @@ NODES = np.array(
     [round(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / TERMS), 6) for k in range(TERMS)]
 )
 
+DECIMALS = 12  # of coefficients
+
 
 def _basis(k: int) -> list[float]:
     """Coefficients of the polynomial that is 1 at node k and 0 at the others."""
@@ -36,12 +38,12 @@ def through(values: np.ndarray) -> np.ndarray:
     """Coefficients of the polynomial through values at `NODES`, lowest first.
 
     Args:
-        values: at the nodes, (TERMS,).
+        values: at the nodes, of the order of one, (TERMS,).
 
     Returns:
-        Coefficients, (TERMS,).
+        Coefficients without rounding errors: a constant has one coefficient, (TERMS,).
     """
     coefficients = np.zeros(TERMS)
     for value, basis in zip(values, _BASIS, strict=True):  # in order: a matrix product has none
         coefficients += value * basis
-    return coefficients
+    return np.round(coefficients, DECIMALS)
