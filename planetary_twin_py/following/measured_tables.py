@@ -108,20 +108,22 @@ def _in_order(read: Readings) -> Readings:
 
 
 def _wrong_stamps(time: np.ndarray) -> NDArray[np.bool_]:
-    """Stamps that are ahead of both neighbours, and far from every row that is not, (rows,)."""
+    """Stamps ahead of both neighbours, and far from all that are not, (rows,).
+
+    In a table in any order many stamps are ahead of both neighbours: those are right that a chain
+    of close stamps connects with another.
+    """
     known = np.flatnonzero(np.isfinite(time))
     stamps = time[known]
     beside = np.concatenate([[-np.inf], stamps, [-np.inf]])
     leap = stamps > np.maximum(beside[:-2], beside[2:]) + AHEAD
-    usual = np.sort(stamps[~leap])
+    order = np.argsort(stamps, kind="stable")
+    steps = np.diff(stamps[order])
+    far = max(AHEAD, SPARSE * float(np.median(steps)))
+    group = np.concatenate([[0], np.cumsum(steps > far)])  # of stamps close to each other
+    usual = np.bincount(group, ~leap[order]) > 0
     wrong = np.zeros(len(time), dtype=bool)
-    if not len(usual):
-        return wrong
-    place = np.searchsorted(usual, stamps)
-    below, above = usual[np.maximum(place - 1, 0)], usual[np.minimum(place, len(usual) - 1)]
-    distance = np.minimum(np.abs(stamps - below), np.abs(stamps - above))
-    far = max(AHEAD, SPARSE * float(np.median(np.diff(np.sort(stamps)))))
-    wrong[known] = leap & (distance > far)
+    wrong[known[order]] = usual.any() & ~usual[group]
     return wrong
 
 
@@ -180,7 +182,7 @@ def read_vibration(
         begin: date of second 0 of the stamps of the readings; None if they have no dates.
 
     Returns:
-        The samples, in the order of the rows. The sample period is the median step of the time.
+        The samples in the order of their stamps. The sample period is the median step of the time.
 
     Raises:
         ValueError: the file is not such a table, a column is missing, or times are dates and those
@@ -198,14 +200,15 @@ def read_vibration(
     }
     if not sensors:
         raise ValueError(f"{path}: has no column of vibration besides the time and the readings")
-    time = columns[TIME[0]].in_si(TIME[0], "s")
+    ordered = _in_order(Readings(columns[TIME[0]].in_si(TIME[0], "s"), sensors))
+    time = ordered.time
     steps = np.diff(time[np.isfinite(time)])
     period = float(np.median(steps)) if len(steps) else 0.0
     if not 0.0 < period < 1.0:
         raise ValueError(f"{path}: time: its median step is {period:g} s: must be within 0 and 1 s")
     shift = _time_shift(path, columns[TIME[0]], begin)
     return VibrationSamples(
-        time + shift, np.stack([*sensors.values()], axis=1), tuple(sensors), period
+        time + shift, np.stack([*ordered.columns.values()], axis=1), tuple(sensors), period
     )
 
 

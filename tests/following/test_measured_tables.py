@@ -232,6 +232,20 @@ def test_rows_in_any_order_give_the_readings_of_the_rows_in_order(write):
         assert values.tobytes() == other.readings.columns[name].tobytes()
 
 
+@pytest.mark.parametrize("seed", (100, 187, 297))
+def test_no_stamp_of_a_long_shuffled_table_counts_as_wrong(write, seed):
+    order = np.random.default_rng(seed).permutation(np.arange(1, 6001))
+    rows = [f"{n / 100},63,-145,100" for n in order]
+    time = read_readings(write(COLUMNS, *rows), {}).readings.time
+    assert np.array_equal(time, np.arange(1, 6001) / 100)
+
+
+def test_vibration_is_in_the_order_of_its_stamps(write):
+    rows = [f"{n / 1000},{n}" for n in range(500)]
+    found = read_vibration(write("time,a", *shuffled(rows)), {})
+    assert found.values[:, 0].tolist() == list(range(500)) and found.period == pytest.approx(1e-3)
+
+
 def test_rows_with_the_same_stamp_stay_in_their_order(write):
     found = read_readings(write(COLUMNS, "2,1,0,0", "1,2,0,0", "2,3,0,0", "1,4,0,0"), {})
     assert list(found.readings.columns["input_torque"]) == [2.0, 4.0, 1.0, 3.0]
