@@ -15,6 +15,7 @@ from ._fitted import Fitted, Part
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..following.sensors import Sensors
     from ..studies.fit.fit_course import FittedCourse
     from ..studies.fit.report import Report
 
@@ -25,6 +26,7 @@ def fit_manoeuvre(
     scene: str | None,
     free: Mapping[str, str],
     part: Part,
+    sensors: Sensors,
 ) -> Fitted:
     """Fit a scene to a manoeuvre, and print the estimates.
 
@@ -34,6 +36,7 @@ def fit_manoeuvre(
         scene: name or file of the scene.
         free: initial values by name of the free fields; empty: the value in the scene.
         part: of the manoeuvre.
+        sensors: accuracy, names of columns, and factors on readings.
 
     Returns:
         The results.
@@ -56,7 +59,7 @@ def fit_manoeuvre(
     with console.status("simulating") as status:
         found = fit_course(
             file, changed_scene(scene, {}), tuple(free), start, limits, part.hold_out,
-            lambda count: status.update(f"{count} simulated points"),
+            lambda count: status.update(f"{count} simulated points"), sensors,
         )  # fmt: skip
     _print(console, found)
     warnings = list(course_remarks(found))

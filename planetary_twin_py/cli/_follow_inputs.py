@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+import typer
 
 from ..terminal.messages import note, remark
 from ..terminal.settings import settings
@@ -16,6 +18,18 @@ if TYPE_CHECKING:
     from ..following.measured_messages import Block
     from ..following.sensors import Sensors
     from ..following.vibration import VibrationSamples
+
+SensorsOption = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE.yaml",
+        help="Sensors: noise, uncertainty, encoders, names of columns and joints.",
+    ),
+]
+ScaleOption = Annotated[
+    list[str] | None,
+    typer.Option(metavar="NAME=FACTOR", help="Factor on the readings of a channel. Repeatable."),
+]
 
 
 class Files(NamedTuple):

@@ -17,11 +17,10 @@ from ._fit_course import fit_manoeuvre
 from ._fit_points import fit_points
 from ._fit_texts import field_names, free_fields, held_out_span, noise_levels
 from ._fitted import Part
+from ._follow_inputs import ScaleOption, SensorsOption, described_sensors
 
 if TYPE_CHECKING:
     from ..studies.fit.identify import Search
-
-OBSERVED = "dte_rms,power_loss"
 
 _Free = Annotated[
     str,
@@ -37,8 +36,8 @@ _Observe = Annotated[
     str | None,
     typer.Option(
         metavar="NAMES",
-        help="Measured quantities of a recording, separated by commas.",
-        show_default=OBSERVED,
+        help="Measured quantities of a recording, separated by commas. Default: dte_rms and "
+        "power_loss, as far as they were recorded.",
     ),
 ]
 _Noise = Annotated[
@@ -77,6 +76,8 @@ def fit(  # noqa: PLR0913 - an argument for each option
     noise: _Noise = None,
     hold_out: _HoldOut = None,
     scene: _Scene = None,
+    sensors: SensorsOption = None,
+    scale: ScaleOption = None,
     report: _Report = None,
     namespace: NamespaceOption = None,
     json_: JsonOption = None,
@@ -84,7 +85,9 @@ def fit(  # noqa: PLR0913 - an argument for each option
     """Estimate scene parameters from FILE with confidence intervals, if they are identifiable.
 
     FILE is a recording, or a measured manoeuvre: a .csv, .parquet or .mat file with time,
-    input_torque, output_torque and input_speed or output_speed.
+    input_torque, output_torque and input_speed or output_speed. --sensors and --scale are for
+    these, as in `follow`; readings that contradict the scene end the command with the likely unit
+    or sign.
 
     Of a recording, without --from and --to, up to one second with a constant operating point is
     used. Parameters that the readings do not determine are reported in a warning; the exit code is
@@ -104,10 +107,12 @@ def fit(  # noqa: PLR0913 - an argument for each option
         given, part = free_fields(free), Part(from_, to, held_out_span(hold_out))
         if manoeuvre:
             _refuse(f"{file} is a manoeuvre", {"--observe": observe, "--noise": noise})
-            found = fit_manoeuvre(console, file, scene, given, part)
+            known = described_sensors(sensors, scale or [])
+            found = fit_manoeuvre(console, file, scene, given, part, known)
         else:
-            _refuse(f"{file} is a recording", {"--scene": scene})
-            search = _search(given, observe or OBSERVED, noise or [])
+            options = {"--scene": scene, "--sensors": sensors, "--scale": scale}
+            _refuse(f"{file} is a recording", options)
+            search = _search(given, observe, noise or [])
             found = fit_points(console, file, namespace, search, part)
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
@@ -126,12 +131,12 @@ def _refuse(why: str, options: Mapping[str, object]) -> None:
             raise ValueError(f"{name}: has no effect, because {why}")
 
 
-def _search(given: Mapping[str, str], observe: str, noise: Sequence[str]) -> Search:
+def _search(given: Mapping[str, str], observe: str | None, noise: Sequence[str]) -> Search:
     from ..studies.fit.identify import Search
 
     return Search(
         free=tuple(given),
-        observe=field_names(observe),
+        observe=None if observe is None else field_names(observe),
         start={name: value for name, value in given.items() if value},
         noise=noise_levels(noise),
     )

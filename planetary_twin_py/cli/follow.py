@@ -13,7 +13,14 @@ from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need
 from ..terminal.output_files import PICTURES, TABLES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
-from ._follow_inputs import Files, described_sensors, encoder_format, read_measurements
+from ._follow_inputs import (
+    Files,
+    ScaleOption,
+    SensorsOption,
+    described_sensors,
+    encoder_format,
+    read_measurements,
+)
 from ._follow_report import print_state, state_figures
 
 if TYPE_CHECKING:
@@ -45,17 +52,6 @@ _Vibration = Annotated[
         help="Samples of accelerometers: a table with the column time and one for each sensor; "
         "may be the table of --from.",
     ),
-]
-_Sensors = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE.yaml",
-        help="Sensors: noise, uncertainty, encoders, names of columns and joints.",
-    ),
-]
-_Scale = Annotated[
-    list[str] | None,
-    typer.Option(metavar="NAME=FACTOR", help="Factor on the readings of a channel. Repeatable."),
 ]
 _Baseline = Annotated[
     Path | None,
@@ -95,8 +91,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
     from_: _Readings,
     encoders: _Encoders = None,
     vibration: _Vibration = None,
-    sensors: _Sensors = None,
-    scale: _Scale = None,
+    sensors: SensorsOption = None,
+    scale: ScaleOption = None,
     set_: SetOption = None,
     baseline: _Baseline = None,
     save_baseline: _SaveBaseline = None,

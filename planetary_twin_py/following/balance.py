@@ -31,16 +31,14 @@ from .balance_filter import (
     interval_memory,
 )  # fmt: skip
 from .bins import Bin, Counters
-from .checks import Checks
+from .checked_bins import PERIOD, CheckedBins
 from .cusum import Cusum, Step
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .history import History
 from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
-from .merging import Merge
-from .sensors import Sensors, torque_gain, torque_noise, torque_zero
+from .sensors import Sensors
 from .train import followed_train
-from .unit_remarks import UnitRemarks
 from .variety import Variety
 from .vibration import Turning
 
@@ -50,15 +48,12 @@ KEPT = 36_000  # bins whose torque is kept for judging teeth
 TURNING = 3_000  # bins whose speed is kept for vibration
 RECENT = 1_200  # bins from which the size of a step is estimated at most
 MARGIN = 5.0  # [s] by which a step may start before the sum of the CUSUM leaves zero
-PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when the load reverses
 MANY = 100.0  # ratio above which a step is not compared with a loss or a torque
 FREQUENT, UNSTEADY = 3, 60.0  # steps in so many seconds that no single cause explains
 IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
 REFUSED = 1.0  # [s] of successive gated balances that are a step
-APART = 0.5  # [s] between most readings above which the unit of the time may be wrong
 BALANCE = "both torques and a speed while the train turns"  # without which there is no balance
-FEW = 10  # steps below which the spacing of readings is not judged
 RARE = 3.0  # standard deviations of the first balance above which the readings do not fit the scene
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
          "inertia": "kg m^2"}  # fmt: skip
@@ -90,35 +85,6 @@ class _Refusals:
             return None
         begin, self.begin, self.rare = self.begin, math.nan, False
         return begin
-
-
-@dataclass
-class _Spacing:
-    """Times between successive bins with readings."""
-
-    first: float = math.nan  # [s]
-    last: float = math.nan  # [s]
-    steps: int = 0
-    wide: int = 0  # steps longer than `APART`
-
-    def add(self, time: float) -> None:
-        if math.isnan(self.first):
-            self.first = time
-        else:
-            self.steps += 1
-            self.wide += time - self.last > APART
-        self.last = time
-
-    def remarks(self, period: float) -> Iterator[str]:
-        """A line if most readings are far apart, which a wrong unit of the time may cause."""
-        if self.steps < FEW or self.wide <= 0.5 * self.steps:
-            return
-        mean = (self.last - self.first) / self.steps
-        yield (
-            f"readings are {mean:.3g} s apart, a bin has {period:g} s: is the unit of the time "
-            "right? A heading of a table with milliseconds must be time [ms]; readings that are "
-            "so slow are for fleet"
-        )
 
 
 @dataclass
@@ -154,16 +120,8 @@ class BalanceFollower:
         self._alarm_filter = BalanceFilter(
             self.train, losses, self.sensors, alarm_memory(self.train)
         )
-        noise = torque_noise(self.sensors, self.train)
-        self._bins = Merge(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(
-            self.train,
-            self.period,
-            torque_zero(self.sensors, self.train),
-            torque_gain(self.sensors),
-        )
-        self._cusum, self._refusals, self._spacing = Cusum(), _Refusals(), _Spacing()
-        self._unit_remarks = UnitRemarks(self.scene.operating_point)
+        self._bins = CheckedBins(self.scene, self.train, self.sensors, self.period)
+        self._cusum, self._refusals = Cusum(), _Refusals()
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
         self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
@@ -206,14 +164,10 @@ class BalanceFollower:
         """
         for time_bin in self._bins.finish():
             self._process(time_bin)
-        self._checks.check()
 
     def _process(self, time_bin: Bin) -> None:
-        self._checks.add(time_bin)
         self.time = (time_bin.number + 1) * self.period
-        self._spacing.add(self.time)
         read = self._measured(time_bin)
-        self._unit_remarks.add(read.input_torque, read.speed)
         if math.isfinite(read.input_torque):
             self._torques.add(self.time, read.input_torque)
         if math.isfinite(read.speed):
@@ -427,8 +381,7 @@ class BalanceFollower:
                 "torques or of both speeds may be reversed, or a torque has a wrong gain"
             )
         yield from self.counters.remarks()
-        yield from self._spacing.remarks(self.period)
-        yield from self._unit_remarks.remarks()
+        yield from self._bins.remarks()
         if self.gated:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"
 

@@ -22,7 +22,7 @@ from .bins import CHANNELS
 from .checks import InputError
 from .clock_watch import ClockWatch
 from .estimate import Estimate, Event
-from .sensors import Sensors
+from .sensors import Sensors, check_scale
 from .teeth import TeethFollower, ToothState
 from .vibration import VibrationFollower, VibrationSamples
 
@@ -127,11 +127,7 @@ class Follower:
     period: float = PERIOD
 
     def __post_init__(self) -> None:
-        for name, factor in self.scale.items():
-            if name not in CHANNELS:
-                raise ValueError(f"scale: {name!r}: must be one of {', '.join(CHANNELS)}")
-            if not 1e-9 <= abs(factor) <= 1e9:
-                raise ValueError(f"scale: {name} = {factor!r}: its magnitude must be 1e-9 to 1e9")
+        check_scale(self.scale)
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
         self._loaded = SavedBaseline(None, None)  # for samples that have not arrived yet

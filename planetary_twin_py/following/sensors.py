@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from pydantic import Field
 
 from ..scene.quantity import Section, quantity
 from ..scene.yaml_file import read_section
+from .bins import CHANNELS
 from .train import FollowedTrain
 
 FULL_SCALE = 1.6  # default full scale over the torque of the operating point
@@ -89,6 +91,22 @@ def read_sensors(path: Path) -> Sensors:
         OSError: the file cannot be read.
     """
     return read_section(path, Sensors)
+
+
+def check_scale(scale: Mapping[str, float]) -> None:
+    """Check factors on readings.
+
+    Args:
+        scale: factors by channel.
+
+    Raises:
+        ValueError: a channel does not exist, or its factor is out of range.
+    """
+    for name, factor in scale.items():
+        if name not in CHANNELS:
+            raise ValueError(f"scale: {name!r}: must be one of {', '.join(CHANNELS)}")
+        if not 1e-9 <= abs(factor) <= 1e9:
+            raise ValueError(f"scale: {name} = {factor!r}: its magnitude must be 1e-9 to 1e9")
 
 
 def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:

@@ -3,8 +3,10 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
-from command_line import run
+from command_line import run, run_here
+from following.plants import played
 
 from planetary_twin_py.interval_text import interval_text
 
@@ -42,3 +44,51 @@ def test_options_of_a_recording_are_refused_for_a_manoeuvre(option):
     done = run("fit", RAMP, "--scene", "compact_actuator", "--free", DRAG, *option)
     assert done.returncode == 2
     assert f"{option[0]}: has no effect, because {RAMP} is a manoeuvre" in done.stderr
+
+
+@pytest.fixture(scope="module")
+def steady(tmp_path_factory):
+    """Readings of scene `paper` by column."""
+    _, time, columns = played("steady", {}, 8.0)
+    names = ("input_torque", "output_torque", "input_speed")
+    return {"time": time} | {name: columns[name] for name in names}
+
+
+def fit_of(table, columns, *options):
+    np.savetxt(
+        table, np.column_stack([*columns.values()]), delimiter=",", header=",".join(columns),
+        comments="",
+    )  # fmt: skip
+    return run_here("fit", table, "--scene", "paper", "--free", DRAG, *options, COLUMNS="200")
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "line"),
+    [
+        ("output_torque", -1.0, "scale output_torque by -1"),
+        ("input_torque", 1e-3, "input_torque is probably in kN m: scale input_torque by 1000"),
+        ("input_speed", 60.0, "probably rpm: scale input_speed by 0.10472"),
+    ],
+)
+def test_a_wrong_sign_or_unit_is_refused_in_one_line(tmp_path, steady, name, factor, line):
+    done = fit_of(tmp_path / "rig.csv", steady | {name: factor * steady[name]})
+    assert done.returncode == 2 and line in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_the_stated_factor_is_accepted(tmp_path, steady):
+    wrong = steady | {"output_torque": -steady["output_torque"]}
+    done = fit_of(tmp_path / "rig.csv", wrong, "--scale", "output_torque=-1")
+    assert done.returncode == 0 and "is the unit" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("factors", "line"),
+    [
+        ({"input_torque": 1e-3, "output_torque": 1e-3}, "is the unit of both torques right?"),
+        ({"time": 1e3}, "a heading of a table with milliseconds must be time [ms]"),
+    ],
+)
+def test_a_unit_that_may_be_wrong_is_asked_for(tmp_path, steady, factors, line):
+    wrong = {name: factors.get(name, 1.0) * values for name, values in steady.items()}
+    done = fit_of(tmp_path / "rig.csv", wrong)
+    assert done.returncode == 0 and line.lower() in done.stderr.lower()

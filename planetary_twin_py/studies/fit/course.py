@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...following.measured_tables import read_readings
+from ...following.sensors import Sensors, check_scale
 from ...following.train import FollowedTrain
 
 Array = NDArray[np.float64]
@@ -36,7 +38,12 @@ class Course(NamedTuple):
         return Course(*(values[inside] for values in self))
 
 
-def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Course:
+def read_course(
+    path: Path,
+    train: FollowedTrain,
+    sensors: Sensors | None = None,
+    check: Callable[[Array, Mapping[str, Array]], None] = lambda time, columns: None,
+) -> Course:
     """Read a manoeuvre from a table.
 
     Args:
@@ -44,22 +51,30 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
             output_torque and input_speed or output_speed, with units in brackets unless they are
             SI.
         train: gear train of the gearbox.
-        period: length of the bins [s].
+        sensors: headings of columns, and factors on readings; None: those of the table, and 1.
+        check: called with stamps [s] and readings by channel before they are averaged, (rows,) each
+            in SI; raises `ValueError` to refuse them.
 
     Returns:
         Means over the bins that have all channels.
 
     Raises:
-        ValueError: the file has another format, a channel is missing, or there are too few bins.
+        ValueError: the file has another format, a channel is missing, `check` refuses the readings,
+            or there are too few bins.
         OSError: the file cannot be read.
     """
-    time, columns = read_readings(path, {})[0][:2]
-    columns = dict(columns)
+    known = sensors or Sensors()
+    check_scale(known.scale)
+    read = read_readings(path, known.columns).readings
+    time = read.time
+    columns = {name: values * known.scale.get(name, 1.0) for name, values in read.columns.items()}
+    given = dict(columns)
     if "input_speed" not in columns and "output_speed" in columns:
         columns["input_speed"] = columns["output_speed"] / train.ratio
     for name in ("input_torque", "output_torque", "input_speed"):
         if name not in columns:
             raise ValueError(f"{path}: column {name!r}: missing")
+    check(time, given)
     oil = columns.setdefault("oil_temperature", np.full(len(time), train.oil_temperature))
     columns["oil_temperature"] = np.where(np.isfinite(oil), oil, train.oil_temperature)
     names = ("input_torque", "output_torque", "input_speed", "oil_temperature")
@@ -67,16 +82,16 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     complete = np.isfinite(values).all(axis=0) & np.isfinite(time)
     first = float(time[complete].min()) if complete.any() else 0.0
     bin_numbers, bin_index = np.unique(
-        np.floor((time[complete] - first) / period), return_inverse=True
+        np.floor((time[complete] - first) / PERIOD), return_inverse=True
     )
     if len(bin_numbers) < FEWEST:
         raise ValueError(
-            f"{path}: {len(bin_numbers)} bins of {period:g} s with all channels, must be at least "
+            f"{path}: {len(bin_numbers)} bins of {PERIOD:g} s with all channels, must be at least "
             f"{FEWEST}"
         )
     count = np.bincount(bin_index)
     means = np.stack([np.bincount(bin_index, row) / count for row in values[:, complete]])
-    middles = np.asarray(first + (bin_numbers + 0.5) * period, dtype=float)
+    middles = np.asarray(first + (bin_numbers + 0.5) * PERIOD, dtype=float)
     acceleration = np.gradient(means[2], middles)
     slope = np.asarray(acceleration, dtype=float)
     return Course(middles, means[0], means[1], means[2], slope, means[3])

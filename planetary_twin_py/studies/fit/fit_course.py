@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ...following.checked_bins import table_remarks
+from ...following.sensors import Sensors
 from ...following.train import followed_train
 from ...scene import Scene
 from .course import FEWEST, Array, Course, read_course
@@ -27,6 +29,7 @@ from .parameter import Parameter, read_parameters
 from .residual_runs import Runs, count_runs
 
 CONFIDENCE = 0.95
+BOUNDARY = "lubrication.boundary_coefficient"  # factor on the friction of the load of asperities
 LEAST = 1e-9  # [N m] smallest noise
 NEAR = 1e-2  # distance within which a parameter is at an end of its range, over its scale
 SLOW = 0.01  # share of the largest speed below which the sign of the loss is unknown
@@ -57,6 +60,10 @@ class FittedCourse:
     simulations: int
     processor_time: float
     """[s]"""
+    unit_remarks: tuple[str, ...]
+    """A line for each unit of the table that may be wrong."""
+    without_effect: tuple[bool, ...]
+    """Whether the simulated torque stays the same for any small change of each parameter."""
 
     @property
     def inside(self) -> float:
@@ -74,6 +81,7 @@ def fit_course(
     span: tuple[float, float] = (-math.inf, math.inf),
     hold_out: tuple[float, float] | None = None,
     report: Callable[[int], None] = lambda count: None,
+    sensors: Sensors | None = None,
 ) -> FittedCourse:
     """Estimate free parameters from the torque at the input over a manoeuvre.
 
@@ -88,17 +96,25 @@ def fit_course(
         span: start and end of the part that is fitted [s].
         hold_out: start and end of a part that is predicted [s].
         report: called with the number of simulated points.
+        sensors: accuracy of the sensors, against which the signs of the torques are checked, names
+            of columns, and factors on readings; None: the default.
 
     Returns:
         The estimates.
 
     Raises:
+        InputError: readings contradict the scene; names channel, value and correction.
         ValueError: a name, a value or the file is invalid, or a part has too few bins.
         ArithmeticError: the scene cannot be simulated.
         OSError: the file cannot be read.
     """
     began = time.process_time()
-    manoeuvre = _without_standstill(read_course(path, followed_train(scene)))
+    known, unit_remarks = sensors or Sensors(), []
+
+    def check(stamps: Array, columns: Mapping[str, Array]) -> None:
+        unit_remarks.extend(table_remarks(scene, known, stamps, columns))
+
+    manoeuvre = _without_standstill(read_course(path, followed_train(scene), known, check))
     course = _select_part(manoeuvre, span)
     if hold_out is not None and hold_out[0] < course.time[-1] and hold_out[1] > course.time[0]:
         raise ValueError(
@@ -120,7 +136,8 @@ def fit_course(
         predicted, reach = _predict(model, held_out, parameters, estimate, noise, freedom)
     return FittedCourse(
         scene, parameters, estimate, course, simulated, noise, correlation, runs, held_out,
-        predicted, reach, model.count, time.process_time() - began,
+        predicted, reach, model.count, time.process_time() - began, tuple(unit_remarks),
+        tuple((~minimum.slopes.any(axis=0)).tolist()),
     )  # fmt: skip
 
 
@@ -201,6 +218,17 @@ def _require_torque(torque: Array | None) -> Array:
     return torque
 
 
+def _reason(found: FittedCourse, members: Sequence[int]) -> str:
+    """Why parameters are not identifiable."""
+    names = [found.parameters[k].name for k in members]
+    if len(members) > 1:
+        return "only a combination is: a change of one compensates a change of another"
+    if not found.without_effect[members[0]]:
+        return "its effect on the torque is smaller than the residuals"
+    cause = "; films carry the whole load, so no friction is boundary friction"
+    return "the simulated torque does not change with it" + cause * (names == [BOUNDARY])
+
+
 def course_remarks(found: FittedCourse) -> Iterator[str]:
     """Warn about parameters and residuals.
 
@@ -210,10 +238,11 @@ def course_remarks(found: FittedCourse) -> Iterator[str]:
     Returns:
         A line per warning.
     """
+    yield from found.unit_remarks
     estimate = found.estimate
     for members in estimate.not_identifiable:
         names = " and ".join(found.parameters[k].name for k in members)
-        yield f"{names}: not identifiable from this manoeuvre"
+        yield f"{names}: not identifiable from this manoeuvre: {_reason(found, members)}"
     for k, parameter in enumerate(found.parameters):
         value, margin = float(estimate.values[k]), NEAR * parameter.scale
         if value - parameter.low <= margin or parameter.high - value <= margin:

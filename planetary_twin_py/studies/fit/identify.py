@@ -22,7 +22,15 @@ from .missing_loss import MissingLoss, find_missing_loss
 from .model import Model, ModelOutput, read_all
 from .parameter import Parameter, read_parameters
 from .prediction import Fitted, Predicted, predict
-from .readings import HARMONICS, USUAL, Array, Readings, check_observables, recorded
+from .readings import (
+    HARMONICS,
+    USUAL,
+    Array,
+    Readings,
+    check_observables,
+    recorded,
+    usual_observables,
+)
 from .simulations import Simulations
 
 ROUNDS = 4  # iterations of the noise estimate from the residuals at the minimum
@@ -34,8 +42,8 @@ class Search(NamedTuple):
 
     free: Sequence[str]
     """Dotted names of fields of the scene."""
-    observe: Sequence[str] = USUAL
-    """See `readings.OBSERVABLES`."""
+    observe: Sequence[str] | None = None
+    """See `readings.OBSERVABLES`; None: those of `readings.USUAL` that are recorded."""
     start: Mapping[str, Any] = {}
     """Initial values that differ from the recorded ones."""
     noise: Mapping[str, float] = {}
@@ -101,10 +109,12 @@ def identify(
     """
     began = time.perf_counter()
     _check(search)
-    excerpt = read_excerpt(Path(path), namespace, begin, end, HARMONICS in search.observe)
+    waveform = HARMONICS in (search.observe or USUAL)
+    excerpt = read_excerpt(Path(path), namespace, begin, end, waveform)
     parameters = read_parameters(excerpt.scene, search.free, search.start)
-    data = _read_data(search, excerpt)
-    model = Model(excerpt, tuple(search.free), tuple(search.observe))
+    observe = usual_observables(excerpt) if search.observe is None else tuple(search.observe)
+    data = _read_data(observe, excerpt)
+    model = Model(excerpt, tuple(search.free), observe)
     runs = Simulations(model, threads or Threads(), report)
 
     def weigh(values: Array) -> WeightedReadings:
@@ -127,12 +137,12 @@ def identify(
     predictions: tuple[Predicted, ...] = ()
     if hold_out is not None:
         _check_apart(excerpt, hold_out)
-        other = read_excerpt(Path(path), namespace, *hold_out, HARMONICS in search.observe)
+        other = read_excerpt(Path(path), namespace, *hold_out, waveform)
         held_out_runs = Simulations(
             Model(other, model.free, model.observables), runs.threads, report
         )
         fitted = Fitted(parameters, estimate, weighted, search.confidence)
-        predictions = predict(held_out_runs, _read_data(search, other), fitted)
+        predictions = predict(held_out_runs, _read_data(observe, other), fitted)
     return Identified(
         parameters=parameters,
         estimate=estimate,
@@ -174,9 +184,10 @@ def _minimise(
 
 
 def _check(search: Search) -> None:
-    check_observables(search.observe)
+    observe = USUAL if search.observe is None else search.observe
+    check_observables(observe)
     for name, value in search.noise.items():
-        if name not in search.observe:
+        if name not in observe:
             raise ValueError(f"noise = {name}: must be one of observe")
         if not 0.0 < value < math.inf:
             raise ValueError(f"noise of {name} = {value!r}: must be above 0")
@@ -193,8 +204,8 @@ def _check_apart(excerpt: Excerpt, hold_out: tuple[float, float]) -> None:
         )
 
 
-def _read_data(search: Search, excerpt: Excerpt) -> tuple[Readings, ...]:
-    data = read_all(search.observe, recorded(excerpt), excerpt)
+def _read_data(observe: Sequence[str], excerpt: Excerpt) -> tuple[Readings, ...]:
+    data = read_all(observe, recorded(excerpt), excerpt)
     for readings in data:
         if not np.all(np.isfinite(readings.values)):
             raise ValueError(

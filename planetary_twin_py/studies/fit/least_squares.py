@@ -132,7 +132,7 @@ def with_initial_magnitudes(
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
-    """Local minimum of the sum of squares from `start` (p,).
+    """Local minimum of the sum of squares from `start` (p,); that is one where all slopes are zero.
 
     Args:
         residuals: see `Residuals`.
@@ -153,6 +153,9 @@ def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array
         return differentiate(residuals, parameters, scaled * scale) * scale
 
     clipped = np.clip(start, low, high)
+    first_slopes = differentiate(residuals, parameters, clipped)
+    if not first_slopes.any():  # `least_squares` would divide by them
+        return Minimum(clipped, at(clipped / scale), first_slopes)
     solution = least_squares(
         at, clipped / scale, slopes, bounds=(low / scale, high / scale),
         xtol=CLOSE, ftol=FLAT, gtol=None, max_nfev=MOST_STEPS,

@@ -65,6 +65,25 @@ def check_observables(names: Sequence[str]) -> None:
             raise ValueError(f"observe = {name}: given twice")
 
 
+def usual_observables(excerpt: Excerpt) -> tuple[str, ...]:
+    """Those of `USUAL` that were recorded.
+
+    Args:
+        excerpt: part of a recording.
+
+    Raises:
+        ValueError: none of them was recorded; names what was.
+    """
+    found = tuple(name for name in USUAL if _present(name, excerpt).any())
+    if not found:
+        others = [n for n in OBSERVABLES if n != HARMONICS and _present(n, excerpt).any()]
+        raise ValueError(
+            f"observe: is required, because this excerpt has neither {' nor '.join(USUAL)}; has "
+            f"{', '.join(others) or 'none of the observables'}"
+        )
+    return found
+
+
 def recorded(excerpt: Excerpt) -> list[IntervalReadings]:
     """The intervals of an excerpt as recorded."""
     meshes = 2 * int(excerpt.states[0].planets)
@@ -107,13 +126,19 @@ def read(name: str, intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> 
     """
     if name == HARMONICS:
         return _harmonics(intervals, excerpt)
-    present = ~np.isnan([_row(name, vars(state)) for state in excerpt.states]).all(axis=0)
+    present = _present(name, excerpt)
     if not present.any():
         raise ValueError(f"observe = {name}: was not recorded in this excerpt")
     rows = np.array([_row(name, interval.fields) for interval in intervals])
     ends = np.array([interval.end for interval in intervals])
     kinds = _kinds(rows.shape[1])
     return Readings(name, rows[:, present], kinds[present], _segments(ends, excerpt))
+
+
+def _present(name: str, excerpt: Excerpt) -> NDArray[np.bool_]:
+    """Whether each channel of an observable was recorded, (channels,)."""
+    rows = np.array([_row(name, vars(state)) for state in excerpt.states])
+    return np.asarray(~np.isnan(rows).all(axis=0))
 
 
 def _row(name: str, fields: Mapping[str, Any]) -> Array:

@@ -133,3 +133,17 @@ def test_a_drag_that_starts_at_zero_is_found_as_from_another_start(tmp_path):
     for start in (None, {DRAG: 0.2}):
         (drag,) = fit_course(tmp_path / "rig.mat", scene, (DRAG,), start=start).estimate.values
         assert drag == pytest.approx(0.03, abs=0.004)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_parameter_without_effect_is_reported_with_the_reason(tmp_path):
+    scene = pt.load_scene("paper")
+    train, losses = followed_train(scene), LossMap(scene)
+    time, one = np.arange(1, 301) / RATE, np.ones(300)
+    lost = sum(losses(63.0, pt.rpm(1000), train.oil_temperature)[::2])
+    torque = 63.0 + NOISE * np.random.default_rng(1).standard_normal(len(time))
+    table = {"time": time, "input_speed": pt.rpm(1000) * one, "input_torque": torque}
+    savemat(tmp_path / "rig.mat", table | {"output_torque": (lost - 63.0) / train.ratio * one})
+    found = fit_course(tmp_path / "rig.mat", scene, (FRICTION,))
+    (line,) = course_remarks(found)
+    assert "does not change with it; films carry the whole load" in line

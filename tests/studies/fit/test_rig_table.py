@@ -86,3 +86,19 @@ def test_enough_slow_readings_are_used_to_estimate_their_noise(tmp_path):
     write_measured(tmp_path / "rig.csv", pt.load_scene("paper"), tmp_path / "rig")
     found = read_excerpt(tmp_path / "rig")
     assert (found.start, found.end) == (0.0, 5.0)
+
+
+def test_by_default_what_was_recorded_is_observed(tmp_path):
+    rows = {"simulated_time": 0.01 * np.arange(1, 31), "power_loss": 80.0 + 0.1 * np.cos(range(30))}
+    csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    found = identify(tmp_path / "rig", Search(("lambda_ratio",)))
+    assert [readings.name for readings in found.weighted.recorded] == ["power_loss"]
+
+
+def test_without_a_default_observable_those_that_were_recorded_are_named(tmp_path):
+    rows = {"simulated_time": 0.01 * np.arange(1, 31), "input_torque": np.full(30, 63.0)}
+    csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    with pytest.raises(ValueError, match=r"neither dte_rms nor power_loss; has .*input_torque"):
+        identify(tmp_path / "rig", Search(("lambda_ratio",)))
