@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from ..brief import brief
 from ..scene import Scene
 from ..units import LARGEST
-from .balance import PERIOD, BalanceFollower
+from .balance import BalanceFollower
 from .balance_filter import Innovation
 from .baseline import LearnedCell
 from .baseline_file import SavedBaseline, read_baseline, write_baseline
 from .bins import CHANNELS
+from .checked_bins import PERIOD
 from .checks import InputError
 from .clock_watch import ClockWatch
 from .estimate import Estimate, Event

@@ -109,7 +109,8 @@ def fit_course(
         OSError: the file cannot be read.
     """
     began = time.process_time()
-    known, unit_remarks = sensors or Sensors(), []
+    known = sensors or Sensors()
+    unit_remarks: list[str] = []
 
     def check(stamps: Array, columns: Mapping[str, Array]) -> None:
         unit_remarks.extend(table_remarks(scene, known, stamps, columns))
@@ -137,7 +138,7 @@ def fit_course(
     return FittedCourse(
         scene, parameters, estimate, course, simulated, noise, correlation, runs, held_out,
         predicted, reach, model.count, time.process_time() - began, tuple(unit_remarks),
-        tuple((~minimum.slopes.any(axis=0)).tolist()),
+        tuple(not slopes.any() for slopes in minimum.slopes.T),
     )  # fmt: skip
 
 
