@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
+from ..gearset.kinematics import MEMBERS
 from ..spatial.bearings import missing_stiffnesses
 from .defect import explain
 from .drive import Drive
@@ -95,13 +96,22 @@ class Scene(Section):
         for side in ("input", "second_input", "output"):
             machine = getattr(self.drive, side)
             if machine is not None and machine.member == held:
-                yield f"drive.{side}.member = {machine.member!r}: is fixed by gearset.held"
+                yield (
+                    f"drive.{side}.member = {held!r}: is fixed by gearset.held, so "
+                    f"drive.{side}.member must be {' or '.join(self._free_members())}"
+                )
         if (self.drive.second_input is None) != (held != "none"):
             needed = "requires" if held == "none" else "does not allow"
             yield f"gearset.held = {held!r}: {needed} drive.second_input"
         if self.drive.second_input is None and self.operating_point.second_input_speed != 0.0:
             speed = self.operating_point.second_input_speed
             yield f"second_input_speed = {speed!r}: must be 0 without a second input"
+
+    def _free_members(self) -> list[str]:
+        """Members that are not fixed and have no machine."""
+        machines = (self.drive.input, self.drive.second_input, self.drive.output)
+        taken = {self.gearset.held, *(machine.member for machine in machines if machine)}
+        return [member for member in MEMBERS if member not in taken]
 
     def _ports(self) -> Iterator[str]:
         """Errors of ports at which torque or motion is given."""

@@ -129,7 +129,7 @@ def test_errors_of_gears_and_across_sections_are_listed_at_once():
     for start in (
         "gearset: teeth = 30/20/71:",
         "gearset: planet_angles = 0, 1, 200 deg:",
-        "drive.output.member = 'carrier': is fixed by gearset.held",
+        "drive.output.member = 'carrier': is fixed by gearset.held, so drive.output.member must",
         "input_speed = 9424.7",
         "faults.0.tooth = 99: must be at most 29",
     ):
