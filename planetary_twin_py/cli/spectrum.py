@@ -6,6 +6,7 @@ import inspect
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -23,7 +24,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..analysis.mesh_spectrum import MeshSpectrum
+    from ..analysis.sidebands import Sideband, Sidebands
     from ..analysis.signals import Signal
+    from ..analysis.spectrum import Line
+    from ..scene import Scene
 
 LINES = 12
 
@@ -63,8 +67,8 @@ class Options:
     to: Annotated[
         float | None,
         typer.Option(
-            help="End in simulated time. Default without --from: the longest settled interval at "
-            "one operating point.",
+            help="End in simulated time. Default without --from: of a recording, the longest "
+            "settled interval at one operating point; of another file, all samples.",
             **SECONDS,
         ),
     ] = None
@@ -123,7 +127,8 @@ def spectrum(**given: Any) -> None:
             _write(asked.out, found, _title(asked, subject, signal), _labels(asked, subject))
     except (ValueError, OSError) as error:
         fail(error)
-    for line in (*signal.remarks, *_constant_speed(asked, signal), *_aliases(asked, signal, found)):
+    remarks = (_constant_speed(asked, signal), _aliases(asked, signal, found))
+    for line in (*signal.remarks, *chain(*remarks), *_wrong_scale(asked, signal, found)):
         remark(line)
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
     figures |= _figures(asked, signal, found)
@@ -193,7 +198,8 @@ def _analysed(asked: Options) -> tuple[Signal, MeshSpectrum, _Subject]:
     else:
         signal = signal.within(asked.from_, asked.to)
     spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
-    found = spectrum_of(signal, _sun_teeth(signal))
+    scene = _scene(signal)
+    found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
     return signal, found if band is None else found.within(band), subject
 
 
@@ -222,12 +228,11 @@ def _steady(file: Path, signal: Signal) -> Signal:
     return replace(whole, remarks=(*whole.remarks, line))
 
 
-def _sun_teeth(signal: Signal) -> int | None:
+def _scene(signal: Signal) -> Scene | None:
+    """The scene of a signal, if it is known."""
     from ..scene import parse_scene
 
-    if signal.scene_yaml is None:
-        return None
-    return parse_scene(signal.scene_yaml).gearset.teeth.sun
+    return None if signal.scene_yaml is None else parse_scene(signal.scene_yaml)
 
 
 def _constant_speed(asked: Options, signal: Signal) -> Iterator[str]:
@@ -248,20 +253,32 @@ def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[st
         return
     from ..analysis.aliases import NEGLIGIBLE, alias_remark
     from ..modal.natural import natural_modes
-    from ..scene import parse_scene
 
     if found.alias_share <= NEGLIGIBLE:
         return
     highest = mesh = None
-    if signal.scene_yaml is not None:
-        highest = float(natural_modes(parse_scene(signal.scene_yaml)).frequencies.max())
+    scene = _scene(signal)
+    if scene is not None:
+        highest = float(natural_modes(scene).frequencies.max())
     if found.mesh is not None:
         mesh = found.mesh * signal.sample_rate / found.sample_rate
     yield alias_remark(signal.sample_rate, found.alias_share, highest, mesh)
 
 
+def _wrong_scale(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
+    """A warning if the mesh harmonics of a table are elsewhere than those of the scene."""
+    from ..analysis.wrong_scale import scale_remarks
+
+    scene = _scene(signal)
+    if asked.is_table and scene is not None:
+        yield from scale_remarks(found, scene)
+
+
 def _figures(asked: Options, signal: Signal, found: MeshSpectrum) -> dict[str, Any]:
-    axis = "order" if asked.order else "frequency_hz"
+    from ..analysis.sidebands import Sidebands
+
+    axis, scene = "order" if asked.order else "frequency_hz", _scene(signal)
+    sidebands = None if scene is None else Sidebands.of(scene)
     return {
         "from_s": float(signal.time[0]),
         "to_s": float(signal.time[-1]),
@@ -275,14 +292,25 @@ def _figures(asked: Options, signal: Signal, found: MeshSpectrum) -> dict[str, A
                 "mesh_orders": found.in_mesh_orders(line.place),
                 "harmonic": found.harmonic(line.place),
                 "alias_of_harmonic": None if asked.is_table else found.alias(line),
+                "sidebands": [band._asdict() for band in _sidebands(sidebands, found, line)],
             }
             for line in found.lines(LINES)
         ],
     }
 
 
+def _sidebands(known: Sidebands | None, found: MeshSpectrum, line: Line) -> list[Sideband]:
+    """Sidebands at a line that is no mesh harmonic."""
+    orders = found.in_mesh_orders(line.place)
+    if known is None or found.mesh is None or orders is None or found.harmonic(line.place):
+        return []
+    return known.at(orders, float(found.axis[1]) / found.mesh)
+
+
 def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None:
     from rich.table import Table
+
+    from ..analysis.sidebands import Sideband, sideband_text
 
     table = Table(box=None, pad_edge=False)
     axis = "order" if figures["lines"] and "order" in figures["lines"][0] else "frequency_hz"
@@ -296,7 +324,8 @@ def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None
             f"{line[axis]:.3f}",
             f"{line['amplitude']:.4g}",
             "-" if orders is None else f"{orders:.4f}",
-            _name(line["harmonic"], line["alias_of_harmonic"]),
+            _name(line["harmonic"], line["alias_of_harmonic"])
+            or sideband_text([Sideband(**band) for band in line["sidebands"]]),
         )
     console.print(table)
     console.print(

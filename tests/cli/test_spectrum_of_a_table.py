@@ -176,3 +176,53 @@ def test_the_unit_of_a_parquet_column_may_be_in_its_metadata(tmp_path):
     assert "amplitude [m/s^2]" in done.stdout
     frequency, amplitude = map(float, done.stdout.splitlines()[1].split()[:2])
     assert frequency == pytest.approx(100.0, rel=1e-3) and amplitude == pytest.approx(1.0, rel=0.01)
+
+
+def written(file, samples, heading="time [s],a [m/s^2]", unit=1.0):
+    time = unit * np.arange(len(samples)) / RATE
+    rows = np.column_stack((time, samples))
+    np.savetxt(file, rows, delimiter=",", header=heading, comments="", fmt="%.9g")
+    return invoke(file, "--scene", "paper", "--set", "input_speed=998 rpm", "--json", "-")
+
+
+def meshing(teeth, rpm=998.0):
+    """One second of two mesh harmonics with sidebands of the sun, and noise."""
+    turns = rpm / 60.0 * np.arange(0.0, 1.0, 1.0 / RATE)
+    tones = np.sin(2.0 * np.pi * teeth * turns) + 0.4 * np.sin(4.0 * np.pi * teeth * turns + 1.0)
+    noise = 0.01 * np.random.default_rng(0).standard_normal(len(turns))
+    return tones * (1.0 + 0.1 * np.cos(2.0 * np.pi * teeth / 30.0 * turns)) + noise
+
+
+@pytest.mark.parametrize(
+    ("teeth", "rpm", "words"),
+    [
+        (30, 996.0, "fit a mesh frequency 0.998 times that of the scene: are the speed"),
+        (30, 600.0, "fit a mesh frequency 0.6012 times that of the scene: are the speed"),
+        (21, 998.0, "is gearset.held = ring?"),
+    ],
+)
+def test_lines_off_by_one_factor_are_reported(tmp_path, teeth, rpm, words):
+    assert words in written(tmp_path / "a.csv", meshing(teeth, rpm)).stderr
+
+
+def test_a_mesh_frequency_above_half_the_sample_rate_is_reported(tmp_path):
+    done = written(tmp_path / "a.csv", meshing(30), "time,a", unit=1e3)
+    assert "is 39 times half the sample rate" in done.stderr and "time [ms]" in done.stderr
+
+
+def test_right_lines_noise_and_the_mains_give_no_warning(tmp_path):
+    time = np.arange(0.0, 1.0, 1.0 / RATE)
+    noise = np.random.default_rng(1).standard_normal(len(time))
+    mains = sum(np.sin(100.0 * np.pi * n * time) / n for n in (1, 2, 3)) + 0.01 * noise
+    for samples in (meshing(30), noise, mains, np.zeros(len(time))):
+        done = written(tmp_path / "a.csv", samples)
+        assert done.exit_code == 0 and "planetary-twin: " not in done.stderr
+
+
+def test_sidebands_name_the_members_that_separate_them(table):
+    found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm")[:4]
+    named = [line["sidebands"] for line in found]
+    assert named[:2] == [[], []]
+    below, above = ({"harmonic": 1, "member": "sun", "number": n} for n in (-1, 1))
+    assert sorted(named[2:], key=str) == sorted([[below], [above]], key=str)
+    assert lines(table)[0]["sidebands"] == []
