@@ -9,6 +9,7 @@ from pyarrow import parquet
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.tables.units_file import write_units
 
 RATE = 25_600.0  # [Hz]
 MESH = 499.0  # [Hz] of the gears of `paper` at 998 rpm
@@ -226,3 +227,15 @@ def test_sidebands_name_the_members_that_separate_them(table):
     below, above = ({"harmonic": 1, "member": "sun", "number": n} for n in (-1, 1))
     assert sorted(named[2:], key=str) == sorted([[below], [above]], key=str)
     assert lines(table)[0]["sidebands"] == []
+
+
+def test_units_of_a_csv_may_be_in_the_file_beside_it_that_export_writes(tmp_path):
+    file, time = tmp_path / "vibration.csv", np.arange(2000) / 1000.0
+    rows = np.column_stack((1e3 * time, np.sin(200.0 * np.pi * time)))
+    np.savetxt(file, rows, delimiter=",", header="time,acceleration", comments="")
+    write_units(file, {"time": "ms", "acceleration": "m/s^2"})
+    done = invoke(file)
+    assert done.exit_code == 0 and "amplitude [m/s^2]" in done.stdout
+    assert float(done.stdout.split("\n")[1].split()[0]) == pytest.approx(100.0, rel=1e-3)
+    (tmp_path / "vibration.units.json").write_text("[1]")
+    assert "vibration.units.json: must be an object" in invoke(file).stderr

@@ -20,6 +20,7 @@ from ...units import LARGEST, column_to_si, is_number
 from .mat_file import MatError, read_mat
 from .parquet_pages import unpacked_size
 from .suffixes import SUFFIXES
+from .units_file import units_beside
 from .unpacking import check_unpacked
 
 Array = NDArray[np.float64]
@@ -139,7 +140,8 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 def read_columns(path: Path) -> dict[str, Column]:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
-    A column of Parquet may have its unit in its metadata instead, as `unit`.
+    A column of Parquet may have its unit in its metadata instead, as `unit`, and one of CSV in the
+    file NAME.units.json beside it, which `export` writes.
 
     Args:
         path: path of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or
@@ -170,18 +172,20 @@ def read_columns(path: Path) -> dict[str, Column]:
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
     columns: dict[str, Column] = {}
+    stated = units_beside(path) if path.suffix == ".csv" else {}
     for field, values in zip(table.schema, table.columns, strict=True):
         name, unit = name_and_unit(field.name)
         if name and name in columns:
             raise ValueError(f"{path}: column {field.name!r}: {name} is given twice")
-        columns[name] = Column(field.name, unit or _unit_of(field), values, path)
+        columns[name] = Column(field.name, unit or _unit_of(field, stated), values, path)
     return columns
 
 
-def _unit_of(field: pa.Field) -> str | None:
-    """Unit in the metadata of a Parquet column, as tables of this project have it."""
+def _unit_of(field: pa.Field, beside: Mapping[str, str]) -> str | None:
+    """Unit in the metadata of a Parquet column, or beside a CSV."""
     stated = (field.metadata or {}).get(b"unit", b"").decode(errors="replace")
-    return None if stated in ("", "-") else stated
+    unit = stated or beside.get(field.name, "")
+    return None if unit in ("", "-") else unit
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:

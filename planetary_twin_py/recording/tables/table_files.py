@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import tempfile
 import zipfile
@@ -16,6 +15,7 @@ import pyarrow as pa
 from pyarrow import csv, parquet
 
 from .message_tables import Batch, Column
+from .units_file import write_units
 
 
 class TableFile(Protocol):
@@ -52,7 +52,7 @@ class Csv:
         options = csv.WriteOptions(quoting_style="needed")
         self._writer = csv.CSVWriter(path, self._schema, write_options=options)
         units = {column.name: column.unit for column in columns}
-        path.with_suffix(".units.json").write_text(json.dumps(units, indent=2) + "\n", "utf-8")
+        write_units(path, units)
 
     def write(self, batch: Batch) -> None:
         """Append rows."""
