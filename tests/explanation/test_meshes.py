@@ -119,7 +119,7 @@ def test_pressure_is_that_of_iso_6336(kind):
 
 def test_loss_factors_are_those_of_the_papers_meshes():
     assert of("sun_planet").loss_factor == pytest.approx(0.17152, abs=1e-5)
-    assert of("planet_ring").loss_factor == pytest.approx(0.09778, abs=1e-5)
+    assert of("planet_ring").loss_factor == pytest.approx(0.09747, abs=1e-5)
 
 
 def tip_lengths(gearset, kind):

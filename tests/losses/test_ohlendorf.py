@@ -1,4 +1,4 @@
-"""Ohlendorf's loss factor against integration over the path, and against the running gearbox."""
+"""Loss factor against integration over the path, closed form, and the running gearbox."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.gearset.geometry import planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.geometry import PathOfContact, planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.losses.ohlendorf import tooth_loss_factor
 
@@ -28,16 +28,32 @@ def integrated(path, first, second, internal):
     return 2 * math.pi * (1 / first + (-1 if internal else 1) / second) * total / len(cycles)
 
 
-@BOTH
-def test_closed_form_is_the_integral_over_the_path(mesh):
-    # At the ring teeth approach over more than a base pitch, which the closed form does not know.
-    closed = mesh[0].approach < 1.0
-    assert tooth_loss_factor(*mesh) == pytest.approx(
-        integrated(*mesh), rel=5e-4 if closed else 4e-3
-    )
+WIDE = PathOfContact(0.2, 2.3)  # three pairs at times
+AWAY = PathOfContact(-0.2, 1.7)  # the pitch point is not on the path
 
 
-@pytest.mark.parametrize("mesh, expected", [(SUN, 0.17152), (RING, 0.09778)])
+@pytest.mark.parametrize(
+    "mesh",
+    [SUN, RING, (WIDE, 30, 20, False), (AWAY, 20, 70, True)],
+    ids=["sun", "ring", "three_pairs", "off"],
+)
+def test_loss_factor_is_the_integral_over_the_path(mesh):
+    assert tooth_loss_factor(*mesh) == pytest.approx(integrated(*mesh), rel=1e-4)
+
+
+def closed_form(path, first, second, internal):
+    shares = 1.0 - path.contact_ratio + path.approach**2 + path.recess**2
+    return math.pi * (1 / first + (-1 if internal else 1) / second) * shares
+
+
+def test_closed_form_holds_where_the_pitch_point_has_one_pair():
+    """At the ring, teeth approach over more than a base pitch: two pairs at the pitch point."""
+    assert SUN[0].approach < 1.0 and SUN[0].recess < 1.0 < RING[0].approach
+    assert tooth_loss_factor(*SUN) == pytest.approx(closed_form(*SUN), rel=1e-12)
+    assert tooth_loss_factor(*RING) < 0.997 * closed_form(*RING)
+
+
+@pytest.mark.parametrize("mesh, expected", [(SUN, 0.17152), (RING, 0.09747)])
 def test_loss_factors_of_the_papers_gearset(mesh, expected):
     assert tooth_loss_factor(*mesh) == pytest.approx(expected, abs=1e-5)
 
