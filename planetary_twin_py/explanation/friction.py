@@ -1,4 +1,4 @@
-"""Friction of one tooth pair by each friction law, and the film laws within their range."""
+"""Friction of a mesh by each friction law, and the film laws within their range."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from .._core import tooth_contact
 from ..dynamics.oil import build_oil
 from ..scene import Scene
+from .mean_friction import contacts_of, mean_coefficient, oil_with
 
 SLIDE_TO_ROLL = 0.1  # typical of a tooth pair between pitch point and tip
 LARGEST_EXPONENT = 200.0  # beyond, the limiting stress has long been reached
@@ -31,43 +32,51 @@ class TypicalPair(NamedTuple):
 
 
 def friction_figures(
-    scene: Scene, kind: int, loaded: tuple[float, float], frequency: float
+    scene: Scene, kind: int, loaded: tuple[float, float], frequency: float, loss_factor: float
 ) -> dict[str, Any]:
-    """Friction of a typical tooth pair at the operating point of `scene`.
+    """Mean friction over the path of contact at the operating point of `scene`, and its film.
 
     Args:
         scene: the scene.
         kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
-        loaded: load of the pair [N], and its largest Hertz pressure [Pa].
+        loaded: force of the mesh [N], negative on the coast flanks, and the largest Hertz pressure
+            of one pair at the pitch point under this force [Pa].
         frequency: mesh frequency [Hz].
+        loss_factor: H_v [-].
 
     Returns:
         The friction fields of `MeshFigures`, by name.
     """
-    mesh, (load, peak) = scene.gearset.geometry.meshes[kind], loaded
-    rho1, rho2 = mesh.curvatures
+    mesh, (force, peak) = scene.gearset.geometry.meshes[kind], loaded
+    contacts = contacts_of(scene, kind, force, frequency, loss_factor)
+    mu = mean_coefficient(build_oil(scene, scene.operating_point), contacts)
+    by_law = {
+        law: mean_coefficient(oil_with(scene, law), contacts)
+        for law in ("eyring", "evans_johnson", "schlenk")
+    }
+    power = scene.gearset.planets * abs(force) * mesh.base_pitch * frequency
     speed = frequency * mesh.rolling_advance
-    pair = TypicalPair(rho1, rho2, 1.0 if kind == 0 else -1.0, speed, load)
-    by_law = {law: _friction(scene, law, pair) for law in ("eyring", "evans_johnson", "schlenk")}
-    coefficients = {law: sum(parts) for law, parts in by_law.items()}
+    pair = TypicalPair(*mesh.curvatures, -1.0 if mesh.internal else 1.0, speed, abs(force))
     shear = _shear_number(scene, pair, 0.25 * math.pi * peak)
-    # The plateau is independent of the sliding speed, and is clipped to zero if negative.
-    plateau = shear >= 1.0 and by_law["evans_johnson"][1] > 0.0
+    plateau = shear >= 1.0 and _has_plateau(scene, pair)
     return {
-        "friction": sum(_friction(scene, scene.lubrication.traction, pair)),
-        "friction_eyring": coefficients["eyring"],
-        "friction_evans_johnson": coefficients["evans_johnson"] if plateau else None,
-        "friction_schlenk": coefficients["schlenk"],
+        "friction": mu,
+        "friction_eyring": by_law["eyring"],
+        "friction_evans_johnson": by_law["evans_johnson"] if plateau else None,
+        "friction_schlenk": by_law["schlenk"],
+        "tooth_loss": mu * loss_factor * power,
         "shear_number": shear,
         "film_laws_in_range": ("eyring", "evans_johnson") if plateau else ("eyring",),
     }
 
 
-def _friction(scene: Scene, traction: str, pair: TypicalPair) -> tuple[float, float]:
-    """Boundary and viscous friction coefficients [-] with a law of viscous friction."""
-    oil = build_oil(scene.replace(**{"lubrication.traction": traction}), scene.operating_point)
-    _, boundary, viscous, *_ = tooth_contact(oil, pair.motion)
-    return (boundary / pair.load, viscous / pair.load) if pair.load else (0.0, 0.0)
+def _has_plateau(scene: Scene, pair: TypicalPair) -> bool:
+    """Whether the plateau, which does not depend on the sliding speed, is positive.
+
+    The law clips it to zero if it is negative.
+    """
+    viscous: float = tooth_contact(oil_with(scene, "evans_johnson"), pair.motion)[2]
+    return viscous > 0.0
 
 
 def _shear_number(scene: Scene, pair: TypicalPair, pressure: float) -> float:

@@ -44,12 +44,14 @@ class MeshFigures(NamedTuple):
     pitch_pressure: (
         float  # largest Hertz pressure at the pitch point, static force on one pair [Pa]
     )
-    loss_factor: float  # H_v (Ohlendorf 1958): relative loss = H_v times friction coefficient [-]
+    # H_v (Ohlendorf 1958): relative loss = H_v times mean friction coefficient [-].
+    loss_factor: float
     backlash: float  # total, along the line of action [m]
-    friction: float  # coefficient by the laws of the scene, static force on one pair [-]
+    friction: float  # mean coefficient by the laws of the scene, static force [-]
     friction_eyring: float  # the same with this law of viscous friction [-]
     friction_evans_johnson: float | None  # None outside the range of this law
     friction_schlenk: float  # regression of measured gear losses, includes boundary friction
+    tooth_loss: float  # H_v times mean coefficient times power of all meshes of the kind [W]
     shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
     film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
 
@@ -81,6 +83,12 @@ def describe_meshes(scene: Scene) -> Meshes:
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
     working_meshes = gearset.geometry.meshes
     paths = [mesh.path for mesh in working_meshes]
+    loss_factors = [
+        tooth_loss_factor(
+            mesh.path, mesh.first.teeth, mesh.second.teeth, mesh.internal, gearset.base_helix
+        )
+        for mesh in working_meshes
+    ]
     sides = [(path.approach, path.recess)[:: -1 if from_sun < 0.0 else 1] for path in paths]
     sun_planet, planet_ring = (
         MeshFigures(
@@ -102,11 +110,11 @@ def describe_meshes(scene: Scene) -> Meshes:
             static_force=force,
             axial_force=force * abs(math.tan(gearset.base_helix)),
             pitch_pressure=pressure[kind],
-            loss_factor=tooth_loss_factor(
-                paths[kind], teeth[first], teeth[second], kind == 1, gearset.base_helix
-            ),
+            loss_factor=loss_factors[kind],
             backlash=2.0 * float(load.half_backlash),
-            **friction_figures(scene, kind, (force, pressure[kind]), frequency),
+            **friction_figures(
+                scene, kind, (sun_force, pressure[kind]), frequency, loss_factors[kind]
+            ),
         )
         for kind, (first, second) in enumerate(GEARS)
     )

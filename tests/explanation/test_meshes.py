@@ -201,16 +201,38 @@ def test_teeth_are_named_sun_first():
     assert (found.sun_planet.teeth, found.planet_ring.teeth) == ((30, 20), (20, 70))
 
 
-def test_friction_of_a_typical_pair_is_that_of_the_laws_at_the_pitch_point():
-    """Evans and Johnson's plateau at 63 N m (see tests/lubrication), and asperities at lambda 1."""
-    boundary = {"sun_planet": 1.217, "planet_ring": 1.217 * math.sqrt(7 / 3)}  # as the area
-    for kind, plateau in (("sun_planet", 0.04251), ("planet_ring", 0.04105)):
-        found = of(kind)
-        expected = plateau + boundary[kind] / found.static_force
-        assert found.friction == pytest.approx(expected, abs=2e-5)
-        assert found.friction == found.friction_evans_johnson
-        eyring = of(kind, **{"lubrication.traction": "eyring"})
-        assert eyring.friction == found.friction_eyring != found.friction
+@pytest.mark.parametrize("name", ["paper", "reference_gearbox_stage", "wind_turbine_stage"])
+@pytest.mark.parametrize("traction", ["eyring", "evans_johnson", "schlenk"])
+def test_tooth_loss_is_that_of_a_run(name, traction):
+    """Except for friction, which makes the forces of sun and ring meshes of a run unequal."""
+    changes = {"dynamics": "quasi_static", "lubrication.traction": traction}
+    scene = pt.load_scene(name).replace(**changes)
+    found = describe_meshes(scene)
+    run = pt.simulate(scene, 4.0 / found.mesh_frequency, 100.0 * found.mesh_frequency)
+    planets, loss = scene.gearset.planets, run.mesh["power_loss"]
+    for mesh, of_kind in zip(found[1:], (loss[:planets], loss[planets:]), strict=True):
+        assert mesh.tooth_loss == pytest.approx(of_kind.sum(), rel=0.065)
+        power = planets * mesh.static_force * found.mesh_frequency * base_pitch(scene)
+        assert mesh.tooth_loss == pytest.approx(mesh.friction * mesh.loss_factor * power)
+
+
+def base_pitch(scene):
+    return math.pi * scene.gearset.module * math.cos(scene.gearset.pressure_angle)
+
+
+@BOTH
+def test_mean_friction_of_a_constant_coefficient_is_this_coefficient(kind):
+    """H_v assumes that pairs share the load equally, as they do with a given stiffness."""
+    table = {"lubrication.traction": "table", "lubrication.friction_table": {"coefficient": [0.07]}}
+    assert of(kind, **table, **{"mesh.ramp": 0.0}).friction == pytest.approx(0.07, rel=0.01)
+
+
+@BOTH
+def test_friction_by_a_law_is_that_of_a_scene_with_this_law(kind):
+    assert of(kind).friction == of(kind).friction_evans_johnson
+    for law in ("eyring", "schlenk"):
+        found = of(kind, **{"lubrication.traction": law})
+        assert found.friction == getattr(of(kind), f"friction_{law}") != of(kind).friction
 
 
 def test_the_plateau_is_in_range_under_a_heavy_load_alone():
