@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from ..gearset.kinematics import mesh_frequency
@@ -16,6 +17,9 @@ from ..studies.turning import (
     wanted_mesh_frequency,
 )
 
+MANY = 10.0  # mesh cycles from which on a part of one hardly changes means
+EXACT = 0.02  # part of a mesh cycle that may be missing from a whole number of them
+
 
 def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
     """Warnings about the mesh frequency of a run.
@@ -25,8 +29,9 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
         run: its result.
 
     Returns:
-        A sentence if the run covers less than a mesh cycle, another if its mean speed is not that
-        of the operating point. Nothing where the gears are to stand still.
+        A sentence if the run covers less than a mesh cycle, or only a few and a part of one,
+        another if its mean speed is not that of the operating point. Nothing where the gears are
+        to stand still.
     """
     wanted = wanted_mesh_frequency(scene)
     if not wanted > STANDSTILL:
@@ -43,3 +48,20 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
             f"the gears turn at {share:.3g} of the speed of the operating point on average, "
             f"because {ADVICE}"
         )
+    elif part_counts(cycles := wanted * run.duration):
+        whole = math.ceil(cycles)
+        yield (
+            f"duration = {run.duration:g} s is {cycles:.3g} mesh cycles: means of losses, forces "
+            "and DTE depend on where the teeth are, unless the number of cycles is whole or above "
+            f"{MANY:g}; use {whole / wanted:.5g} s ({whole} cycles), or {MANY / wanted:.3g} s and "
+            "more"
+        )
+
+
+def part_counts(cycles: float) -> bool:
+    """Whether means depend on where the teeth are: few mesh cycles, not a whole number.
+
+    Args:
+        cycles: number of mesh cycles of a run.
+    """
+    return cycles < MANY and abs(cycles - round(cycles)) > EXACT

@@ -20,6 +20,23 @@ def test_less_than_a_mesh_cycle_is_reported_with_the_time_of_one(dynamics):
     assert list(turning_warnings(scene, pt.simulate(scene, 0.004))) == []
 
 
+@pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
+def test_few_cycles_and_a_part_of_one_are_reported_with_better_durations(dynamics):
+    scene = PAPER.replace(input_speed=pt.rpm(1000.0), dynamics=dynamics)
+    (line,) = turning_warnings(scene, pt.simulate(scene, 0.00294))
+    assert "duration = 0.00294 s is 1.47 mesh cycles" in line
+    assert "use 0.004 s (2 cycles), or 0.02 s and more" in line
+    for better in (0.004, 0.0204):
+        assert list(turning_warnings(scene, pt.simulate(scene, better))) == []
+
+
+def test_a_part_of_a_cycle_changes_the_mean_loss():
+    scene = PAPER.replace(dynamics="quasi_static")
+    means = [pt.simulate(scene, time).mean_power_loss for time in (0.00294, 0.004, 0.02)]
+    assert means[1] == pytest.approx(means[2], rel=1e-3)
+    assert abs(means[0] / means[2] - 1.0) > 0.003
+
+
 def test_gears_that_are_to_stand_still_are_not_reported():
     scene = PAPER.replace(input_speed=0.0)
     assert list(turning_warnings(scene, pt.simulate(scene, 0.001))) == []
