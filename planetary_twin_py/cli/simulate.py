@@ -62,6 +62,7 @@ def simulate(
     """
 
     from ..accuracy import AccuracyWarning
+    from ..explanation.losses import losses_in_words
     from ..explanation.remarks import remarks
     from ..ledger_check import LedgerWarning
     from ..scene.summary import gears, operating_point
@@ -98,7 +99,8 @@ def simulate(
     print_list(console, "operating point", operating_point(loaded))
     for name, value in train.items():
         label, unit = _TRAIN[name]
-        console.print(f"{label:38} {figure(value, unit, digits=6)}", markup=False)
+        note = f" ({losses_in_words(loaded)})" if name == "efficiency" else ""
+        console.print(f"{label:38} {figure(value, unit, digits=6)}{note}", markup=False)
     if train["mean_mesh_force_N"] < 0.0:
         console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))

@@ -9,8 +9,8 @@ from ..dynamics.moving_axes import linear_bearing
 from ..dynamics.stiffness_laws import stiffness_laws
 from ..scene import Scene
 from .axes import meaning_of_held_axes
+from .losses import KINDS, bearings_with_losses, losses, losses_in_words, members_with_drag
 
-KINDS = ("planet", "sun", "ring", "carrier")
 _FACTORS = ("planet_stiffness", "pin_stiffness")  # of scene.errors
 
 
@@ -76,16 +76,29 @@ NOMINAL_LINES = (
 
 
 def limits(scene: Scene) -> tuple[Limit, ...]:
-    """Limits of the model that apply to `scene`."""
+    """Limits of the model, and losses that are left out, that apply to `scene`."""
+    return (*_limits_of_motion(scene), *_missing_losses(scene), *NOT_MODELLED)
+
+
+def _missing_losses(scene: Scene) -> tuple[Limit, ...]:
+    _, missing = losses(scene)
+    if not missing:
+        return ()
+    contained = f"power loss and efficiency: {losses_in_words(scene)}"
+    fields = "lubrication.friction" if missing == ["tooth friction"] else "section losses"
+    return (Limit(f"losses: {', '.join(missing)}", f"{contained} ({fields} of the scene)"),)
+
+
+def _limits_of_motion(scene: Scene) -> tuple[Limit, ...]:
     statics = (STATICS_ONLY,) if scene.quasi_static else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
     rolling = (CAGE,) if _rolling_elements(scene) is not None else ()
     if scene.tilting_axes:
-        return (*statics, SHUTTLING, *NOMINAL_LINES, *rolling, *NOT_MODELLED)
+        return (*statics, SHUTTLING, *NOMINAL_LINES, *rolling)
     if scene.moving_axes:
-        return (*statics, *helix, IN_PLANE, FLAT, *rolling, *NOT_MODELLED)
+        return (*statics, *helix, IN_PLANE, FLAT, *rolling)
     axes = Limit("translation of axes", meaning_of_held_axes(scene))
-    return (*statics, *helix, axes, FLAT, *NOT_MODELLED)
+    return (*statics, *helix, axes, FLAT)
 
 
 def terms(scene: Scene) -> tuple[Term, ...]:
@@ -225,7 +238,7 @@ def _ripple(scene: Scene) -> Term | None:
 
 
 def _bearings(scene: Scene) -> Term | None:
-    kinds = [kind for kind in KINDS if getattr(scene.losses, f"{kind}_bearing") is not None]
+    kinds = bearings_with_losses(scene)
     if not kinds:
         return None
     without = {f"losses.{kind}_bearing": None for kind in kinds}
@@ -250,8 +263,7 @@ def _rolling_elements(scene: Scene) -> Term | None:
 
 
 def _drag(scene: Scene) -> Term | None:
-    drags = {kind: getattr(scene.losses, f"{kind}_drag") for kind in ("sun", "ring", "carrier")}
-    kinds = [kind for kind, drag in drags.items() if drag.coulomb or drag.viscous]
+    kinds = members_with_drag(scene)
     if not kinds:
         return None
     without: dict[str, Any] = {f"losses.{kind}_drag": {} for kind in kinds}

@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.explanation.losses import losses_in_words
 from planetary_twin_py.explanation.measure import explain
 from planetary_twin_py.explanation.meshes import describe_meshes
 from planetary_twin_py.explanation.terms import limits, terms
@@ -123,6 +124,37 @@ def test_a_value_and_its_unit_stand_in_one_line():
     lines = [line.strip() for line in shown.output.splitlines()]
     assert "input torque 4180 kN m" in lines
     assert any(line.startswith("power loss") and line.endswith(" kW") for line in lines)
+
+
+LOSSES = {
+    "losses.planet_bearing": {"mean_diameter": 0.01},
+    "losses.sun_drag": {"coulomb": 0.1},
+    "losses.churning": {"fill": 0.1, "gap": 0.01, "carrier": 0.05},
+}
+
+
+@pytest.mark.parametrize(
+    "changes, missing, words",
+    [
+        (
+            {},
+            "bearings, seals and grease, churning",
+            "tooth friction only, without bearings, seals and grease, churning",
+        ),
+        (LOSSES, None, "tooth friction, bearings, seals and grease, churning"),
+        (
+            LOSSES | {"lubrication.friction": False},
+            "tooth friction",
+            "bearings, seals and grease, churning, without tooth friction",
+        ),
+    ],
+)
+def test_losses_that_a_scene_leaves_out_are_named(changes, missing, words):
+    scene = pt.load_scene("paper").replace(**changes)
+    assert losses_in_words(scene) == words
+    named = [limit for limit in limits(scene) if limit.name.startswith("losses: ")]
+    assert [limit.name for limit in named] == ([f"losses: {missing}"] if missing else [])
+    assert all(words in limit.meaning for limit in named)
 
 
 def test_the_command_prints_terms_and_limits_and_figures_for_machines():
