@@ -136,7 +136,7 @@ class Mesh(Section):
 
     Stiffness "given": by the fields below; constant with `double_pair_ratio` 1, a step function
     with `ramp` 0. "involute": computed from the tooth geometry for every position of a pair; two
-    pairs share one gear body.
+    pairs share one gear body. Pairs enter and leave contact over `ramp` in both.
 
     Backlash "dead_zone": F = k (DTE - B/2), with B the backlash. "regulatory_factor": F = k DTE
     for |DTE| > B, else 0; the discontinuous printed form of Salagianni et al. 2017, (2)-(5).
@@ -159,7 +159,12 @@ class Mesh(Section):
         "", "stiffness of two pairs/stiffness of one pair", 1.75, ge=1.0, le=2.0
     )
     ramp: float = quantity(
-        "", "base pitches over which a pair takes up its load; 0: a step", 0.03, ge=0.0, le=0.2
+        "",
+        "base pitches over which a pair takes up its load, with stiffness given or involute; a "
+        "longer ramp lowers the rms of the DTE; 0: a step",
+        0.03,
+        ge=0.0,
+        le=0.2,
     )
     backlash: Literal["dead_zone", "regulatory_factor"] = Field(
         "dead_zone", description="backlash law"

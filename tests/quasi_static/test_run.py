@@ -12,6 +12,7 @@ from test_long_run import HOURS, columns, turns_after
 import planetary_twin_py as pt
 from planetary_twin_py.integrators.clock import TICKS
 from planetary_twin_py.run import start
+from planetary_twin_py.studies.turning import wanted_mesh_frequency
 
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
 LOSSES = {
@@ -242,3 +243,12 @@ def test_methods_and_tolerances_are_refused_where_there_are_none():
         pt.simulate(PAPER, 0.01, tolerance=1.0)
     with pytest.raises(pt.SceneError, match=r"^dynamics = 'none'"):
         PAPER.replace(dynamics="none")
+
+
+def test_the_ramp_smooths_the_dte_of_computed_stiffness_as_documented():
+    stage = pt.load_scene("reference_gearbox_stage").replace(dynamics="quasi_static")
+    cycle = 1.0 / wanted_mesh_frequency(stage)
+    for ramp, rms, mean in ((0.0, 12.61, 348.6), (0.03, 11.38, 349.8), (0.1, 7.77, 353.3)):
+        mesh = pt.simulate(stage.replace(**{"mesh.ramp": ramp}), 4.0 * cycle, 100.0 / cycle).mesh
+        assert 1e6 * mesh["dte_rms"].mean() == pytest.approx(rms, abs=0.01)
+        assert 1e6 * abs(mesh["dte_mean"].mean()) == pytest.approx(mean, abs=0.06)
