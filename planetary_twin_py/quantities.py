@@ -123,9 +123,11 @@ MEMBERS = ("sun", "ring", "carrier")
 COMPONENTS = dict.fromkeys(MEMBERS, ("x", "y")) | {"planet": ("radial", "tangential")}
 """Names of the components of a displacement or force, by kind of body."""
 
+_FROM = "of a planet from its nominal place, without the error of its pin"
+
 BEARING = {
-    "displacement": Quantity("Displacement of the axis, mean", "m"),
-    "displacement_peak": Quantity("Displacement of the axis, peak", "m"),
+    "displacement": Quantity("Displacement of the axis, mean", "m", _FROM),
+    "displacement_peak": Quantity("Displacement of the axis, peak", "m", _FROM),
     "bearing_force": Quantity("Force on the bearing, mean", "N"),
     "bearing_force_peak": Quantity("Force on the bearing, peak", "N"),
 }
@@ -150,7 +152,7 @@ FLANKS = {
 """Of both flanks of a mesh whose axes move: fields of AxesState after a prefix of `SIDES`."""
 
 AXES_WAVEFORM = {
-    "displacement": Quantity("Displacement of the axis", "m"),
+    "displacement": Quantity("Displacement of the axis", "m", _FROM),
     "bearing_force": Quantity("Force on the bearing", "N"),
     "orbit": Quantity("Displacement of the axis in the housing", "m"),
 }

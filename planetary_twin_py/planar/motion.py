@@ -37,13 +37,18 @@ class AxesMotion:
 
     Displacements and forces of sun, ring and carrier are x and y in the frame that turns with the
     carrier; x is the direction of angle 0 of `gearset.planet_angles`. Those of planets are radial
-    (outwards) and tangential (counter-clockwise) from their nominal positions on the carrier.
+    (outwards) and tangential (counter-clockwise).
     """
 
     bodies: tuple[str, ...]
     """"sun", "ring", "carrier", "planet_1" and so on, in the order of arrays over bodies."""
     displacement: np.ndarray
-    """Displacement of each axis [m], (samples, bodies, 2)."""
+    """Displacement of each axis [m], (samples, bodies, 2).
+
+    Of sun, ring and carrier from the axis of the bearing, offset by `errors.*_offset`; of planets
+    from the nominal place, without the error of the pin, in the frame that turns with the carrier:
+    the deflection of a pin is this less the error of the pin and the displacement of the carrier.
+    """
     bearing_force: np.ndarray
     """Force of each body on its bearing [N], (samples, bodies, 2)."""
     orbit: np.ndarray

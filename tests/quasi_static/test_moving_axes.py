@@ -143,3 +143,17 @@ def test_supports_are_required():
     ):
         load_scene("paper").replace(**STILL)
     assert planar(FLOWS[0], **STILL).replace(supports=supports()).quasi_static
+
+
+@pytest.mark.parametrize("error", [0.0, -20e-6, -200e-6])
+def test_a_planet_is_displaced_from_its_nominal_place_without_the_error_of_its_pin(error):
+    """Force over stiffness is the displacement less the error of the pin and that of the carrier."""
+    changes = {"errors.pin_tangential": [error, 0.0, 0.0, 0.0]}
+    scene = load_scene("floating_sun").replace(dynamics="quasi_static_planar", **changes)
+    axes = simulate(scene, 0.002, 2000.0).axes
+    planet, carrier = (axes.bodies.index(name) for name in ("planet_1", "carrier"))
+    angle = scene.gearset.planet_angles[0]
+    across = np.array([-np.sin(angle), np.cos(angle)])
+    of_carrier = axes.displacement[:, carrier] @ across
+    bent = axes.bearing_force[:, planet, 1] / scene.supports.planet.bearing
+    assert axes.displacement[:, planet, 1] - error - of_carrier == pytest.approx(bent, abs=1e-11)
