@@ -50,11 +50,11 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
         )
     elif part_counts(cycles := wanted * run.duration):
         whole = math.ceil(cycles)
+        fewer = f"{whole / wanted:.5g} s ({whole} cycles), or " if whole < MANY else ""
         yield (
             f"duration = {run.duration:g} s is {cycles:.3g} mesh cycles: means of losses, forces "
             "and DTE depend on where the teeth are, unless the number of cycles is whole or above "
-            f"{MANY:g}; use {whole / wanted:.5g} s ({whole} cycles), or {MANY / wanted:.3g} s and "
-            "more"
+            f"{MANY:g}; use {fewer}{MANY / wanted:.4g} s and more"
         )
 
 

@@ -22,15 +22,18 @@ def check_fit(gears: GearSet) -> Iterator[str]:
         gears: sun, planet and ring at their centre distance.
 
     Yields:
-        One line per error.
+        One line per error; of teeth that overlap no others, which may follow from it.
     """
+    overlaps = [line for mesh in gears.meshes for line in _overlap(mesh)]
+    if overlaps:
+        yield from overlaps
+        return
     for mesh in gears.meshes:
         try:
             path = mesh.path
         except ValueError as error:
             yield str(error)
             continue
-        yield from _overlap(mesh)
         yield from _tips(mesh)
         if path.contact_ratio <= 1.0:
             yield (
@@ -72,15 +75,30 @@ def tip_passage(mesh: WorkingMesh) -> float:
 
 def _overlap(mesh: WorkingMesh) -> Iterator[str]:
     """Error of teeth that are thicker than the gaps they are in."""
-    backlash, module = mesh.backlash, mesh.first.module
+    try:
+        backlash, module = mesh.backlash, mesh.first.module
+    except ValueError:  # no line of action, which is an error of the path of contact
+        return
     if backlash < -OVERLAP_TOLERANCE * module:
         most = mesh.shift + backlash / (2.0 * module * math.sin(mesh.first.pressure_angle))
         first, second = mesh.names
         yield (
             f"gearset.profile_shift.{first} + {second} = {mesh.shift:.4g}: must be at most "
             f"{most:.4g} at gearset.centre_distance = {1e3 * mesh.centre_distance:.6g} mm: the "
-            f"teeth overlap by {-1e3 * backlash:.3g} mm"
+            f"teeth overlap by {-1e3 * backlash:.3g} mm{_sign_of_ring(mesh)}"
         )
+
+
+def _sign_of_ring(mesh: WorkingMesh) -> str:
+    """Hint if the shift of the ring fits with the other sign."""
+    ring, module = mesh.second.profile_shift, mesh.first.module
+    backlash = mesh.backlash + 4.0 * ring * module * math.sin(mesh.first.pressure_angle)
+    if not mesh.internal or backlash < -OVERLAP_TOLERANCE * module:
+        return ""
+    return (
+        ". A positive shift makes teeth of the ring thicker (ISO 21771); if its source counts it "
+        f"outwards, set gearset.profile_shift.ring = {-ring:g}"
+    )
 
 
 def _tips(mesh: WorkingMesh) -> Iterator[str]:

@@ -12,7 +12,6 @@ from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import Scene
 
 UNEQUAL = 0.05  # of a share: smallest difference that is reported
-_POSITIONS = 4  # in a mesh cycle
 
 
 class Shares(NamedTuple):
@@ -36,7 +35,9 @@ def equal_planets(scene: Scene) -> bool:
 
 
 def static_shares(scene: Scene) -> Shares:
-    """Compare the shares of the load.
+    """Compare the shares of the load, over a mesh cycle from the start.
+
+    The largest one is K_gamma of `load_sharing`, unless errors turn with the gears.
 
     Args:
         scene: scene with `supports` and a torque.
@@ -47,11 +48,11 @@ def static_shares(scene: Scene) -> Shares:
     Raises:
         ValueError: the torque is 0, the teeth are impossible, or bearings cannot hold the load.
     """
-    from .load_sharing import load_sharing  # most runs do without
+    from .load_sharing import POSITIONS, load_sharing  # most runs do without
 
     ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
     cycle = 1.0 / abs(float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios)))
-    turns = (np.arange(_POSITIONS) + 0.5) / _POSITIONS * cycle
+    turns = (np.arange(POSITIONS) + 0.5) / POSITIONS * cycle
     held, moving = (
         load_sharing(given, turns).share.mean(axis=0)
         for given in (scene.replace(supports=None), scene)

@@ -13,6 +13,7 @@ from ..scene import Scene
 from .style import GREY, applied, colour_of, panels
 
 RPM = 30.0 / np.pi  # per rad/s
+LABEL_HEIGHT, LABEL_WIDTH = 0.045, 0.02  # of a digit over those of the picture
 MARGIN = 1.1  # highest frequency shown/highest natural frequency
 
 
@@ -44,13 +45,17 @@ def campbell_diagram(
             axes.hlines(
                 frequencies, 0.0, highest_speed * RPM, label=kind, color=colour_of(kinds, kind)
             )
-        for h in range(1, harmonics + 1):
-            end = h * mesh_frequency_per_speed(scene) * highest_speed
-            axes.plot([0.0, highest_speed * RPM], [0.0, end], color=GREY, lw=0.8)
-            share = min(1.0, top / end)  # fraction of the line inside the picture
-            place = (share * highest_speed * RPM, share * end)
+        ends = np.arange(1, harmonics + 1) * mesh_frequency_per_speed(scene) * highest_speed
+        axes.plot([0.0, highest_speed * RPM], [np.zeros(harmonics), ends], color=GREY, lw=0.8)
+        for h, place in enumerate(_label_places(ends / top), 1):
             axes.annotate(
-                f"{h}", place, (2, 2), textcoords="offset points", color=GREY, clip_on=False
+                f"{h}",
+                place,
+                (2, 2),
+                xycoords="axes fraction",
+                textcoords="offset points",
+                color=GREY,
+                annotation_clip=False,
             )
         _mark(axes, [r for r in found if r.excitation == EXCITED], "excited by a mesh harmonic")
         if others := [r for r in found if r.excitation != EXCITED]:
@@ -64,6 +69,28 @@ def campbell_diagram(
         )
         figure.legend(loc="outside lower center", ncols=len(kinds) + 2)
     return figure
+
+
+def _label_places(ends: np.ndarray) -> list[tuple[float, float]]:
+    """Where the lines of the harmonics leave the picture, apart by a label.
+
+    Args:
+        ends: heights of the lines at the highest speed over that of the picture, ascending.
+
+    Returns:
+        Places from left to right and bottom to top of the picture, 0 to 1.
+    """
+    right = _apart(list(ends[ends <= 1.0]), LABEL_HEIGHT)
+    above = _apart([1.0 / end for end in ends[ends > 1.0]][::-1], LABEL_WIDTH)[::-1]
+    return [(1.0, y) for y in right] + [(x, 1.0) for x in above]
+
+
+def _apart(places: list[float], gap: float) -> list[float]:
+    """The ascending places, each moved to at least `gap` after the one before."""
+    found: list[float] = []
+    for place in places:
+        found.append(max(place, found[-1] + gap) if found else place)
+    return found
 
 
 def _mark(axes: Axes, found: list[Resonance], label: str, fill: str = "black") -> None:

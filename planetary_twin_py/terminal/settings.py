@@ -81,7 +81,7 @@ def _interpreted(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
 
     for name, value in leaves(changes):
         if is_number(str(value)) and (unit := unit_of(look_up(scene, name)[0])):
-            yield in_words(name, float(value), unit)
+            yield f"{in_words(name, float(value), unit)}: no unit is given, so this is SI"
 
 
 def in_words(name: str, value: float, unit: str) -> str:

@@ -79,6 +79,15 @@ def test_teeth_that_overlap_are_refused_with_the_shift_that_fits():
     assert errors(fits) == []
 
 
+def test_a_shift_of_the_ring_that_fits_with_the_other_sign_is_said_to():
+    (line,) = errors(replace(STAGE_1, shift=PerGear(0.617, 0.802, 0.501)))
+    assert line.startswith("gearset.profile_shift.planet + ring = 1.303: must be at most 0.3008")
+    assert line.endswith("set gearset.profile_shift.ring = -0.501")
+    assert "contact ratio" not in line
+    (other,) = errors(replace(STAGE_1, shift=PerGear(0.617, 0.802, -0.4)))
+    assert "set gearset.profile_shift.ring" not in other
+
+
 def test_tips_that_reach_the_mating_root_are_refused_with_the_diameter_that_fits():
     (line,) = errors(replace(STAGE_1, tip_diameters=(1.003, None, None)))
     assert line.startswith("gearset.tip_diameter.sun = 1003 mm: must be below 1001.32 mm")

@@ -1,5 +1,6 @@
 """Resonant speeds: a harmonic of the meshing frequency on a natural frequency."""
 
+import itertools
 import math
 
 import pytest
@@ -69,3 +70,18 @@ def test_crossings_that_phasing_suppresses_are_open_circles():
     excited = [r.frequency for r in found if r.excitation == EXCITED]
     assert list(filled.get_ydata()) == pytest.approx(excited)
     assert len(hollow.get_ydata()) == len(found) - len(excited) > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "limit"),
+    [("reference_gearbox_stage", 3.0), ("paper", 10_000.0), ("paper", 1e3)],
+)
+def test_labels_of_harmonics_do_not_overlap(name, limit):
+    """Slow gears crowd them at the right edge, and a high limit of the speed at the upper edge."""
+    scene = pt.load_scene(name)
+    modes = pt.natural_modes(scene, stiffness="mean")
+    figure = campbell_diagram(scene, modes, (), limit)
+    figure.draw_without_rendering()
+    boxes = [label.get_window_extent() for label in figure.axes[0].texts]
+    assert len(boxes) == 5
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))

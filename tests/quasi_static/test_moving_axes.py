@@ -147,7 +147,7 @@ def test_supports_are_required():
 
 @pytest.mark.parametrize("error", [0.0, -20e-6, -200e-6])
 def test_a_planet_is_displaced_from_its_nominal_place_without_the_error_of_its_pin(error):
-    """Force over stiffness is the displacement less the error of the pin and that of the carrier."""
+    """Force over stiffness is displacement less error of the pin and motion of the carrier."""
     changes = {"errors.pin_tangential": [error, 0.0, 0.0, 0.0]}
     scene = load_scene("floating_sun").replace(dynamics="quasi_static_planar", **changes)
     axes = simulate(scene, 0.002, 2000.0).axes

@@ -50,7 +50,8 @@ def test_values_may_have_units_and_the_result_is_printed(
     assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
     assert answer.stderr == ""
     answer = command("op", "input_speed=100", "lambda_ratio=1.5")
-    assert answer.stderr.strip() == "planetary-twin: input_speed = 100 rad/s (954.9 rpm)"
+    echo = "input_speed = 100 rad/s (954.9 rpm): no unit is given, so this is SI"
+    assert answer.stderr.strip() == f"planetary-twin: {echo}"
 
 
 def test_without_a_twin_in_the_namespace_others_are_named(
