@@ -64,7 +64,7 @@ def friction_figures(
         "friction_eyring": by_law["eyring"],
         "friction_evans_johnson": by_law["evans_johnson"] if plateau else None,
         "friction_schlenk": by_law["schlenk"],
-        "tooth_loss": mu * loss_factor * power,
+        "tooth_loss": mu * loss_factor * power if scene.lubrication.friction else 0.0,
         "shear_number": shear,
         "film_laws_in_range": ("eyring", "evans_johnson") if plateau else ("eyring",),
     }

@@ -216,6 +216,11 @@ def test_tooth_loss_is_that_of_a_run(name, traction):
         assert mesh.tooth_loss == pytest.approx(mesh.friction * mesh.loss_factor * power)
 
 
+@BOTH
+def test_a_scene_without_friction_has_no_tooth_loss(kind):
+    assert of(kind, **{"lubrication.friction": False}).tooth_loss == 0.0
+
+
 def base_pitch(scene):
     return math.pi * scene.gearset.module * math.cos(scene.gearset.pressure_angle)
 
