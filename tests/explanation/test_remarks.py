@@ -68,13 +68,13 @@ def test_teeth_that_have_parted_are_not_clipped(heavy):
 def test_neither_a_scene_without_friction_nor_the_printed_law_is_reported():
     for change in ({"lubrication.friction": False}, {"lubrication.traction": "printed"}):
         scene = LIGHT.replace(**change)
-        assert list(remarks(scene, pt.simulate(scene, 0.005), 1e-4)) == []
+        assert list(remarks(scene, pt.simulate(scene, 0.006), 1e-4)) == []
 
 
 def test_a_film_that_carries_all_of_the_load_is_reported_too():
     """Then there is no boundary friction either, and an efficiency of 1."""
     scene = LIGHT.replace(lambda_ratio=3.0, **{"lubrication.boundary": "load_sharing"})
-    run = pt.simulate(scene, 0.005)
+    run = pt.simulate(scene, 0.006)
     assert run.efficiency == 1.0
     assert set(clipped_friction(scene, run).values()) == {1.0}
 
@@ -87,7 +87,7 @@ def test_the_commands_warn_in_one_line(command, tmp_path):
         "lubrication: {shear_stress: 20 MPa, viscosity: 0.03}\n"
     )
     for scene, lines in ((str(light), 1), ("paper", 0)):
-        done = CliRunner().invoke(build_app(), [command, scene, "--duration", "0.005"])
+        done = CliRunner().invoke(build_app(), [command, scene, "--duration", "0.006"])
         assert done.exit_code == 0, done.stderr
         warned = done.stderr.splitlines()
         assert len(warned) == lines
