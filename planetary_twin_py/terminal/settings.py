@@ -81,7 +81,18 @@ def _interpreted(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
 
     for name, value in leaves(changes):
         if is_number(str(value)) and (unit := unit_of(look_up(scene, name)[0])):
-            yield f"{in_words(name, float(value), unit)}: no unit is given, so this is SI"
+            yield read_as_si(name, float(value), unit)
+
+
+def read_as_si(name: str, value: float, unit: str) -> str:
+    """Say how a number without a unit was read.
+
+    Args:
+        name: name of the quantity.
+        value: the number, in SI.
+        unit: SI unit.
+    """
+    return f"{in_words(name, value, unit)}: no unit is given, so this is SI"
 
 
 def in_words(name: str, value: float, unit: str) -> str:

@@ -12,7 +12,7 @@ import typer
 from planetary_twin_py.terminal.arguments import complete_parameter
 from planetary_twin_py.terminal.console import make_console
 from planetary_twin_py.terminal.messages import fail, note, remark
-from planetary_twin_py.terminal.settings import in_words
+from planetary_twin_py.terminal.settings import in_words, read_as_si
 from planetary_twin_py.terminal.unit_options import SECONDS
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def _say_units(typed: Mapping[str, str]) -> None:
 
     for name, value in typed.items():
         if name in TUNABLES and TUNABLES[name].unit and is_number(value):
-            note(in_words(name, float(value), TUNABLES[name].unit))
+            note(read_as_si(name, float(value), TUNABLES[name].unit))
 
 
 def _in_words(name: str, value: Any) -> str:
