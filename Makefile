@@ -40,7 +40,7 @@ test-features: setup
 test-all:
 	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
 	@$(MAKE) --no-print-directory test
-	@$(MAKE) --no-print-directory lint test-cosimulation
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint test-cosimulation
 	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),300)
 
 test-exhaustive: setup
