@@ -29,7 +29,14 @@ if TYPE_CHECKING:
 
 def explain(
     scene: SceneArgument = "paper",
-    duration: Annotated[float, typer.Option(help="Simulated time of each run.", **SECONDS)] = 0.1,
+    duration: Annotated[
+        float | None,
+        typer.Option(
+            help="Simulated time of each run.",
+            show_default="0.1 s, or as many whole mesh cycles as take longer",
+            **SECONDS,
+        ),
+    ] = None,
     set_: SetOption = None,
     json_: JsonOption = None,
 ) -> None:
@@ -43,6 +50,7 @@ def explain(
     from ..accuracy import AccuracyWarning
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
+    from ..explanation.turning import duration_for_means
     from ..ledger_check import LedgerWarning
     from ..scene.summary import gears
 
@@ -52,10 +60,11 @@ def explain(
     try:
         loaded = changed_scene(scene, settings(set_ or []))
         meshes = describe_meshes(loaded)
+        span = duration_for_means(loaded) if duration is None else duration
         with console.status("simulating the scene") as status:
             found = interruptible(
                 lambda: measure(
-                    loaded, duration, lambda name: status.update(f"simulating without {name}")
+                    loaded, span, lambda name: status.update(f"simulating without {name}")
                 )
             )
     except ValueError as error:

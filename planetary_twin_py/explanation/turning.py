@@ -18,6 +18,8 @@ from ..studies.turning import (
 )
 
 MANY = 10.0  # mesh cycles from which on a part of one hardly changes means
+SHORT = 0.1  # [s]
+LONG = 10.0  # [s]
 EXACT = 0.02  # part of a mesh cycle that may be missing from a whole number of them
 
 
@@ -56,6 +58,22 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
             "and DTE depend on where the teeth are, unless the number of cycles is whole or above "
             f"{MANY:g}; use {fewer}{MANY / wanted:.4g} s and more"
         )
+
+
+def duration_for_means(scene: Scene) -> float:
+    """A short duration [s] whose means do not depend on where the teeth are.
+
+    It is `SHORT`, or as many whole mesh cycles as take longer; `SHORT` also if one takes longer
+    than `LONG`.
+
+    Args:
+        scene: the scene.
+    """
+    frequency = wanted_mesh_frequency(scene)
+    cycles = frequency * SHORT
+    if frequency < 1.0 / LONG or not part_counts(cycles):
+        return SHORT
+    return math.ceil(cycles) / frequency
 
 
 def part_counts(cycles: float) -> bool:

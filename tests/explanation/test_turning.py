@@ -5,7 +5,7 @@ import re
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.explanation.turning import turning_warnings
+from planetary_twin_py.explanation.turning import duration_for_means, turning_warnings
 
 PAPER = pt.load_scene("paper")  # 30 teeth of the sun, carrier held: 500 Hz at 1000 rpm
 
@@ -35,6 +35,15 @@ def test_a_part_of_a_cycle_changes_the_mean_loss():
     means = [pt.simulate(scene, time).mean_power_loss for time in (0.00294, 0.004, 0.02)]
     assert means[1] == pytest.approx(means[2], rel=1e-3)
     assert abs(means[0] / means[2] - 1.0) > 0.003
+
+
+@pytest.mark.parametrize(
+    ("speed", "duration"),
+    [(1000.0, 0.1), (100.0, 0.1), (25.0, 0.16), (0.1, 0.1), (0.0, 0.1)],
+)
+def test_a_duration_for_means_is_short_and_has_whole_cycles(speed, duration):
+    scene = PAPER.replace(input_speed=pt.rpm(speed))
+    assert duration_for_means(scene) == pytest.approx(duration)
 
 
 def test_gears_that_are_to_stand_still_are_not_reported():
