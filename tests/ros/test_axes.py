@@ -208,7 +208,7 @@ def test_a_node_with_held_axes_warns_while_the_load_makes_shares_wrong(
 
     peer.until(lambda: texts() and "holds all axes" not in texts()[0], 120.0)
     assert peer.set(f"{TWIN}/simulation", input_torque=63.0).successful
-    peer.until(lambda: texts() and "planet 1 carries 3.64 times its share" in texts()[0], 60.0)
+    peer.until(lambda: texts() and "planet 1 carries 3.67 times its share" in texts()[0], 60.0)
     assert peer.set(f"{TWIN}/simulation", input_torque=0.0).successful
     peer.until(lambda: texts() and "holds all axes" not in texts()[0], 60.0)
 
