@@ -256,13 +256,14 @@ PieceAt piece_at(const CycleStep& step, double passed) {
     return {static_cast<std::int64_t>(number), 2.0 * (place - number) - 1.0};
 }
 
-// Write turns, angles, speeds and drag of a sample; those of bodies start at `values`.
+// Write turns, angles, speeds and, if asked for, drag of a sample; those of bodies start at
+// `values`.
 void put_bodies(const Train& train, Turns turns, const double* values, const Samples& out,
                 std::int64_t row) {
     const std::int64_t n = train.bodies;
     const double *speed = values + n, *drag = speed + n;
     std::copy(speed, drag, out.speed + row * n);
-    std::copy(drag, drag + SAMPLE_DRAGS, out.drag + row * SAMPLE_DRAGS);
+    if (out.drag) std::copy(drag, drag + SAMPLE_DRAGS, out.drag + row * SAMPLE_DRAGS);
     double* whole = out.turns + row * out.axes;
     std::fill(whole, whole + out.axes, 0.0);
     whole[0] = turns.whole;
