@@ -41,7 +41,7 @@ test-all:
 	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
 	@$(MAKE) --no-print-directory test
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint test-cosimulation
-	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),300)
+	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),200)
 
 test-exhaustive: setup
 	$(PYTEST) --numprocesses=3 -m exhaustive $(ARGS)  # which compile and compute, and wait little
