@@ -15,7 +15,7 @@ from ..terminal.output_files import PICTURES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
 
-LARGE_SHARE = 0.45  # of the torque; at 0.5 the branches end
+LARGE_SHARE = 0.45  # of the torque; a share must be below 0.5
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -105,7 +105,7 @@ def _hysteresis(found: LostMotion) -> float | str:
 
 
 def _better(found: LostMotion) -> str:
-    """What would resolve the hysteresis: friction grows with the torque, the resolution also."""
+    """What would resolve the hysteresis: it grows with the share, and the resolution does not."""
     if found.share < LARGE_SHARE:
         return f"measure it at a larger --share, up to {LARGE_SHARE:g}"
     return "this friction is too small for this test"

@@ -66,10 +66,12 @@ def resimulate(
     console = make_console()
     try:
         changes = settings(set_ or [])
+        remarks: list[str] = []
         course = None
-        if commands is not None:
-            recorded = commands.is_dir() or commands.suffix == ".mcap"
-            course = recorded_commands(commands) if recorded else read_commands(commands)
+        if commands is not None and (commands.is_dir() or commands.suffix == ".mcap"):
+            course = recorded_commands(commands, remarks)
+        elif commands is not None:
+            course = read_commands(commands)
         branch = Branch(changes, from_, duration, run, course)
         chosen = choose_namespace(Playback(file).counts, namespace, file)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
@@ -84,7 +86,7 @@ def resimulate(
     except (ValueError, OSError) as error:
         fail(error)
     say_units(made.scene, changes)
-    for line in (*without_effect(made.scene, changes), *made.remarks):
+    for line in (*remarks, *without_effect(made.scene, changes), *made.remarks):
         remark(line)
     line = f"{made.file}: as recorded until {made.begins:g} s, then as set until {made.end:g} s"
     console.print(line, highlight=False, soft_wrap=True)

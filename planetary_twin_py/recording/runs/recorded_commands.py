@@ -14,11 +14,12 @@ from ..ros2.playback import Playback
 from .schedule import read_runs
 
 
-def recorded_commands(path: Path) -> Commands:
+def recorded_commands(path: Path, remarks: list[str]) -> Commands:
     """Read the commands at the ports of the last run in a recording.
 
     Args:
         path: path of the recording, with one gearbox.
+        remarks: warnings about commands that are missing are appended.
 
     Returns:
         The commands, at the simulated times at which they acted.
@@ -28,7 +29,10 @@ def recorded_commands(path: Path) -> Commands:
         OSError: the file cannot be read.
     """
     namespace = choose_namespace(Playback(path).counts, None, path)
-    run = read_runs(path, namespace, [])[-1]
+    run = read_runs(path, namespace, remarks)[-1]
+    missing = run.intervals[-1].number - run.intervals[0].number + 1 - len(run.intervals)
+    if missing:
+        remarks.append(f"{path}: {missing} intervals are missing, and commands that acted in them")
     given = [
         (each.begin, run.given[each.stamp]) for each in run.intervals if each.stamp in run.given
     ]

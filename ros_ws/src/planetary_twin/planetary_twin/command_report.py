@@ -32,7 +32,7 @@ class CommandReport:
         self._reported = Counter[str]()  # those in the last report
         self._short = 0  # messages with fewer values than names
         self._details: dict[str, str] = {}  # newest one of each reason
-        self._stranger = ""  # newest name of another joint
+        self._stranger = ""  # newest name of another joint since the last report
         self._excesses: dict[str, str] = {}  # newest of each shaft since the last report
 
     def ignore(self, reason: str, detail: str = "") -> None:
@@ -75,7 +75,7 @@ class CommandReport:
             counts = {f"ignored: {reason}": count for reason, count in self.ignored.items()}
             if self._short:
                 counts["fewer values than names"] = self._short
-            self._reported, self._excesses = Counter(self.ignored), {}
+            self._reported, self._excesses, self._stranger = Counter(self.ignored), {}, ""
         faults = [fault for fault in faults if fault]
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN if faults else DiagnosticStatus.OK,

@@ -197,8 +197,9 @@ class ShaftCommands:
 
     def _watch_speeds(self, twin: Twin) -> None:
         """Report a shaft that turns faster than its commands may demand."""
+        states = twin.port_states
         for side, most in zip(SIDES, twin.speed_limits, strict=True):
-            speed = abs(getattr(twin.port_states, f"{side}_speed"))
+            speed = abs(getattr(states, f"{side}_speed"))
             if speed > most:
                 self._report.exceed(
                     side,
