@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import SupportsFloat
-
 from .printable import one_line
 
 _LONGEST = 60  # characters of a value in a message
@@ -20,7 +18,8 @@ def check_number(name: str, value: object, unit: str = "") -> None:
     Raises:
         ValueError: the value is no number, such as a text or an array.
     """
-    if not isinstance(value, SupportsFloat) or getattr(value, "ndim", 0) > 0:
+    # `isinstance(value, SupportsFloat)` says the same, at a hundred times the cost.
+    if not hasattr(value, "__float__") or getattr(value, "ndim", 0) > 0:
         shown = f" [{unit}]" if unit else ""
         raise ValueError(
             f"{name} = {one_line(repr(value), _LONGEST)}: must be a number{shown}"

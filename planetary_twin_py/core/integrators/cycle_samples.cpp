@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "capacities.hpp"
@@ -11,6 +12,7 @@
 #include "mesh/add_sums.hpp"
 #include "train/set_step_constants.hpp"
 #include "train/tilting.hpp"
+#include "vector/lanes.hpp"
 
 namespace gearbox {
 
@@ -110,15 +112,29 @@ void compute_rows(const Model& model, Integrator& integrator, Piece piece, Rows&
     }
 }
 
-// Values at s of the first `wanted` columns (Horner's scheme).
+// Values at s of neighbouring columns, of which `top` has the highest coefficients (Horner's
+// scheme).
+template <class Real>
+ALWAYS_INLINE Real evaluate_at(const double* top, std::int64_t columns, double s) {
+    Real value, next;
+    std::memcpy(&value, top, sizeof value);
+    for (int k = 1; k < TERMS_OF_TIME; ++k) {
+        std::memcpy(&next, top - k * columns, sizeof next);
+        value = value * s + next;
+    }
+    return value;
+}
+
+// Values at s of the first `wanted` columns.
 void evaluate_columns(const double* coefficient, std::int64_t columns, std::int64_t wanted,
                       double s, double* out) {
     const double* top = coefficient + (TERMS_OF_TIME - 1) * columns;
-    for (std::int64_t c = 0; c < wanted; ++c) {
-        double value = top[c];
-        for (int k = 1; k < TERMS_OF_TIME; ++k) value = value * s + top[c - k * columns];
-        out[c] = value;
+    std::int64_t c = 0;
+    for (; c + WIDTH <= wanted; c += WIDTH) {
+        const Lanes values = evaluate_at<Lanes>(top + c, columns, s);
+        std::memcpy(out + c, &values, sizeof values);
     }
+    for (; c < wanted; ++c) out[c] = evaluate_at<double>(top + c, columns, s);
 }
 
 // Allowed error of each column: for bodies relative to the mesh deflection, for others relative to
@@ -285,15 +301,12 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
         evaluate_columns(table + place_of_axes(train) + columns_of_axes(train), columns,
                          columns_of_tilting(train), at.s,
                          out.tilting + row * columns_of_tilting(train));
-    if (!out.turns) {
-        evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
-        return;
-    }
-    double values[MOST_COLUMNS];
-    evaluate_columns(table, columns, place_of_axes(train), at.s, values);
-    std::copy_n(values, shown, out.mesh_row(row));
-    Turns turns = turns_at(periodic, step.begin);
-    put_bodies(train, turns, values + QUANTITIES * train.meshes, out, row);
+    evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
+    if (!out.turns) return;
+    double values[2 * BODIES + SAMPLE_DRAGS];
+    evaluate_columns(table + QUANTITIES * train.meshes, columns, 2 * train.bodies + SAMPLE_DRAGS,
+                     at.s, values);
+    put_bodies(train, turns_at(periodic, step.begin), values, out, row);
 }
 
 // Time from the start of the step to an instant [s], by the clock of the cycle.

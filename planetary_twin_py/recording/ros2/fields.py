@@ -87,4 +87,6 @@ def joint_fields_like(window: Window, message: Any) -> dict[str, Any]:
 
 def with_room(values: np.ndarray) -> np.ndarray:
     """Values of planets, and NaN up to the length of arrays in messages."""
-    return np.append(values, np.full(ROOM - len(values), np.nan))
+    filled = np.full(ROOM, np.nan)
+    filled[: len(values)] = values
+    return filled
