@@ -111,8 +111,14 @@ def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> N
     start(MODULE, "--ros-args", "-p", "rate_factor:=0", "-p", "sample_rate:=5000")
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
-    peer.until(lambda: len(reports) > 2)
-    assert {report.status[0].message for report in reports} == {"runs as fast as possible"}
+    peer.until(lambda: states)
+    begin = seconds(states[0].header.stamp)
+
+    def running() -> list[DiagnosticArray]:  # on a busy machine, the first report is of the start
+        return [each for each in reports if seconds(each.header.stamp) > begin]
+
+    peer.until(lambda: len(running()) > 2)
+    assert {report.status[0].message for report in running()} == {"runs as fast as possible"}
     reported = figures(reports)
     assert float(reported["real_time_factor"]) > 0.0
     assert int(reported["overruns"]) == 0
