@@ -8,7 +8,6 @@
 #include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/vectors.hpp"
-#include "run/column_figures.hpp"
 #include "run/figures.hpp"
 #include "run/orbit.hpp"
 #include "run/samples.hpp"
@@ -125,20 +124,6 @@ void py_mesh_statistics(double time, const Table& integral, const Vector& dte_pe
     }
 }
 
-void py_column_means(const Table& values, const Values& out) {
-    if (values.shape(0) == 0 || values.shape(1) != out.size())
-        throw nb::value_error("column_means: arrays of a wrong shape");
-    column_means(values.data(), static_cast<std::int64_t>(values.shape(0)),
-                 static_cast<std::int64_t>(out.size()), out.data());
-}
-
-void py_largest_magnitudes(const Table& vectors, const Values& out) {
-    if (vectors.shape(1) != 2 * out.size())
-        throw nb::value_error("largest_magnitudes: arrays of a wrong shape");
-    largest_magnitudes(vectors.data(), static_cast<std::int64_t>(vectors.shape(0)),
-                       static_cast<std::int64_t>(out.size()), out.data());
-}
-
 void bind_statistics(nb::module_& m) {
     m.attr("MEAN_DTE") = MEAN_DTE;
     m.attr("RMS_DTE") = RMS_DTE;
@@ -156,9 +141,6 @@ void bind_statistics(nb::module_& m) {
     m.def("mesh_statistics", &py_mesh_statistics, "time"_a, "integral"_a, "dte_peak"_a,
           "force_peak"_a, "out"_a,
           "Mean, rms and peak values of the meshes, from their sums over `time` seconds.");
-    m.def("column_means", &py_column_means, "values"_a, "out"_a, "Means of the columns.");
-    m.def("largest_magnitudes", &py_largest_magnitudes, "vectors"_a, "out"_a,
-          "Largest magnitudes of vectors, each with two columns.");
 }
 
 }  // namespace
