@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
-from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
+from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint, RecorderStatus
 
 import planetary_twin_py as pt
 from planetary_twin_py.quality_control import Setting
@@ -32,6 +32,12 @@ def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
 def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
     """All reported values, the newest of each key."""
     return {item.key: item.value for report in reports for item in report.status[0].values}
+
+
+def recorded(status: Sequence[RecorderStatus], topic: str) -> int:
+    """Number of recorded messages of a topic in the newest status of a recorder."""
+    counted = dict(zip(status[-1].topics, status[-1].recorded, strict=True)) if status else {}
+    return int(counted.get(topic, 0))
 
 
 def reported_settings(reported: Mapping[str, str]) -> dict[float, Setting]:

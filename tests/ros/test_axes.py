@@ -33,7 +33,7 @@ from .conftest import Start, _end
 from .peer import LATCHED, LONG, TWIN, Peer
 from .programs import Forked
 from .recordings import counts, read_all
-from .reported import listen_to_reports
+from .reported import listen_to_reports, recorded
 
 STATES = 100
 SLOWLY = ("rate_factor:=0.5", "sample_rate:=10000.0", "tolerance:=0.001")
@@ -48,12 +48,6 @@ class Run(NamedTuple):
     folder: Path
     table: str
     drawn: Path
-
-
-def recorded(status: list[RecorderStatus], name: str) -> int:
-    """Number of recorded messages of a topic in the newest status."""
-    counted = dict(zip(status[-1].topics, status[-1].recorded, strict=True)) if status else {}
-    return int(counted.get(f"{TWIN}/{name}", 0))
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +86,9 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
         end = pytest.approx(float(paused.message.split()[-2]), rel=1e-6)  # "paused from 1.23 s"
         user.until(lambda: gearbox[-1].simulated_time == states[-1].simulated_time == end)
         streams = {"axes_state": states, "axes_waveform": blocks, "gearbox_state": gearbox}
-        user.until(lambda: all(recorded(status, n) == len(got) for n, got in streams.items()))
+        user.until(
+            lambda: all(recorded(status, f"{TWIN}/{n}") == len(got) for n, got in streams.items())
+        )
         twin.send_signal(signal.SIGINT)
         twin.wait(LONG)
         logger.send_signal(signal.SIGINT)
@@ -137,8 +133,8 @@ def test_blocks_of_axes_follow_one_another(run: Run) -> None:
 
 
 def test_the_recording_has_what_was_published_and_is_verified_bit_for_bit(run: Run) -> None:
-    recorded = counts(run.folder)
-    states, blocks = (recorded[f"{TWIN}/{name}"] for name in ("axes_state", "axes_waveform"))
+    in_file = counts(run.folder)
+    states, blocks = (in_file[f"{TWIN}/{name}"] for name in ("axes_state", "axes_waveform"))
     assert (states, blocks) == (len(run.states), len(run.blocks))
     received = read_all(run.folder)[f"{TWIN}/axes_state"].messages
     first = deserialize_message(received[0], AxesState)

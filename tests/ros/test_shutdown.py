@@ -23,6 +23,7 @@ from .conftest import Start
 from .peer import TWIN, Peer
 from .processes import holding
 from .recordings import counts, unfinished_states
+from .reported import recorded
 
 NODE = f"{TWIN}/simulation"
 STATES = f"{TWIN}/gearbox_state"
@@ -55,13 +56,6 @@ def running(peer: Peer, start: Start, *options: str) -> subprocess.Popen[str]:
     states = peer.listen(GearboxState, STATES)
     peer.until(lambda: states)
     return process
-
-
-def recorded(status: list[RecorderStatus]) -> int:
-    """Number of recorded states in the newest status."""
-    if not status or STATES not in status[-1].topics:
-        return 0
-    return status[-1].recorded[list(status[-1].topics).index(STATES)]
 
 
 def ask(peer: Peer, kind: type, service: str, request: object) -> None:
@@ -139,7 +133,7 @@ def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_complete(
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
-    peer.until(lambda: recorded(status) > 50)
+    peer.until(lambda: recorded(status, STATES) > 50)
     for process in (logger, simulation):  # as Ctrl-C reaches the group
         twice(process, signal.SIGINT)
     ended_well(simulation)
@@ -155,12 +149,12 @@ def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start)
     first = start("planetary_twin.logger", "--ros-args", "-p", "name:=first")
-    peer.until(lambda: recorded(status) > 50)
+    peer.until(lambda: recorded(status, STATES) > 50)
     first.kill()
     first.wait(QUICK)
     status.clear()
     second = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
-    peer.until(lambda: recorded(status) > 50)
+    peer.until(lambda: recorded(status, STATES) > 50)
     assert [b.sequence - a.sequence for a, b in itertools.pairwise(states)] == [1] * (
         len(states) - 1
     )
@@ -168,10 +162,10 @@ def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
 
     simulation.kill()
     simulation.wait(QUICK)
-    before = recorded(status)
+    before = recorded(status, STATES)
     received = len(states)
     running(peer, start)
-    peer.until(lambda: recorded(status) > before + 50)
+    peer.until(lambda: recorded(status, STATES) > before + 50)
     assert any(state.sequence < states[received - 1].sequence for state in states[received:])
     second.terminate()
     ended_well(second)

@@ -61,6 +61,7 @@ def follow(namespace: str, duration: float | None) -> Iterator[list[Any]]:
         while time.monotonic() < end:
             time.sleep(_BATCH)
             yield watch.take()
+        yield watch.take()  # what has arrived while the last batch was drawn
 
 
 class _Watch(Client):
