@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from ..units import UnitError
 from .names import nearest, no_such_field
 from .paths import field_paths
-from .quantity import Section, bounds, listed, sections_in, unit_of, within
+from .quantity import Section, bounds, limit_of, listed, sections_in, unit_of, within
 
 _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
@@ -126,4 +126,5 @@ def _allowed(field: FieldInfo | None) -> str | None:
     low, high = bounds(field)
     if low == -math.inf and high == math.inf:
         return f"must be a finite number in {unit or '1'}"
-    return within(low, high, unit)
+    further = limit_of(field)
+    return within(low, high, unit) + (f", and within {further}" if further else "")

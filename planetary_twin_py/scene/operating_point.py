@@ -28,6 +28,7 @@ class OperatingPoint(Section):
     input_speed: float = quantity(
         "rad/s",
         "speed set-point of the motor, approached at the slew rate of the drive",
+        limited_by="drive.speed_limit",
         ge=-1e5,
         le=1e5,
     )
@@ -35,14 +36,24 @@ class OperatingPoint(Section):
         "rad/s",
         "speed set-point of the second motor of a differential",
         0.0,
+        limited_by="drive.speed_limit",
         ge=-1e5,
         le=1e5,
     )
     input_torque: float = quantity(
-        "N m", "mean torque of the motor in steady running", ge=-1e9, le=1e9
+        "N m",
+        "mean torque of the motor in steady running",
+        limited_by="drive.torque_limit",
+        ge=-1e9,
+        le=1e9,
     )
     torque_ripple: float = quantity(
-        "N m", "amplitude of the motor's torque ripple", 0.0, ge=0.0, le=1e9
+        "N m",
+        "amplitude of the motor's torque ripple",
+        0.0,
+        limited_by="drive.torque_limit",
+        ge=0.0,
+        le=1e9,
     )
 
 

@@ -61,25 +61,35 @@ class Section(BaseModel):
         return to_si(value, unit)
 
 
-def quantity(unit: str, description: str, default: Any = ..., **limits: Any) -> Any:
+def quantity(
+    unit: str, description: str, default: Any = ..., limited_by: str | None = None, **limits: Any
+) -> Any:
     """Make a field of a section.
 
     Args:
         unit: SI unit; empty for a dimensionless number.
         description: of the quantity.
         default: in SI; `...` for a required field.
+        limited_by: field of the scene that limits the magnitude further.
         limits: ge, gt, le and lt of pydantic, in SI.
 
     Returns:
         A pydantic field.
     """
-    return Field(default, description=description, json_schema_extra={"unit": unit}, **limits)
+    extra = {"unit": unit} | ({"limited_by": limited_by} if limited_by else {})
+    return Field(default, description=description, json_schema_extra=extra, **limits)
 
 
 def unit_of(field: FieldInfo) -> str | None:
     """Unit of a field, None for one that is not a quantity."""
     extra = field.json_schema_extra
     return str(extra["unit"]) if isinstance(extra, dict) and "unit" in extra else None
+
+
+def limit_of(field: FieldInfo) -> str | None:
+    """Field of the scene that limits the magnitude of a quantity further, if there is one."""
+    extra = field.json_schema_extra
+    return str(extra["limited_by"]) if isinstance(extra, dict) and "limited_by" in extra else None
 
 
 def _is_list(field: FieldInfo) -> bool:

@@ -22,15 +22,14 @@ from .mesh import Mesh, TipReliefs
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, with_value
-from .quantity import SceneError, Section, listed, quantity
+from .quantity import SceneError, Section, limit_of, listed, quantity
 from .supports import Supports
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
 _LIMITS = {  # fields of the drive that limit a quantity
-    "input_speed": "speed_limit",
-    "second_input_speed": "speed_limit",
-    "input_torque": "torque_limit",
-    "torque_ripple": "torque_limit",
+    name: limit.removeprefix("drive.")
+    for name, field in OperatingPoint.model_fields.items()
+    if (limit := limit_of(field))
 }
 
 

@@ -87,6 +87,11 @@ def test_geometry_is_that_of_the_scene_and_cannot_be_set(
 REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
     ("backlash", math.nan, ("nan", "0.001")),
     ("backlash", -1.0, ("backlash = -1.0 m: must be a number within 0 and 0.001 m",)),
+    (
+        "tolerance",
+        0.5,
+        ("tolerance = 0.5: must be a number within 0 and 0.1 (", "1e-08 to 0.1; 0:"),
+    ),
     ("backlash", -math.inf, ("-inf", "0.001")),
     ("lambda_ratio", 10.5, ("10.5", "10")),
     ("lambda_ratio", "1 000", ("'1 000'", "number")),

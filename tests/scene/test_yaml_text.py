@@ -130,7 +130,7 @@ def test_a_number_that_is_not_plain_and_decimal_is_refused_with_its_field_and_fi
         pt.load_scene(file)
     line = str(error.value)
     assert line.startswith(f"{file}: input_torque = ") and len(line) < 600 and "\n" not in line
-    assert "must be a number within -1e+09 and 1e+09 N m" in line
+    assert "must be a number within -1e+09 and 1e+09 N m, and within drive.torque_limit" in line
     with pytest.raises(pt.SceneError, match=r"^gearset\.teeth\.sun = .*: must be a whole number"):
         pt.parse_scene(f"base: paper\ngearset: {{teeth: {{sun: {number}}}}}")
     with pytest.raises(pt.SceneError, match=r"^input_torque = "):

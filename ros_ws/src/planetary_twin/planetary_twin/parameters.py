@@ -98,8 +98,8 @@ def check_settable(node: Node, parameter: Parameter) -> None:
     wanted = Parameter.Type(descriptor.type)
     if wanted not in (Parameter.Type.DOUBLE, parameter.type_):
         raise ValueError(f"{refused}: must be of type {wanted.name}")
-    for limits in descriptor.floating_point_range:
-        _check_within(limits, parameter.name, number(parameter.name, parameter.value))
+    if descriptor.floating_point_range:
+        _check_within(descriptor, parameter.name, number(parameter.name, parameter.value))
 
 
 def is_number(node: Node, name: str) -> bool:
@@ -108,13 +108,21 @@ def is_number(node: Node, name: str) -> bool:
     return node.has_parameter(name) and node.describe_parameter(name).type == double
 
 
-def _check_within(limits: FloatingPointRange, name: str, value: float) -> None:
-    """Raise `ValueError` if `value` is out of range; the message of rclpy lacks the unit."""
-    low, high = limits.from_value, limits.to_value
-    if not low <= value <= high:
-        unit = TUNABLES[name].unit if name in TUNABLES else ""
-        refused = f"{name} = {value!r} {unit}".rstrip()
-        raise ValueError(f"{refused}: {within(low, high, unit)}")
+def _check_within(descriptor: ParameterDescriptor, name: str, value: float) -> None:
+    """
+    Raise `ValueError` if `value` is out of range; the message of rclpy lacks the unit.
+
+    The description of a setting says which values have a meaning of their own.
+    """
+    for limits in descriptor.floating_point_range:
+        low, high = limits.from_value, limits.to_value
+        if low <= value <= high:
+            continue
+        if name in TUNABLES:
+            unit = TUNABLES[name].unit
+            refused = f"{name} = {value!r} {unit}".rstrip()
+            raise ValueError(f"{refused}: {within(low, high, unit)}")
+        raise ValueError(f"{name} = {value!r}: {within(low, high, '')} ({descriptor.description})")
 
 
 def declare_at_start(node: Declaring, name: str, default: Any, description: str) -> Any:
@@ -282,6 +290,5 @@ def _declare_number(
     given = _declare(node, name, default, ParameterDescriptor(dynamic_typing=True))
     descriptor.type = ParameterType.PARAMETER_DOUBLE
     value = Parameter(name, Parameter.Type.DOUBLE, number(name, given))
-    for limits in descriptor.floating_point_range:
-        _check_within(limits, name, value.value)
+    _check_within(descriptor, name, value.value)
     return float(node.set_descriptor(name, descriptor, value.get_parameter_value()).double_value)

@@ -33,7 +33,8 @@ from .subscription_wait import TIMEOUT
 TOLERANCE = pt.Tunable(
     "tolerance",
     "",
-    "relative error of a step; 0: the tightest that computing time allows",
+    f"relative error of a step, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}; 0: the tightest that "
+    "computing time allows",
     AUTOMATIC,
     TOLERANCES[1],
 )
