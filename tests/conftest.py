@@ -31,6 +31,19 @@ os.environ["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Let each worker read the tests from another folder on.
+
+    Each compiles what it reads first, and finds the rest compiled by the others.
+    """
+    worker = getattr(config, "workerinput", None)
+    if worker and config.args_source is pytest.Config.ArgsSource.TESTPATHS:
+        parts = sorted({str(path.parent) for path in TESTS.glob("*/**/test_*.py")})
+        parts += sorted(map(str, TESTS.glob("test_*.py")))
+        begin = len(parts) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]
+        config.args = parts[begin:] + parts[:begin]
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put tests/setup, which compiles, first, and spread tests/ros, which mostly waits, evenly.
 
@@ -41,7 +54,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         files.setdefault(item.path, []).append(item)
     order = []
     for waits in (True, False):
-        group = [file for file in files if file.is_relative_to(TESTS / "ros") == waits]
+        group = sorted(file for file in files if file.is_relative_to(TESTS / "ros") == waits)
         order += [((place + 0.5) / len(group), file) for place, file in enumerate(group)]
     order.sort(key=lambda each: (not each[1].is_relative_to(TESTS / "setup"), each[0]))
     items[:] = [item for _, file in order for item in files[file]]
