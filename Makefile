@@ -23,10 +23,10 @@ setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
 
-# Nodes wait for one another most of the time: six workers keep two cores busy. Each file is one
+# Nodes wait for one another often: four workers keep two cores busy. Each file is one
 # worker's, so that what its tests share is made once. Workers, and the hundreds of programs that
 # they start, compile each module once, not each time.
-PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=6 --dist=loadfile --no-loadscope-reorder
+PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=4 --dist=loadfile --no-loadscope-reorder
 
 test:
 	@echo "tests of every feature: about six minutes on 2 idle cores"

@@ -20,7 +20,6 @@ def configure(folder):
     run(
         environment, "-S", ROOT / "ros_ws/src/planetary_twin_py", "-B", folder / "build",
         f"-DCMAKE_INSTALL_PREFIX={folder / 'install'}", f"-DPython3_EXECUTABLE={sys.executable}",
-        "-DCMAKE_BUILD_TYPE=Debug",  # compiles in two thirds of the time
     )  # fmt: skip
     return environment
 
