@@ -76,7 +76,9 @@ def quantity(
     Returns:
         A pydantic field.
     """
-    extra = {"unit": unit} | ({"limited_by": limited_by} if limited_by else {})
+    extra: dict[str, Any] = {"unit": unit}
+    if limited_by is not None:
+        extra["limited_by"] = limited_by
     return Field(default, description=description, json_schema_extra=extra, **limits)
 
 
