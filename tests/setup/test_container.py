@@ -1,4 +1,4 @@
-"""The container is built, and runs, where something can build it."""
+"""The container is built, and runs, where something can build it; CONTAINER_BASE names another base."""
 
 import os
 import re
@@ -36,7 +36,7 @@ def image(builder: str) -> Iterator[str]:
         pytest.skip(f"{builder} cannot get {base}")
     arguments = ("--build-arg", f"BASE={base}", "--file", str(CONTAINERFILE), "--tag", IMAGE, ".")
     built = run(builder, "build", *arguments)
-    assert built.returncode == 0, built.stdout + built.stderr
+    assert built.returncode == 0, (built.stdout + built.stderr)[-3000:]
     yield IMAGE
     run(builder, "rmi", "--force", IMAGE)
 
