@@ -1,4 +1,7 @@
-"""The container is built, and runs, where something can build it; CONTAINER_BASE names another base."""
+"""The container is built, and runs, where something can build it.
+
+CONTAINER_BASE names another base, for machines that reach no registry.
+"""
 
 import os
 import re
