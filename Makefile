@@ -23,9 +23,9 @@ setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
 
-# Nodes wait for one another often: four workers keep two cores busy. Each file is one
-# worker's, so that what its tests share is made once. Workers, and the hundreds of programs that
-# they start, compile each module once, not each time.
+# Nodes wait for one another often: four workers keep two cores busy. Each file is one worker's, so
+# that what its tests share is made once. Workers, and the hundreds of programs that they start,
+# compile each module once, not each time.
 PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=4 --dist=loadfile --no-loadscope-reorder
 
 test:
