@@ -28,6 +28,7 @@ void bind_tribology(nanobind::module_& m);
 void bind_initial_state(nanobind::module_& m);
 void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);
+void bind_parts_of_steps(nanobind::module_& m);
 void bind_run(nanobind::module_& m);
 void bind_ports(nanobind::module_& m);
 void bind_operating_point(nanobind::module_& m);

@@ -4,11 +4,14 @@
 // memory, nested records are references into it. A record never moves, so views stay valid with its
 // owner.
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <nanobind/nanobind.h>
@@ -33,16 +36,6 @@ struct extents<Element[count]> {
     }
 };
 
-// NumPy view of an array that `owner` keeps alive; the type stub states its element type.
-template <class Array>
-auto view(Array& array, nb::handle owner) {
-    std::vector<size_t> shape;
-    extents<Array>::append(shape);
-    using scalar = typename extents<Array>::scalar;
-    return nb::ndarray<nb::numpy, scalar>(reinterpret_cast<scalar*>(&array), shape.size(),
-                                          shape.data(), owner);
-}
-
 // Copy values into an array; they may be fewer than its entries.
 inline void fill(nb::handle room, nb::handle values) {
     nb::object numpy = nb::module_::import_("numpy");
@@ -51,6 +44,71 @@ inline void fill(nb::handle room, nb::handle values) {
     nb::list part;
     for (nb::handle size : shape) part.append(nb::slice(nb::none(), nb::borrow(size), nb::none()));
     room.attr("__setitem__")(nb::tuple(part), array);
+}
+
+// Where a field is: `offset` bytes after the start of a record of class `type`. Properties are made
+// from it for each type of field, not for each record: most of a compiler's time would go there.
+struct FieldPlace {
+    nb::handle type;
+    size_t offset;
+
+    template <class Field>
+    Field* of(nb::handle record) const {
+        if (!nb::isinstance(record, type)) throw nb::type_error("not a record of this class");
+        return reinterpret_cast<Field*>(nb::inst_ptr<char>(record) + offset);
+    }
+};
+
+inline void add_property(nb::handle type, const char* name, nb::handle getter, nb::handle setter) {
+    nb::handle property(reinterpret_cast<PyObject*>(&PyProperty_Type));
+    nb::setattr(type, name, property(getter, setter));
+}
+
+template <class Getter>
+nb::object getter_of(Getter&& getter) {
+    return nb::cpp_function(std::forward<Getter>(getter), nb::is_method(), nb::is_getter(),
+                            nb::rv_policy::reference_internal);
+}
+
+template <class Scalar>
+void add_array(const char* name, FieldPlace place, const std::vector<size_t>& shape) {
+    // A NumPy view; the type stub states its element type.
+    nb::object getter = getter_of([place, shape](nb::handle self) {
+        return nb::ndarray<nb::numpy, Scalar>(place.of<Scalar>(self), shape.size(), shape.data(),
+                                              self);
+    });
+    nb::object setter = nb::cpp_function(
+        [getter](nb::handle self, nb::handle values) { fill(getter(self), values); },
+        nb::is_method());
+    add_property(place.type, name, getter, setter);
+}
+
+template <class Record>
+void add_list(const char* name, FieldPlace place, size_t count) {
+    nb::object getter = getter_of([place, count](nb::handle self) {
+        Record* first = place.of<Record>(self);
+        nb::list parts;
+        for (Record* part = first; part < first + count; ++part)
+            parts.append(nb::cast(part, nb::rv_policy::reference_internal, self));
+        return nb::borrow<nb::typed<nb::list, Record>>(parts);
+    });
+    add_property(place.type, name, getter, nb::none());
+}
+
+template <class Value>
+void add_value(const char* name, FieldPlace place) {
+    using Given = std::conditional_t<std::is_class_v<Value>, const Value&, Value>;
+    add_property(
+        place.type, name,
+        getter_of([place](nb::handle self) -> const Value& { return *place.of<Value>(self); }),
+        nb::cpp_function([place](nb::handle self, Given value) { *place.of<Value>(self) = value; },
+                         nb::is_method()));
+}
+
+inline auto bytes_of(FieldPlace place, size_t size) {
+    return [place, size](nb::handle self) {
+        return nb::ndarray<nb::numpy, std::uint8_t>(place.of<std::uint8_t>(self), 1, &size, self);
+    };
 }
 
 template <class Record>
@@ -67,48 +125,28 @@ public:
         this->def(
             "copy", [](const Record& self) { return new Record(self); },
             nb::rv_policy::take_ownership, "A copy of the record.");
-        this->def(
-            "__copy__", [](const Record& self) { return new Record(self); },
-            nb::rv_policy::take_ownership);
-        this->def(
-            "raw",
-            [](nb::handle_t<Record> self) {
-                Record* record = nb::inst_ptr<Record>(self);
-                size_t size[1] = {sizeof(Record)};
-                return nb::ndarray<nb::numpy, std::uint8_t>(reinterpret_cast<std::uint8_t*>(record),
-                                                            1, size, self);
-            },
-            "The memory of the record as bytes.");
+        this->attr("__copy__") = this->attr("copy");
+        this->def("raw", bytes_of({*this, 0}, sizeof(Record)),
+                  "The memory of the record as bytes.");
     }
 
-    template <class Member>
-    record& field(const char* name, Member Record::* member) {
-        if constexpr (std::is_class_v<typename extents<Member>::scalar> &&
-                      std::is_array_v<Member>) {
-            this->def_prop_ro(name, [member](nb::handle_t<Record> self) {
-                nb::list parts;
-                for (auto& part : nb::inst_ptr<Record>(self)->*member)
-                    parts.append(nb::cast(&part, nb::rv_policy::reference_internal, self));
-                return nb::borrow<nb::typed<nb::list, typename extents<Member>::scalar>>(parts);
-            });
-        } else if constexpr (std::is_array_v<Member>) {
-            this->def_prop_rw(
-                name,
-                [member](nb::handle_t<Record> self) {
-                    return view(nb::inst_ptr<Record>(self)->*member, self);
-                },
-                [member](nb::handle_t<Record> self, nb::handle values) {
-                    fill(nb::cast(view(nb::inst_ptr<Record>(self)->*member, self),
-                                  nb::rv_policy::reference),
-                         values);
-                });
+    template <class Field>
+    record& field(const char* name, size_t offset) {
+        using Scalar = typename extents<Field>::scalar;
+        FieldPlace place{*this, offset};
+        if constexpr (!std::is_array_v<Field>) {
+            add_value<Field>(name, place);
+        } else if constexpr (std::is_class_v<Scalar>) {
+            add_list<Scalar>(name, place, sizeof(Field) / sizeof(Scalar));
         } else {
-            this->def_rw(name, member);
+            std::vector<size_t> shape;
+            extents<Field>::append(shape);
+            add_array<Scalar>(name, place, shape);
         }
         return *this;
     }
 };
 
-#define FIELD(Record, name) field(#name, &Record::name)
+#define FIELD(Record, name) field<decltype(Record::name)>(#name, offsetof(Record, name))
 
 }  // namespace gearbox
