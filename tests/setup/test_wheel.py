@@ -1,6 +1,7 @@
 """The model as a wheel: what is in it, and that it works alone. Building it takes minutes."""
 
 import email
+import os
 import shutil
 import subprocess
 import sys
@@ -35,11 +36,13 @@ def build(folder):
             (folder / "source" / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / "source" / name, follow_symlinks=False)
     uv = [Path(sys.prefix, "bin/uv"), "--offline", "--quiet"]
+    # These levels are compiled once, which a cache of objects only makes slower.
+    environment = {key: value for key, value in os.environ.items() if "LAUNCHER" not in key}
     subprocess.run(
         [*uv, "build", "--no-build-isolation", "--python", sys.executable,
          "--config-setting", f"cmake.define.LEVELS={';'.join(BUILT)}",
          "--out-dir", folder, folder / "source"],
-        check=True,
+        check=True, env=environment,
     )  # fmt: skip
     return folder
 
