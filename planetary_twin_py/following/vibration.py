@@ -1,14 +1,8 @@
-"""Follows vibration: amplitudes at mesh orders and at their sidebands, against a learned baseline.
+"""Follows vibration: amplitudes of patterns of lines, against a learned baseline.
 
 The transfer path from the teeth to a sensor on a housing is unknown. So amplitudes determine no
-friction, no stiffness and no size of a fault, only that a pattern has grown, and of which gear. A
-fault of one tooth modulates the meshes once per turn of its gear: its sidebands are 1/Z mesh orders
-apart (McFadden 1986, J. Vib. Acoust. 108(2), 165-170). Sidebands that two gears share identify
-neither of them, so only those that one gear alone has are used.
+friction, no stiffness and no size of a fault, only that a pattern has grown, and of which gear.
 
-Amplitudes are those of a Hann window over one hunting period, over the angle of the input. The
-angle is the integral of the measured speed. The gain error of the speed sensor would shift the
-lines, so the speed is scaled, by up to `STRETCH`, to the maximum of the first mesh order.
 Amplitudes grow with the torque and are divided by it. A growth is reported only beyond what the
 remaining difference of torque and speed from those of the baseline explains. Where the speed
 changes faster than it is measured, harmonics leak into their neighbourhood, so what has grown
@@ -17,7 +11,6 @@ beside the sidebands as well is subtracted.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -34,13 +27,10 @@ from .estimate import CONFIDENT, Event, estimated, not_identifiable
 from .onset import onset_of
 from .tooth_search import ALARM
 from .train import FollowedTrain
+from .vibration_lines import HARMONICS, PatternAmplitudes
 
 Array = NDArray[np.float64]
 
-HARMONICS = 3  # of the mesh frequency
-SIDEBANDS = 2  # on each side of a harmonic, for each gear
-STRETCH = 2e-3  # largest relative error of the measured speed
-STEPS = 21  # trial values of the scale of the speed within `STRETCH`
 CELL = 0.1  # relative distance of torque and speed within which a baseline applies
 OVER_TORQUE = 1.0  # largest exponent over the torque of an amplitude divided by the torque
 OVER_SPEED = 4.0  # largest exponent over the speed: 2 of an acceleration, the rest of resonances
@@ -74,30 +64,6 @@ class VibrationSamples(NamedTuple):
     """Names of the channels."""
     period: float
     """Sample period [s]."""
-
-
-class _Line(NamedTuple):
-    """A line of a spectrum over the mesh cycles."""
-
-    mesh: int
-    """Harmonic of the mesh."""
-    side: int
-    """Number of the sideband, negative below the harmonic."""
-    teeth: int
-    """Number of teeth of the gear whose rotation separates the sidebands."""
-
-    @property
-    def order(self) -> float:
-        """Frequency of the line over the mesh frequency."""
-        return self.mesh + self.side / self.teeth
-
-
-class _Pattern(NamedTuple):
-    """Lines that grow together."""
-
-    name: str
-    lines: tuple[_Line, ...]
-    causes: tuple[str, ...]
 
 
 @dataclass
@@ -185,8 +151,7 @@ class VibrationFollower:
         self._train, self._usual_learning = train, learning
         self._period_angle = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
         self._longest_period = self._period_angle / (SLOWEST * train.speed)  # [s]
-        self._patterns = tuple(_patterns(train))
-        self._side_offset = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
+        self._amplitudes = PatternAmplitudes(train)
         self._waiting: list[tuple[Array, Array]] = []
         self._most_samples = round(2.0 * self._longest_period / period)
         self._begin = math.nan  # start of the present hunting period [s]
@@ -333,7 +298,8 @@ class VibrationFollower:
             mesh = abs(float(self._train.cycles) * speed) * (1.0 + CELL) / (2.0 * math.pi)  # [Hz]
             cell = _Baseline(torque, speed, RESOLVED / (self.period * mesh))
             self._baselines.append(cell)
-        amplitudes, floor = self._amplitudes(time, values, course, cell.highest) / abs(torque)
+        angle = _angle(time, course)
+        amplitudes, floor = self._amplitudes.of(angle, values, cell.highest) / abs(torque)
         judged = _Judged(span[0], amplitudes, floor, torque, speed)
         if cell is not self._cell:
             self._cell = cell
@@ -343,64 +309,6 @@ class VibrationFollower:
             return
         self._recent.append(judged)
         self._report_growth(cell, span[1])
-
-    def _amplitudes(self, time: Array, values: Array, course: Turning, highest: float) -> Array:
-        """Root mean square of the amplitudes of every pattern.
-
-        Only lines below the mesh order `highest` are used. Returns (2, channels, patterns):
-        amplitudes of the lines, and beside the sidebands; NaN for a pattern without such lines.
-        """
-        middle = np.interp(time, course.time, course.speed)
-        angle = np.concatenate([[0.0], np.cumsum(0.5 * (middle[1:] + middle[:-1]) * np.diff(time))])
-        mesh = angle * abs(float(self._train.cycles))
-        window = np.hanning(len(time) + 2)[1:-1]
-        weighted = (values - values.mean(axis=0)) * (2.0 * window / window.sum())[:, None]
-
-        # Waves are powers of few exponentials, which take most of the time.
-        stretches = 1.0 + np.linspace(-STRETCH, STRETCH, STEPS)
-        mesh_wave, wave_step = (
-            np.exp(-1j * trial * mesh) for trial in (stretches[0], stretches[1] - stretches[0])
-        )
-        strength = []
-        for _ in stretches:
-            strength.append(float(np.sum(np.abs(mesh_wave @ weighted))))
-            mesh_wave = mesh_wave * wave_step
-        stretch = float(stretches[int(np.argmax(strength))])
-        mesh_wave = np.exp(-1j * stretch * mesh)
-        shifted = list(
-            itertools.accumulate(
-                range(HARMONICS),
-                lambda last, _: mesh_wave[:, None] * last,
-                initial=weighted.astype(complex),
-            )
-        )
-        side_waves = {(1, 0): np.ones_like(mesh_wave)}
-        for teeth, side in {
-            (line.teeth, abs(line.side)) for shape in self._patterns for line in shape.lines
-        } - set(side_waves):
-            side_waves[teeth, side] = np.exp(-1j * (stretch * side / teeth) * mesh)
-            side_waves[teeth, -side] = side_waves[teeth, side].conj()
-        side_shift = np.exp(-1j * (stretch * self._side_offset) * mesh)[:, None]
-        neighbours = [
-            [shifted_wave * side_shift, shifted_wave * side_shift.conj()]
-            for shifted_wave in shifted
-        ]
-
-        def mean_square(lines: Sequence[tuple[_Line, Array]]) -> Array:
-            powers = [np.abs(side_waves[line.teeth, line.side] @ wave) ** 2 for line, wave in lines]
-            return np.mean(powers, axis=0) if powers else np.full(len(self.names), np.nan)
-
-        squares, floors = [], []
-        for pattern in self._patterns:
-            lines = [line for line in pattern.lines if line.order < highest]
-            squares.append(mean_square([(line, shifted[line.mesh]) for line in lines]))
-            sidebands = [line for line in lines if line.side]
-            floors.append(
-                mean_square(
-                    [(line, neighbour) for line in sidebands for neighbour in neighbours[line.mesh]]
-                )
-            )
-        return np.sqrt(np.array([np.stack(squares, axis=1), np.stack(floors, axis=1)]))
 
     def _report_growth(self, cell: _Baseline, now: float) -> None:
         """Report amplitudes that have grown in any window."""
@@ -428,7 +336,7 @@ class VibrationFollower:
                 if (channel, pattern) in self._reported:
                     continue
                 self._reported[channel, pattern] = len(self.events), cell
-                name, _, causes = self._patterns[pattern]
+                name, _, causes = self._amplitudes.patterns[pattern]
                 z = float(growth[channel, pattern] / noise[channel, pattern])
                 size = not_identifiable("vibration_growth", math.nan, "", "the next hunting period")
                 evidence = f"{self.names[channel]}: z = {z:.1f}{UNKNOWN}"
@@ -493,28 +401,10 @@ def _explained_growth(recent: Sequence[_Judged], learned: Sequence[_Judged]) -> 
     return float(OVER_TORQUE * abs(torque / torques - 1.0) + OVER_SPEED * abs(speed / speeds - 1.0))
 
 
-def _patterns(train: FollowedTrain) -> Iterator[_Pattern]:
-    """Mesh harmonics, and the sidebands of every gear."""
-    meshes = range(1, HARMONICS + 1)
-    for mesh in meshes:
-        causes = ("wear of all teeth", "a change of the meshes", "the path to the sensor")
-        yield _Pattern(f"mesh harmonic {mesh}", (_Line(mesh, 0, 1),), causes)
-    kinds = {name.partition("_")[0]: count for name, count in train.teeth.items()}
-    for gear, count in kinds.items():
-        others = {other: teeth for other, teeth in kinds.items() if other != gear}
-        orders = range(1, count)
-        unshared = [n for n in orders if all(n * teeth % count for teeth in others.values())]
-        sharing_gears = (
-            [] if unshared else [other for other, teeth in others.items() if teeth % count == 0]
-        )
-        lines = tuple(
-            _Line(mesh, sign * n, count)
-            for mesh in meshes
-            for n in (unshared or orders)[:SIDEBANDS]
-            for sign in (-1, 1)
-        )
-        teeth_of = tuple(f"a tooth of the {member}" for member in (gear, *sharing_gears))
-        yield _Pattern(f"sidebands of the {gear}", lines, (*teeth_of, "a runout"))
+def _angle(time: Array, course: Turning) -> Array:
+    """Angle of the input [rad] at each of the times [s]."""
+    speed = np.interp(time, course.time, course.speed)
+    return np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time))])
 
 
 def _end_of(course: Turning, angle: float, begin: float) -> float | None:
