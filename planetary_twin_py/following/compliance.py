@@ -12,9 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .estimate import Estimate, Status, estimated, not_identifiable
+
 FEWEST = 8  # hunting periods of a regression
 RECENT = 32  # hunting periods of the present regression
 LARGEST_SD = 0.05  # relative standard deviation of a slope that is reported
+REMEDY = "a load that varies by some percent"
+CHANGES = ("compliance_change", ""), ("backlash_change", "m")  # since the baseline
 
 
 class Line(NamedTuple):
@@ -137,6 +141,50 @@ class Compliance:
             return None
         return first, last
 
+    def estimates(self, per_input: float) -> tuple[Estimate, ...]:
+        """Compliance, and changes of compliance and backlash since the baseline.
+
+        Args:
+            per_input: turn of the input per transmission error [rad/m].
+        """
+        present, both = self.present, self.both
+        if present is None:
+            remedy = "hunting periods with the torque measured"
+            return tuple(
+                not_identifiable(name, math.nan, unit, remedy, "LEARNING")
+                for name, unit in (("compliance", "rad/(N m)"), *CHANGES)
+            )
+        slope, sd = abs(present.slope) * per_input, present.sd * per_input
+        compliance = (
+            estimated("compliance", slope, sd, "rad/(N m)", REMEDY)
+            if present.significant
+            else not_identifiable("compliance", sd, "rad/(N m)", REMEDY)
+        )
+        if both is None or not (both[0].significant and both[1].significant):
+            status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
+            unknown = (
+                not_identifiable(name, math.nan, unit, REMEDY, status) for name, unit in CHANGES
+            )
+            return compliance, *unknown
+        return compliance, *_changes(*both)
+
     def _line(self, begin: int, end: int | None) -> Line | None:
         blocks = np.array(self._blocks[begin:end]).reshape(-1, 3)
         return fit_line(*blocks.T)
+
+
+def _changes(first: Line, last: Line) -> tuple[Estimate, Estimate]:
+    """Changes of compliance and backlash between two regressions."""
+    change = last.slope / first.slope - 1.0
+    change_sd = math.hypot(last.sd, first.sd) / abs(first.slope)
+    last_error, last_sd = last.at(*last.centre)
+    first_error, first_sd = first.at(*last.centre)
+    return (
+        estimated("compliance_change", change, change_sd, ""),
+        estimated(
+            "backlash_change",
+            2.0 * (last_error - first_error),
+            2.0 * math.hypot(last_sd, first_sd),
+            "m",
+        ),
+    )

@@ -17,7 +17,7 @@ from .baseline_file import TeethBaseline
 from .checks import InputError
 from .compliance import Compliance
 from .encoder_check import EncoderCheck
-from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
+from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
 from .onset import onset_of
 from .signatures import signatures
@@ -474,50 +474,9 @@ class TeethFollower:
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and backlash since the baseline."""
         if self._estimates is None:
-            self._estimates = self._compliance_estimates()
+            per_input = 1.0 / (self.train.lever * abs(float(self.train.twist[0])))
+            self._estimates = self.compliance.estimates(per_input)
         return self._estimates
-
-    def _compliance_estimates(self) -> tuple[Estimate, ...]:
-        remedy = "a load that varies by some percent"
-        present, both = self.compliance.present, self.compliance.both
-        per_input = 1.0 / (self.train.lever * abs(float(self.train.twist[0])))
-        if present is None:
-            wait = "hunting periods with the torque measured"
-            return tuple(
-                not_identifiable(name, math.nan, unit, wait, "LEARNING")
-                for name, unit in (
-                    ("compliance", "rad/(N m)"), ("compliance_change", ""),
-                    ("backlash_change", "m"),
-                )
-            )  # fmt: skip
-        slope, sd = abs(present.slope) * per_input, present.sd * per_input
-        estimates = [
-            estimated("compliance", slope, sd, "rad/(N m)", remedy)
-            if present.significant
-            else not_identifiable("compliance", sd, "rad/(N m)", remedy)
-        ]
-        if both is None or not (both[0].significant and both[1].significant):
-            status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
-            names = (("compliance_change", ""), ("backlash_change", "m"))
-            return (
-                *estimates,
-                *(not_identifiable(name, math.nan, unit, remedy, status) for name, unit in names),
-            )
-        first, last = both
-        change = last.slope / first.slope - 1.0
-        change_sd = math.hypot(last.sd, first.sd) / abs(first.slope)
-        estimates.append(estimated("compliance_change", change, change_sd, ""))
-        last_error, last_sd = last.at(*last.centre)
-        first_error, first_sd = first.at(*last.centre)
-        estimates.append(
-            estimated(
-                "backlash_change",
-                2.0 * (last_error - first_error),
-                2.0 * math.hypot(last_sd, first_sd),
-                "m",
-            )
-        )
-        return tuple(estimates)
 
 
 def _tooth_names(bank: Bank, teeth: tuple[int, ...]) -> tuple[str, ...]:
