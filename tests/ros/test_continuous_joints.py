@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import numpy as np
+import pytest
 from planetary_twin.messages import JointsMessage
 from planetary_twin_msgs.msg import GearboxState
 from sensor_msgs.msg import JointState
@@ -47,8 +48,20 @@ def test_a_window_after_a_gap_starts_a_new_count() -> None:
     first, second = pt.Twin(scene), pt.Twin(scene)
     message = JointsMessage(first.advance(0.1).bodies, True)
     for twin in (first, second):  # a reset starts another twin
-        begin = np.array(message.fill(twin.advance(0.1)).position)
-        assert begin.min() >= 0.0 and begin.max() <= TURN
+        window = twin.advance(0.1)
+        begin = np.array(message.fill(window).position) - 0.1 * window.mean_speed
+        assert np.abs(begin).max() <= 0.5 * TURN
+
+
+def test_a_joint_at_rest_below_zero_is_there_and_not_a_turn_further() -> None:
+    ports = {"drive.input.port": "torque", "drive.output.port": "torque"}
+    twin = pt.Twin(pt.load_scene("paper").replace(input_torque=1.0, **ports))
+    window = twin.advance(1e-3, input_torque=0.0, output_torque=0.0)
+    place = window.bodies.index("ring")
+    assert window.angle[place] > math.pi  # the output turns against the input
+    counted = np.array(JointsMessage(window.bodies, True).fill(window).position)
+    assert counted[place] == pytest.approx(twin.port_states.output_angle, abs=0.01)
+    assert -0.1 < counted[place] < 0.0
 
 
 def test_a_node_publishes_them_on_request_and_the_recording_verifies(

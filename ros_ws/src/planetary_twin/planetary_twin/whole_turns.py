@@ -11,7 +11,7 @@ from planetary_twin_py.recording.ros2.fields import TURN
 
 class WholeTurns:
     """
-    Counts whole turns from the first window of a run.
+    Counts whole turns from the first window of a run, which starts within half a turn of zero.
 
     The angles before and after a window and its mean speed determine one integer. Only this
     integer is added up, so there is no drift.
@@ -24,10 +24,9 @@ class WholeTurns:
 
     def after(self, window: Window) -> NDArray[np.float64]:
         """Return the turns of each body at the end of `window`, shape (bodies,)."""
-        if window.start == self._end:
-            turned = window.mean_speed * (window.end - window.start)
-            self._turns = self._turns + np.rint((turned - window.angle + self._angle) / TURN)
-        else:
-            self._turns = np.zeros_like(window.angle)
+        if window.start != self._end:
+            self._turns = self._angle = np.zeros_like(window.angle)
+        turned = window.mean_speed * (window.end - window.start)
+        self._turns = self._turns + np.rint((turned - window.angle + self._angle) / TURN)
         self._end, self._angle = window.end, window.angle
         return self._turns
