@@ -121,14 +121,21 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
 ) -> None:
     running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    now = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3)).simulated_time
     for request, reason in (
         (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),
         (JointState(name=[RING], velocity=[1.0]), "output_speed = 1.0: requires drive.output.port"),
         (JointState(name=["elbow"], effort=[1.0]), "command: must have an effort, velocity or"),
+        (JointState(name=[SUN], effort=[1.0, 2.0]), "command: has more values than names"),
+        (JointState(effort=[1.0]), "command: has more values than names"),
     ):
         answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3, command=request))
         assert not answer.success
         assert answer.message.startswith(reason)
+        assert answer.simulated_time == now > 0.0
+    both = Step.Request(duration=1e-3, command=command((1.0, 0.0)), commands=[command((1.0, 0.0))])
+    answer = peer.call(Step, f"{NODE}/step", both)
+    assert answer.message == "command: must be empty if there are commands"
 
 
 def test_diagnostics_count_commands_that_are_out_of_range_or_have_no_name(

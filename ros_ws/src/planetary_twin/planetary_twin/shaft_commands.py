@@ -97,7 +97,7 @@ class ShaftCommands:
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
         values, now = values_of(message, self.joints), self._now() - waited if stamp else 0
         reasons = set[str]()
-        if _has_surplus(message):
+        if has_surplus(message):
             values = {}
             reasons.add("more values than names")
         elif not values:
@@ -237,7 +237,7 @@ def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
     return near
 
 
-def _has_surplus(message: JointState) -> bool:
+def has_surplus(message: JointState) -> bool:
     """Return whether `message` has values without a name; ros2_control sends fewer, never more."""
     longest = max(len(message.position), len(message.velocity), len(message.effort))
     return longest > len(message.name)

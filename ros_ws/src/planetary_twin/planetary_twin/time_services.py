@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from concurrent.futures import Future
 from typing import Protocol
 
@@ -66,18 +67,32 @@ class TimeServices:
         def show(twin: Twin) -> None:
             states.append(self._state(twin))
             response.state = states[-1]
-            response.stamp, response.simulated_time = response.state.header.stamp, twin.time
+            self._date(response, twin.time)
 
         def step() -> Future[float]:
+            if request.commands and request.command.name:
+                raise ValueError("command: must be empty if there are commands")
             each = [
                 self._control.command(every) for every in request.commands or [request.command]
             ]
             return self._control.running().step(request.duration, each, show)
 
         answer(response, step, lambda instant: "")
+        if not states:
+            self._date_refusal(response)
         if request.commands:
             response.states = states
         return response
+
+    def _date(self, response: Step.Response, instant: float) -> None:
+        """Set the time of a response to a simulated instant [s]."""
+        response.simulated_time = instant
+        set_stamp(response.stamp, self._control.stamp(instant))
+
+    def _date_refusal(self, response: Step.Response) -> None:
+        """Set the time of a response to the present one, which exists if the node is active."""
+        with contextlib.suppress(ValueError):
+            self._date(response, self._control.running().progress.simulated)
 
     def _state(self, twin: Twin) -> JointState:
         """Return the present state of the shafts."""
