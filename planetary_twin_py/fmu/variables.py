@@ -55,7 +55,7 @@ class Variable:
 SPEEDS = 33  # number of speeds at which the stability of the speed loop is checked
 PORTS = {"input": MOTOR, "output": LOAD_MACHINE}
 SHOWN = {
-    "angle": ("angle of the {} shaft since the start", "rad"),
+    "angle": ("angle of the {} shaft, which counts whole turns", "rad"),
     "speed": ("speed of the {} shaft", "rad/s"),
     "torque": ("torque on the {} shaft, positive if it acts counter-clockwise", "N m"),
 }

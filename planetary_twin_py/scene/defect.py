@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from ..units import UnitError
 from .names import nearest, no_such_field
 from .paths import field_paths
-from .quantity import Section, bounds, limit_of, listed, sections_in, unit_of, within
+from .quantity import Section, bounds, excluded_ends, limit_of, listed, sections_in, unit_of, within
 
 _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
@@ -111,7 +111,7 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
     elif isinstance(defect["input"], dict):
         yield from (f"{place.name}: {line}" for line in reason.splitlines())
     else:
-        allowed = None if _is_of_units(defect) else _allowed(place.field)
+        allowed = None if _is_of_units(defect) else _allowed(place.field, defect["input"])
         yield f"{place.name} = {defect['input']!r}: {allowed or reason}"
 
 
@@ -119,12 +119,13 @@ def _is_of_units(defect: ErrorDetails) -> bool:
     return isinstance(defect.get("ctx", {}).get("error"), UnitError)
 
 
-def _allowed(field: FieldInfo | None) -> str | None:
-    """Description of the range of a quantity; None for other fields."""
+def _allowed(field: FieldInfo | None, given: object) -> str | None:
+    """Description of the range of a quantity for a refused value; None for other fields."""
     if field is None or (unit := unit_of(field)) is None:
         return None
     low, high = bounds(field)
     if low == -math.inf and high == math.inf:
         return f"must be a finite number in {unit or '1'}"
+    excluded = f", not {given:g}" if given in excluded_ends(field) else ""
     further = limit_of(field)
-    return within(low, high, unit) + (f", and within {further}" if further else "")
+    return within(low, high, unit) + excluded + (f", and within {further}" if further else "")

@@ -114,6 +114,12 @@ def bounds(field: FieldInfo) -> tuple[float, float]:
     return low, high
 
 
+def excluded_ends(field: FieldInfo) -> list[float]:
+    """Ends of the range of a field that are not allowed themselves."""
+    ends = (getattr(item, name, None) for item in field.metadata for name in ("gt", "lt"))
+    return [float(end) for end in ends if end is not None]
+
+
 def within(low: float, high: float, unit: str) -> str:
     """Description of a range."""
     return f"must be a number within {low:g} and {high:g} {unit}".rstrip()

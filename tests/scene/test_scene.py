@@ -127,6 +127,11 @@ def test_a_missing_section_is_named():
         pt.parse_scene(yaml.safe_dump(data))
 
 
+def test_the_end_of_a_range_that_is_excluded_is_named():
+    with pytest.raises(pt.SceneError, match=r"within 0 and 1e\+09 kg m\^2, not 0$"):
+        pt.load_scene("paper").replace(**{"drive.input.inertia": 0.0})
+
+
 def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
     data = yaml.safe_load(text())
     data["mesh"] |= {"ramp": 0.5, "backlash": "gap"}
