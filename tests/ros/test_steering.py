@@ -102,6 +102,7 @@ def test_invalid_arguments_end_in_one_line(command: Command, points: list[Operat
         (("param", "set", "scene", "other"), "scene"),
         (("param", "get", "gap"), "gap: no such parameter"),
         (("op", "gap=1"), "gap: no such quantity"),
+        (("op", "drive.input.port=torque"), "planetary-twin param set drive.input.port VALUE"),
         (("op", "backlash"), "NAME=VALUE"),
         (("op", "input_torque=1e9"), "input_torque"),
     ):

@@ -96,6 +96,10 @@ class Remote(Client):
         instant [s], and a remark on quantities without effect in the scene.
         """
         for name in typed:
+            if name not in TUNABLES and name in self._names():
+                raise ValueError(
+                    f"{name}: not in the operating point: planetary-twin param set {name} VALUE"
+                )
             if name not in TUNABLES:
                 raise ValueError(_unknown(f"{name}: no such quantity", name, TUNABLES))
         values = [in_si(name, value) for name, value in typed.items()]
