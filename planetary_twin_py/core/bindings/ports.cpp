@@ -54,7 +54,7 @@ void bind_port(nb::class_<PortStates>& states, const char* angle, const char* sp
                const char* torque) {
     states.def_prop_ro(
         angle, [](const PortStates& self) { return self.angle[port]; },
-        "Angle [rad] that counts whole turns; at rest in the middle of the backlash it is 0.");
+        "Angle, which counts whole turns; 0 at rest in the middle of the backlash [rad].");
     states.def_prop_ro(
         speed, [](const PortStates& self) { return self.speed[port]; }, "Speed [rad/s].");
     states.def_prop_ro(
