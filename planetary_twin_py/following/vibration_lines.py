@@ -26,7 +26,7 @@ HARMONICS = 3  # of the mesh frequency
 SIDEBANDS = 2  # on each side of a harmonic, for each gear
 STRETCH = 2e-3  # largest relative error of the measured speed
 STEPS = 21  # trial values of the scale of the speed within `STRETCH`
-TURN = 0.25  # [rad] of the farthest line in a block: its amplitude falls by 0.5 %, aliases by 56 dB
+TURN = 0.25  # [rad] phase of the farthest line in a block; see `_near_harmonics`
 
 
 class Line(NamedTuple):
@@ -129,8 +129,12 @@ class _Near(NamedTuple):
 
 
 def _near_harmonics(mesh: Array, weighted: Array, widest: float) -> dict[int, _Near]:
-    """Samples near every harmonic, for offsets of up to `widest` mesh orders."""
-    step = (mesh[-1] - mesh[0]) / (len(mesh) - 1)  # [rad]
+    """Samples near every harmonic, for offsets of up to `widest` mesh orders.
+
+    Triangular weights over two blocks reduce the amplitude of a line at `widest` by
+    1 - sinc(TURN/2)^2, or 0.5 %, and what is folded there to (TURN/2 pi)^2, or 0.16 %.
+    """
+    step = abs(mesh[-1] - mesh[0]) / (len(mesh) - 1)  # [rad]
     each = max(1, int(TURN / (widest * step)))
     blocks = len(mesh) // each
     centres = mesh[: blocks * each].reshape(blocks, each).mean(axis=1)

@@ -1,0 +1,67 @@
+"""Amplitudes of lines equal a direct Fourier sum over all samples."""
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.following.vibration_lines import HARMONICS, TURN, PatternAmplitudes
+
+RATE = 20e3  # [Hz]
+LOST = 0.0053  # 1 - (sin(0.125) / 0.125)^2 is 0.0052
+FOLDED = 0.0018  # (0.25 / 2 pi)^2 is 0.0016, at offsets up to `widest`
+TRAIN = followed_train(pt.load_scene("paper"))
+CYCLES = abs(float(TRAIN.cycles))
+
+
+def angle(sign=1.0):
+    """Angle of the input at the samples of one hunting period [rad]."""
+    turned = 2.0 * np.pi * TRAIN.hunting_cycles / CYCLES
+    return sign * np.arange(0.0, turned, TRAIN.speed / RATE)
+
+
+def direct(mesh, values, order):
+    """Amplitude at a mesh order by a Fourier sum over a Hann window."""
+    window = np.hanning(len(mesh) + 2)[1:-1]
+    wave = np.exp(-1j * order * mesh) * window
+    return 2.0 * abs(np.sum(wave * (values - values.mean()))) / window.sum()
+
+
+def found(angles, values):
+    amplitudes = PatternAmplitudes(TRAIN)
+    lines, beside = amplitudes.of(angles, values[:, None], np.inf)
+    return amplitudes.patterns, lines[0], beside[0]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["forwards", "backwards"])
+def test_amplitudes_of_patterns_are_those_of_a_fourier_sum(sign):
+    angles = angle(sign)
+    mesh, rng = angles * CYCLES, np.random.default_rng(7)
+    patterns = PatternAmplitudes(TRAIN).patterns
+    lines = [line for pattern in patterns for line in pattern.lines]
+    values = 0.05 * rng.standard_normal(len(mesh))
+    for line in lines:
+        values += rng.uniform(0.1, 1.0) * np.cos(line.order * mesh + rng.uniform(0.0, 6.0))
+    patterns, amplitudes, _ = found(angles, values)
+    for pattern, amplitude in zip(patterns, amplitudes, strict=True):
+        squares = [direct(mesh, values, line.order) ** 2 for line in pattern.lines]
+        expected = np.sqrt(np.mean(squares))
+        assert amplitude == pytest.approx(expected, rel=LOST)
+
+
+def test_a_strong_line_that_is_folded_onto_a_line_hardly_shows():
+    angles = angle()
+    mesh = angles * CYCLES
+    offsets = [abs(line.offset) for p in PatternAmplitudes(TRAIN).patterns for line in p.lines]
+    widest = PatternAmplitudes(TRAIN)._widest
+    assert widest > max(offsets)
+    each = int(TURN / (widest * (mesh[1] - mesh[0])))
+    assert each > 4  # or nothing would be folded
+    block_rate = 2.0 * np.pi / (each * (mesh[1] - mesh[0]))  # in mesh orders
+    for harmonic in range(1, HARMONICS + 1):
+        strong = np.cos((harmonic + block_rate + max(offsets)) * mesh)
+        patterns, amplitudes, beside = found(angles, strong + np.cos(mesh))  # which sets the scale
+        place = HARMONICS + int(np.argmax(amplitudes[HARMONICS:]))
+        one = amplitudes[place] * np.sqrt(len(patterns[place].lines))  # of the line it falls on
+        assert 1e-4 < one < FOLDED
+        assert np.nanmax(beside) < FOLDED
