@@ -12,7 +12,7 @@ pytestmark = [pytest.mark.exhaustive, pytest.mark.slow]
 
 def test_pages_that_change_the_package():
     """All in one copy of the package, whose changes precede all other blocks: it compiles once."""
-    folder = ROOT / "build" / "changed"  # a path that .ci/run gives to its cache of objects
+    folder = ROOT / "build" / "changed"  # .ci/run names this path to its compiler cache
     shutil.rmtree(folder, ignore_errors=True)
     ignored = shutil.ignore_patterns("__pycache__", "*.so")
     for part in ("planetary_twin_py", "tools"):

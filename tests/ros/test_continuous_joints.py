@@ -53,7 +53,7 @@ def test_a_window_after_a_gap_starts_a_new_count() -> None:
         assert np.abs(begin).max() <= 0.5 * TURN
 
 
-def test_a_joint_at_rest_below_zero_is_there_and_not_a_turn_further() -> None:
+def test_a_joint_that_starts_below_zero_is_there_and_not_a_turn_further() -> None:
     ports = {"drive.input.port": "torque", "drive.output.port": "torque"}
     twin = pt.Twin(pt.load_scene("paper").replace(input_torque=1.0, **ports))
     window = twin.advance(1e-3, input_torque=0.0, output_torque=0.0)

@@ -36,7 +36,7 @@ def build(folder):
             (folder / "source" / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / "source" / name, follow_symlinks=False)
     uv = [Path(sys.prefix, "bin/uv"), "--offline", "--quiet"]
-    # These levels are compiled once, which a cache of objects only makes slower.
+    # Each level is compiled only once, so a compiler cache would be slower.
     environment = {key: value for key, value in os.environ.items() if "LAUNCHER" not in key}
     subprocess.run(
         [*uv, "build", "--no-build-isolation", "--python", sys.executable,

@@ -46,8 +46,8 @@ inline void fill(nb::handle room, nb::handle values) {
     room.attr("__setitem__")(nb::tuple(part), array);
 }
 
-// Where a field is: `offset` bytes after the start of a record of class `type`. Properties are made
-// from it for each type of field, not for each record: most of a compiler's time would go there.
+// Where a field is: `offset` bytes after the start of a record of class `type`. With it, a property
+// depends on the type of the field only, so records share the compiled code.
 struct FieldPlace {
     nb::handle type;
     size_t offset;

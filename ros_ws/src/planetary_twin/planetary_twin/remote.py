@@ -96,12 +96,14 @@ class Remote(Client):
         instant [s], and a remark on quantities without effect in the scene.
         """
         for name in typed:
-            if name not in TUNABLES and name in self._names():
+            if name in TUNABLES:
+                continue
+            if name in self._names():
                 raise ValueError(
-                    f"{name}: not in the operating point: planetary-twin param set {name} VALUE"
+                    f"{name}: is not in the operating point; use planetary-twin param set "
+                    f"{name} VALUE"
                 )
-            if name not in TUNABLES:
-                raise ValueError(_unknown(f"{name}: no such quantity", name, TUNABLES))
+            raise ValueError(_unknown(f"{name}: no such quantity", name, TUNABLES))
         values = [in_si(name, value) for name, value in typed.items()]
         request = SetOperatingPoint.Request(names=list(typed), values=values, ramp=ramp)
         answer = self._call(SetOperatingPoint, "set_operating_point", request)
