@@ -123,15 +123,15 @@ def opened(piece: Piece) -> list[Any]:
     """
     opcode, content = piece.opcode, piece.content
     if opcode == Opcode.CHUNK:
-        return _unpacked(_exact(Chunk, content))
+        return _unpacked(_chunk(content))
     if opcode == Opcode.MESSAGE:
         return [_published(_message(content, 0, len(content)), _MOST_PLAIN)]
     if opcode == Opcode.MESSAGE_INDEX:
         indexed_messages(piece)
     elif opcode in _STRUCTURE:
-        _exact(_STRUCTURE[opcode], content)
+        _exact(_STRUCTURE[opcode], _Fields(content), content)
     elif opcode in _CONTENTS:
-        return [_exact(_CONTENTS[opcode], content)]
+        return [_exact(_CONTENTS[opcode], _Fields(content), content)]
     elif opcode not in _OPCODES:
         raise McapError(f"no record has the opcode {opcode}")
     return []
@@ -166,9 +166,14 @@ def next_chunk(stream: BinaryIO, begin: int) -> int | None:
     return None
 
 
-def _exact(kind: Any, content: bytes) -> Any:
-    """A record whose fields fill `content` exactly."""
-    fields = _Fields(content)
+def _chunk(content: bytes) -> Chunk:
+    """A chunk; its data may end before their stated length if a checksum shows they are whole."""
+    chunk: Chunk = _exact(Chunk, ReadDataStream(BytesIO(content)), content)
+    return chunk if chunk.uncompressed_crc else _exact(Chunk, _Fields(content), content)
+
+
+def _exact(kind: Any, fields: ReadDataStream, content: bytes) -> Any:
+    """A record whose `fields` fill `content` exactly."""
     record = kind.read(fields)
     if fields.count != len(content):
         raise McapError(f"{len(content) - fields.count} bytes after the last field")
@@ -201,7 +206,7 @@ def _unpacked(chunk: Chunk) -> list[Any]:
                 room -= len(message.data)
             records.append(message)
         elif kind := _CONTENTS.get(opcode):
-            records.append(_exact(kind, data[begin:end]))
+            records.append(_exact(kind, _Fields(part := data[begin:end]), part))
     return records
 
 

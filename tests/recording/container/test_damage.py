@@ -14,7 +14,7 @@ from twin_recording import NAMESPACE
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.damage import Damages
 from planetary_twin_py.recording.container.integrity import MAGIC
-from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.container.records import RecordingError, records_of
 from planetary_twin_py.recording.container.walk import Lost
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.definitions import topics_of
@@ -74,6 +74,26 @@ def places(data):
             packed = named + 4 + length
             found |= {content + 16, content + 24, named, named + 4, packed, packed + 8, packed + 20}
     return sorted(place for place in found if place < len(data))
+
+
+@pytest.mark.parametrize("checksum", [True, False])
+def test_a_chunk_whose_stated_length_is_damaged_is_kept_if_its_checksum_is_right(
+    sound, tmp_path, checksum
+):
+    whole, original = sound.read_bytes(), list(records_of(sound, []))
+    for opcode, begin, _ in records(whole):
+        if opcode != CHUNK:
+            continue
+        data, named = bytearray(whole), begin + 9 + CHUNK_HEAD
+        (length,) = struct.unpack_from("<I", data, named)
+        data[named + 4 + length + 4] ^= 4  # 16 GB more
+        if not checksum:
+            data[named - 4 : named] = bytes(4)  # then nothing shows that the data are whole
+        damaged = tmp_path / "damaged.mcap"
+        damaged.write_bytes(data)
+        found = list(records_of(damaged, remarks := []))
+        assert (found == original) == checksum
+        assert remarks  # the checksum of all data is wrong
 
 
 def flipped(data, place, bit):
