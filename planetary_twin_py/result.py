@@ -28,8 +28,8 @@ class Energy:
     kinetic: float
     """Increase of the kinetic energy [J]."""
     elastic: float
-    """Increase of the elastic energy of meshes, couplings and bearings, and of the potential energy
-    of the weight [J]."""
+    """Increase of the elastic energy of meshes, couplings, bearings and tooth pairs before they
+    slide, and of the potential energy of the weight [J]."""
     friction: float
     """Dissipated by tooth friction [J]."""
     damping: float
@@ -39,7 +39,8 @@ class Energy:
     churning: float
     """Dissipated by oil churning [J]."""
     stiffness_work: float
-    """Work due to the change of mesh stiffness with the tooth pairs in contact [J]."""
+    """Work due to the change of stiffness: of the meshes with the tooth pairs in contact, and of
+    pairs that do not slide yet with their load [J]."""
     stored: float
     """Kinetic and elastic energy at the end [J]."""
     weight: float = 0.0

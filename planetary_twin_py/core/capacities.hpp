@@ -50,8 +50,9 @@ constexpr int MOTOR = 0, LOAD_MACHINE = 1, SECOND_MOTOR = 2;
 constexpr std::int64_t BY_MACHINE = 0, BY_TORQUE = 1, BY_MOTION = 2;
 
 // Entries of `State.energy` and of their powers: work [J] and angular impulse [N m s] of each
-// machine, then losses of tooth friction, damping, bearings and churning, and work of changing mesh
-// stiffness and errors of form, and of weight on displaced bodies as the carrier rotates [J].
+// machine, then losses of tooth friction, damping, bearings and churning, and work of changing
+// stiffness of meshes and bristles and of errors of form, and of weight on displaced bodies as the
+// carrier rotates [J].
 constexpr int WORK = 0, IMPULSE = MACHINES;
 constexpr int FRICTION = 2 * MACHINES, DAMPING = FRICTION + 1, BEARING = FRICTION + 2,
               CHURNING = FRICTION + 3, STIFFNESS_WORK = FRICTION + 4, WEIGHT = FRICTION + 5;

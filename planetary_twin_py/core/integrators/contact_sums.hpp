@@ -62,7 +62,8 @@ ALWAYS_INLINE void add_friction(const Train& train, const Evaluation& work, doub
     for (std::int64_t p = 0, first = 0; p < train.slots; ++p, first += train.meshes) {
         viscous += V(pairs.viscous + first);
         sums.boundary += weight * V(pairs.boundary + first);
-        V lost = V(pairs.friction + first) * V(pairs.sliding + first);
+        V lost = pairs.has_bristles ? V(pairs.lost + first)
+                                    : V(pairs.friction + first) * V(pairs.sliding + first);
         sums.lost += weight * (lost + V(pairs.rolling_power + first));
     }
     sums.viscous += weight * viscous;

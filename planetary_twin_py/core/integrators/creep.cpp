@@ -66,6 +66,9 @@ void select_friction_model(const Model& model, Integrator& integrator) {
         forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim,
                integrator.first);
         steady_bristles(integrator.first.pairs, begin.bristle);
+    } else {
+        begin.energy[STIFFNESS_WORK] -= begin.presliding;
+        begin.presliding = 0.0;
     }
     integrator.first.pairs.has_bristles = integrator.last.pairs.has_bristles = creeping;
     integrator.work.evaluation.pairs.has_bristles = creeping;

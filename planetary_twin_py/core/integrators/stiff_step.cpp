@@ -84,6 +84,16 @@ Controlled controlled_step(const Model& model, Integrator& integrator, double h)
     }
 }
 
+// Add the increase of the elastic energy of the bristles to the work of changing stiffness, which
+// then is what the deformation of the bristles does not explain: their stiffness changes with the
+// load of their pairs.
+void book_bristles(const Model& model, Integrator& integrator) {
+    State& end = integrator.end;
+    double energy = bristle_energy(model.train, model.oil, integrator.last.pairs);
+    end.energy[STIFFNESS_WORK] += energy - end.presliding;
+    end.presliding = energy;
+}
+
 // Forces at the start of the step.
 void find_first_forces(const Model& model, Integrator& integrator) {
     Control& control = integrator.control;
@@ -118,6 +128,7 @@ std::int64_t stiff_step(const Model& model, Integrator& integrator, double longe
     FlankEvent flank = first_flank_event(model, integrator);
     if (flank.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, integrator, flank.mesh))
         try_step(model, integrator, std::max(flank.when, SHORTEST_STEP));
+    if (control.creeping) book_bristles(model, integrator);
     return flank.mesh;
 }
 

@@ -34,11 +34,11 @@ inline double kinetic(const Model& model, const State& state) {
     return total;
 }
 
-// Elastic energy of meshes in contact, couplings and bearings, and potential energy of weight [J];
-// `step` is work space.
+// Elastic energy of meshes in contact, couplings, bearings and bristles, and potential energy of
+// weight [J]; `step` is work space.
 inline double elastic(const Model& model, const State& state, StepConstants& step) {
     const Train& train = model.train;
-    double total = 0.0;
+    double total = state.presliding;
     for (std::int64_t i = 0; i < train.meshes; ++i) total += stored_energy(model, state, step, i);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         double twist = state.x[train.coupling[c][0]] - state.x[train.coupling[c][1]];

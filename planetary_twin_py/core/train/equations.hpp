@@ -53,6 +53,7 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
         if (train.printed_torque) print_torques(train, step, v, out.dragging);
         add_friction_forces(train, out.dragging, out.friction_force);
         out.power[FRICTION] += friction_power(train, out.dragging);
+        out.power[STIFFNESS_WORK] -= deforming_power(train, out.pairs);  // see book_bristles
     }
     if (train.joints + train.discs > 0)
         apply_drag(model, state, v, out.now.normal_force, out.friction_force, out.power);

@@ -49,8 +49,7 @@ inline void observe(const Model& model, const State& state, const StepConstants&
             if (!train.friction) continue;
             at(BOUNDARY, i) += pairs.boundary[k];
             at(VISCOUS, i) += pairs.viscous[k];
-            double lost = pairs.has_bristles ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
-            at(POWER_LOSS, i) += lost + pairs.rolling_power[k];
+            at(POWER_LOSS, i) += dissipated(pairs, k) + pairs.rolling_power[k];
         }
     }
 }

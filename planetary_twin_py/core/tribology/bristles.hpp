@@ -58,6 +58,17 @@ inline void apply_bristles(const Oil& oil, ToothPairs& pairs) {
     }
 }
 
+// Elastic energy of the bristles [J]: half the presliding displacement times full z^2 of each pair,
+// z the share.
+inline double bristle_energy(const Train& train, const Oil& oil, const ToothPairs& pairs) {
+    double total = 0.0;
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        double copies = train.copies[k % train.meshes];
+        total += copies * pairs.full[k] * pairs.bristle[k] * pairs.bristle[k];
+    }
+    return 0.5 * oil.presliding * total;
+}
+
 // Fill the shares of friction (PAIR_CAPACITY,) from the traction curve, at the start of the bristle
 // model.
 inline void steady_bristles(const ToothPairs& pairs, double* share) {

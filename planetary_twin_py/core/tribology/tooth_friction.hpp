@@ -68,6 +68,22 @@ inline double friction_layer(const Train& train, const Oil& oil, double cycle_ra
 // Film and friction of `pairs.count` pairs.
 void evaluate(const Model& model, ToothPairs& pairs);
 
+// Power dissipated by the friction of pair k [W].
+inline double dissipated(const ToothPairs& pairs, std::int64_t k) {
+    return pairs.has_bristles ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
+}
+
+// Power that deforms the bristles of all meshes elastically [W]: work of friction that is not lost.
+inline double deforming_power(const Train& train, const ToothPairs& pairs) {
+    if (!pairs.has_bristles) return 0.0;
+    double power = 0.0;
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        double work = pairs.friction[k] * pairs.sliding[k];
+        power += train.copies[k % train.meshes] * (work - pairs.lost[k]);
+    }
+    return power;
+}
+
 // Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears, u1
 // and u2 the surface speeds.
 inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
@@ -79,7 +95,7 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
             double f = pairs.friction[k], rolling = pairs.rolling[k];
             out.torque[0][i] -= (f + rolling) * pairs.rho1[k];
             out.torque[1][i] -= (f - rolling) * pairs.external[k] * pairs.rho2[k];
-            out.power[i] += f * pairs.sliding[k] + pairs.rolling_power[k];
+            out.power[i] += dissipated(pairs, k) + pairs.rolling_power[k];
         }
     }
     for (std::int64_t i = 0; i < train.meshes; ++i)

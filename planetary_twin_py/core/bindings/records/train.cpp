@@ -26,6 +26,7 @@ void bind_train_records(nb::module_& m) {
         .FIELD(State, trim)
         .FIELD(State, set_speed)
         .FIELD(State, energy)
+        .FIELD(State, presliding)
         .FIELD(State, bristle);
     record<Load>(m, "Load")
         .FIELD(Load, half_backlash)
