@@ -126,6 +126,7 @@ class Engine:
         control, scale = self.integrator.control, self._scale
         control.tolerance = self.tolerance
         control.deflection = scale.deflection(point)
+        control.elastic_deflection = scale.elastic_deflection(point)
         control.acceleration_deflection = scale.acceleration_deflection(self.model.load)
         control.speed_per_deflection = scale.speed_per_deflection
         points = next(n for least, n in POINTS if self.tolerance > least)

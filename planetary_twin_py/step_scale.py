@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from ._core import METHODS, Integrator, Load, PointLaws, Train, deflection_at
+from ._core import METHODS, Integrator, Load, PointLaws, Train, deflection_at, elastic_deflection
 from .dynamics.point_laws import record_of
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import lightest_body
@@ -38,7 +38,7 @@ class StepScale:
         self.speed_per_deflection = math.sqrt(2.0 * self._stiffness / lightest_body(train))
 
     def deflection(self, point: OperatingPoint) -> float:
-        """Deflection of the meshes under the torques of steady running.
+        """Deflection of the meshes under the torques of steady running, and half the backlash.
 
         Args:
             point: operating point.
@@ -47,6 +47,17 @@ class StepScale:
             The deflection [m].
         """
         return deflection_at(self._laws, record_of(point))
+
+    def elastic_deflection(self, point: OperatingPoint) -> float:
+        """Elastic part of `deflection`, without half the backlash.
+
+        Args:
+            point: operating point.
+
+        Returns:
+            The deflection [m].
+        """
+        return elastic_deflection(self._laws, record_of(point))
 
     def acceleration_deflection(self, load: Load) -> np.ndarray:
         """Deflection of the meshes per acceleration of each input.

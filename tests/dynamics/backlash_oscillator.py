@@ -51,7 +51,8 @@ class Oscillator:
         load.slew_rate = 1.0
         self.integrator.run.nodes = radau(5)
         control = self.integrator.control
-        control.tolerance, control.deflection, control.speed_per_deflection = tolerance, 1.0, 1.0
+        control.tolerance, control.speed_per_deflection = tolerance, 1.0
+        control.deflection = control.elastic_deflection = 1.0
         control.next_step = control.next_stiff = control.step = 1e-3
         control.longest = 0.2
         for state in (self.integrator.begin, self.integrator.end):

@@ -16,6 +16,7 @@ from ports.ports_of_paper import (
 )
 
 import planetary_twin_py as pt
+from planetary_twin_py.dynamics.bodies import build_bodies
 
 DAMPED = {"drive.input.coupling_damping": 2.0, "drive.output.coupling_damping": 10.0}
 
@@ -62,6 +63,20 @@ def test_the_output_drives_the_input_backwards():
     speed = 0.2 * 5.0 * RATIO / inertia_at_input(scene)
     assert shown.input_speed == pytest.approx(speed, rel=0.02)
     assert speed < 0.0
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_flanks_in_a_wide_backlash_do_not_pull_the_load_along(tolerance):
+    """A light torque away from the load moves motor and sun alone, through the backlash."""
+    scene = at_rest("torque", "torque", backlash=2e-4, **DAMPED)
+    twin, torque = pt.Twin(scene, tolerance=tolerance), -1e-4
+    for _ in range(200):
+        shown = twin.step(1e-3, input_torque=torque, output_torque=0.0)
+    moved = build_bodies(scene)
+    own = [moved.place[name] for name in ("motor", "sun")]
+    inertia = float((moved.mass[own] * moved.radius[own] ** 2).sum())
+    assert shown.input_speed == pytest.approx(0.2 * torque / inertia, rel=1e-3)
+    assert abs(shown.output_speed) < 1e-3 * abs(RATIO * shown.input_speed)
 
 
 def test_friction_takes_from_a_train_that_is_driven_backwards():

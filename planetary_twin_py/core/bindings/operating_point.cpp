@@ -17,8 +17,10 @@ void bind_operating_point(nb::module_& m) {
           "Keep given torques and motions when other loads change.");
     m.def("prescribe", &prescribe, "oil"_a, "lambda_ratio"_a,
           "Set a prescribed lambda ratio of the oil.");
+    m.def("elastic_deflection", &elastic_deflection, "laws"_a, "point"_a,
+          "Elastic deflection of the meshes under the torques of steady running [m].");
     m.def("deflection_at", &deflection_at, "laws"_a, "point"_a,
-          "Deflection of the meshes under the torques of steady running [m].");
+          "The same with half the backlash [m].");
 }
 
 }  // namespace gearbox

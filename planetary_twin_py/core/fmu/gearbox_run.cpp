@@ -48,6 +48,7 @@ void load_point(const Exported& scene, RunState& run) {
     model.load = load;
     control.tolerance = run.tolerance;
     control.deflection = deflection_at(scene.laws, point);
+    control.elastic_deflection = elastic_deflection(scene.laws, point);
     set_nodes(scene, run);
     control.changed = true;
     const Repetition& repetition = scene.repetition[load.ripple != 0.0];

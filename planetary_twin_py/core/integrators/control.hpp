@@ -7,6 +7,7 @@ namespace gearbox {
 struct alignas(64) Control {
     double tolerance;                   // relative to the deflection of the meshes
     double deflection;                  // under the torques of steady running [m]
+    double elastic_deflection;          // of it, without half the backlash [m]
     double acceleration_deflection[2];  // and per acceleration of each set-point [m s^2/rad]
     double speed_per_deflection;        // speed of a body per deflection [1/s]
     double tolerance_x;  // allowed local error of a transmission error in this step [m]

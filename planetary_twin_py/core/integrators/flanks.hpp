@@ -14,7 +14,8 @@
 
 namespace gearbox {
 
-// Share of the local tolerance: slack of the event functions.
+// Share of the tolerance of the elastic deflection: slack of the event functions. The force by
+// which flanks pull before they separate is that share of the forces of steady running.
 inline constexpr double SLACK = 0.01;
 inline constexpr int ROUNDS = 60;  // iterations for the location of an event
 inline constexpr double LEAST_OSCILLATION =
@@ -27,7 +28,7 @@ struct FlankEvent {
 };
 
 inline double slack_of(const Integrator& integrator) {
-    return SLACK * integrator.control.tolerance_x;
+    return SLACK * integrator.control.tolerance * integrator.control.elastic_deflection;
 }
 
 // `contact_event` of mesh i within the step, without errors of form.

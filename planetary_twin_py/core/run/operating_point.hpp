@@ -92,11 +92,16 @@ inline void prescribe(Oil& oil, double lambda_ratio) {
     oil.asperity_shear = boundary_shear(oil.asperities, oil.printed_asperities, lambda_ratio);
 }
 
-// Deflection of the meshes under the torques of steady running [m].
-inline double deflection_at(const PointLaws& laws, const OperatingPoint& point) {
+// Elastic deflection of the meshes under the torques of steady running [m].
+inline double elastic_deflection(const PointLaws& laws, const OperatingPoint& point) {
     const double strongest = std::fabs(point.input_torque) + point.torque_ripple;
     const double force = std::fabs(mesh_force(laws, 1.0)) * strongest;
-    return std::max(force, LIGHTEST_MESH_LOAD) / laws.stiffness + 0.5 * point.backlash;
+    return std::max(force, LIGHTEST_MESH_LOAD) / laws.stiffness;
+}
+
+// The same with half the backlash [m].
+inline double deflection_at(const PointLaws& laws, const OperatingPoint& point) {
+    return elastic_deflection(laws, point) + 0.5 * point.backlash;
 }
 
 }  // namespace gearbox

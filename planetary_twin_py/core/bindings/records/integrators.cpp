@@ -158,6 +158,7 @@ void bind_integrators_records(nb::module_& m) {
     record<Control>(m, "Control")
         .FIELD(Control, tolerance)
         .FIELD(Control, deflection)
+        .FIELD(Control, elastic_deflection)
         .FIELD(Control, acceleration_deflection)
         .FIELD(Control, speed_per_deflection)
         .FIELD(Control, tolerance_x)
