@@ -39,6 +39,13 @@ class DrivenRun:
         for action in self._pending:
             action.command.check(scene.drive.ports, run.port_ranges)
 
+    @property
+    def first_unused(self) -> float | None:
+        """Time of the first command that has not begun to act [s]; None if all have."""
+        late = (action.begin for action in self._pending if action.command.values)
+        ticks = next(late, None)
+        return None if ticks is None else ticks / TICKS
+
     def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
         """Simulate until `until`, see `Run.advance`.
 

@@ -88,6 +88,7 @@ def simulate(
     Warns:
         LedgerWarning: the energy ledger does not balance, see `ledger_check`.
         AccuracyWarning: results are less accurate than the tolerance, see `accuracy`.
+        UserWarning: commands begin to act only after the end.
     """
     check_run(duration, sample_rate, method, tolerance)
     choice = choose_dynamics(scene) if scene.dynamics == AUTO else None
@@ -121,6 +122,9 @@ def simulate(
     if result.axes is not None and axes is not None:
         result = replace(result, axes=replace(result.axes, statistics=axes))
     result = replace(result, choice=choice)
+    if (late := driven.first_unused) is not None:
+        late_ones = f"commands.time: what begins to act at {late:g} s or later has no effect"
+        warnings.warn(f"{late_ones}: the run ends at {until:g} s", UserWarning, stacklevel=2)
     if text := ledger_warning(balance_of_run(result.energy), tolerance):
         warnings.warn(text, LedgerWarning, stacklevel=2)
     for text in accuracy_warnings(scene, result):

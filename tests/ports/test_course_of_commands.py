@@ -1,5 +1,7 @@
 """A run under commands is repeated bit for bit, whatever its windows."""
 
+import warnings
+
 import numpy as np
 import pytest
 from ports.ports_of_paper import PAPER, driven
@@ -119,3 +121,13 @@ def test_a_course_with_a_command_that_no_port_takes_is_refused_before_the_run():
     commands = pt.Commands(np.array([0.0]), input_torque=np.array([1.0]))
     with pytest.raises(ValueError, match=r"requires drive.input.port = 'torque'"):
         pt.simulate(PAPER, 0.01, commands=commands)
+
+
+@pytest.mark.parametrize("interpolation", ["hold", "linear"])
+def test_commands_that_do_not_act_before_the_end_are_named(interpolation):
+    scene, commands = commanded(interpolation)
+    with pytest.warns(UserWarning, match="at 0.009 s or later has no effect"):
+        pt.simulate(scene, 0.005, tolerance=1e-3, commands=commands)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message="commands.time")
+        pt.simulate(scene, 0.0151, tolerance=1e-3, commands=commands)

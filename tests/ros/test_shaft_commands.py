@@ -128,6 +128,7 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
         (JointState(name=["elbow"], effort=[1.0]), "command: must have an effort, velocity or"),
         (JointState(name=[SUN], effort=[1.0, 2.0]), "command: has more values than names"),
         (JointState(effort=[1.0]), "command: has more values than names"),
+        (JointState(name=[SUN, SUN], effort=[1.0, 2.0]), "command: has a name twice"),
     ):
         answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3, command=request))
         assert not answer.success

@@ -97,9 +97,9 @@ class ShaftCommands:
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
         values, now = values_of(message, self.joints), self._now() - waited if stamp else 0
         reasons = set[str]()
-        if has_surplus(message):
+        if fault := fault_of_names(message):
             values = {}
-            reasons.add("more values than names")
+            reasons.add(fault)
         elif not values:
             reasons.add(f"no effort, velocity or position of {' or '.join(self.joints)}")
         with self._lock:
@@ -237,7 +237,9 @@ def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
     return near
 
 
-def has_surplus(message: JointState) -> bool:
-    """Return whether `message` has values without a name; ros2_control sends fewer, never more."""
+def fault_of_names(message: JointState) -> str:
+    """Return what is wrong with the names of `message`; ros2_control sends no surplus values."""
     longest = max(len(message.position), len(message.velocity), len(message.effort))
-    return longest > len(message.name)
+    if longest > len(message.name):
+        return "more values than names"
+    return "" if len({*message.name}) == len(message.name) else "a name twice"

@@ -34,7 +34,7 @@ from .managed import ManagedNode, NodeError, run_node
 from .operating_point_control import OperatingPointControl
 from .polling import PolledSubscription
 from .real_time import KEEPS_UP, RealTimeReport
-from .shaft_commands import QOS, ShaftCommands, has_surplus
+from .shaft_commands import QOS, ShaftCommands, fault_of_names
 from .simulation_parameters import SimulationParameters
 from .simulation_services import SimulationServices
 from .stamps import STEADY
@@ -221,8 +221,8 @@ class Simulation(ManagedNode):
 
     def command(self, message: JointState) -> dict[str, float]:
         """Return what a command gives at the ports, as arguments of `Twin.advance`."""
-        if has_surplus(message):
-            raise ValueError("command: has more values than names")
+        if fault := fault_of_names(message):
+            raise ValueError(f"command: has {fault}")
         if not message.name:
             return {}
         joints = joint_names(self._given.scene)
