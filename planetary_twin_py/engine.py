@@ -217,7 +217,7 @@ class Engine:
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
-        self._core.begin_window(self.model, self.integrator, end)
+        self._core.begin_window(self.model, self.integrator, instant_of_ticks(time), end)
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
@@ -313,7 +313,7 @@ class Engine:
         ended, ledger = self.integrator.copy(), np.empty(LEDGER)
         self._core.cut(self.model, ended, instant(time))
         kinetic, elastic = self._core.stored(self.model, ended.end, ended.scratch)
-        self._core.pop_energy_ledger(ended, ledger)
+        self._core.pop_energy_ledger(ended, instant(time), ledger)
         return EnergyBooks(ledger, float(kinetic), float(elastic))
 
     def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:

@@ -69,13 +69,11 @@ def balance_of_run(energy: Energy) -> Balance:
 
 
 def balance_of_window(window: Window) -> Balance:
-    """Balance of a window of a twin; zero for a window within one step of the integrator.
+    """Balance of a window of a twin.
 
     Args:
         window: of the twin.
     """
-    if math.isnan(window.residual_power):
-        return Balance()
     duration = window.end - window.start
     passing = float(abs(window.machine_power).sum()) + abs(window.stored_power)
     return Balance(

@@ -58,9 +58,9 @@ class Waveform:
 class Window:
     """Results over one interval of simulated time.
 
-    Statistics of the meshes cover exactly the window. Powers and torques of the train cover the
-    steps of the integrator that end in the window: windows do not shorten steps, so the motion does
-    not depend on them.
+    All means cover exactly the window. Windows do not shorten steps of the integrator, so the
+    motion does not depend on them; powers and torques of the train are taken as constant within the
+    step that contains the end of a window, so their integrals over consecutive windows are exact.
     """
 
     start: float
@@ -96,7 +96,7 @@ class Window:
     power_loss: float
     """Power loss of tooth friction, bearings, seals and churning [W]."""
     stored_power: float
-    """Rate of increase of kinetic and elastic energy [W]."""
+    """Mean rate of increase of kinetic and elastic energy [W]."""
     stored_energy: float
     """Kinetic and elastic energy at the end [J]."""
     residual_power: float

@@ -102,7 +102,7 @@ def test_powers_and_speeds_of_a_window_are_those_of_the_first_hour(scene):
         now, then = old.advance(length), young.advance(length)
         assert np.array_equal(now.machine_power, then.machine_power)
         assert now.power_loss == then.power_loss and now.efficiency == then.efficiency
-        np.testing.assert_equal(now.stored_power, then.stored_power)  # NaN within one step
+        assert now.stored_power == then.stored_power
         assert now.mean_speed == pytest.approx(then.mean_speed, rel=1e-12, abs=1e-9)
 
 
@@ -175,11 +175,13 @@ def test_a_change_acts_at_its_instant_as_in_the_first_hour(change):
     assert np.array_equal(columns(now), columns(then))
 
 
-def test_the_ledger_of_a_window_begins_at_zero_after_any_history():
+def test_the_ledger_keeps_less_than_a_step_between_windows():
     """Else 1e-3 J of a step would be added to the 2e10 J of a thousand hours."""
     twin = pt.Twin(PAPER)
     added = [twin.advance(0.01) for _ in range(10)]
-    assert not twin._engine.integrator.end.energy.any()
+    step = twin._engine.control.step
+    strongest = max(abs(window.machine_power).max() for window in added)
+    assert np.abs(twin._engine.integrator.end.energy[:2]).max() < 1.1 * strongest * step
     whole = pt.Twin(PAPER).advance(0.1)
     parts = np.mean([window.machine_power for window in added], axis=0)
-    assert parts == pytest.approx(whole.machine_power, rel=5e-3)
+    assert parts == pytest.approx(whole.machine_power, rel=1e-12)

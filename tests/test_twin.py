@@ -43,6 +43,20 @@ def test_powers_of_a_window_balance_within_a_thousandth():
     assert window.mesh["power_loss"].sum() == pytest.approx(window.power_loss, rel=2e-3)
 
 
+def energies(twin, window, windows):
+    """Work of the machines, loss and stored energy [J] in windows, after a change of direction."""
+    twin.set(input_speed=-twin.operating_point.input_speed)
+    parts = [twin.advance(window) for _ in range(windows)]
+    rows = [(*each.machine_power, each.power_loss, each.stored_power) for each in parts]
+    return window * np.sum(rows, axis=0)
+
+
+def test_powers_of_windows_shorter_than_steps_add_up_to_the_work():
+    whole = energies(settled(PAPER), 0.2, 1)
+    for window, windows in ((1e-2, 20), (1e-4, 2000)):
+        assert energies(settled(PAPER), window, windows) == pytest.approx(whole, rel=1e-9)
+
+
 @pytest.mark.parametrize("first", [True, False])
 def test_speeds_of_a_window(first):
     window = (pt.Twin(PAPER) if first else settled(PAPER)).advance(0.1)

@@ -167,9 +167,6 @@ class QuasiStaticEngine:
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
-        seconds, rest = divmod(self.reached, 1)
-        end.seconds, end.time = seconds, float(rest)
-        end.time_rest = float(rest - Fraction(end.time))
         end.ledger, end.power = self.pop_energy_ledger(), self.powers
         end.kinetic, end.elastic = self._stored(self.reached)
         sample = self.sample(Fraction(time, TICKS))

@@ -157,14 +157,20 @@ void bind_run(nb::module_& m) {
         "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
     m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
           "`run_window` of every job in `workers` threads; the outcomes in order.");
-    m.def("begin_window", &begin_window, "model"_a, "integrator"_a, "end"_a,
-          "Begin a window: fill time, ledger, power and stored energy of `end`.");
+    m.def(
+        "begin_window",
+        [](const Model& model, Integrator& integrator, const InstantTuple& now, WindowEnd& end) {
+            begin_window(model, integrator, instant_of(now), end);
+        },
+        "model"_a, "integrator"_a, "now"_a, "end"_a,
+        "Begin a window: fill ledger, power and stored energy of `end`.");
     m.def(
         "pop_energy_ledger",
-        [](Integrator& integrator, const Values& ledger) {
-            pop_energy_ledger(integrator, entries(ledger, LEDGER));
+        [](Integrator& integrator, const InstantTuple& until, const Values& ledger) {
+            pop_energy_ledger(integrator, instant_of(until), entries(ledger, LEDGER));
         },
-        "integrator"_a, "ledger"_a, "Integrals of the ledger since the last call.");
+        "integrator"_a, "until"_a, "ledger"_a,
+        "Integrals of the ledger from the last call up to `until`, the end of the last window.");
     m.def(
         "pop_mesh_sums",
         [](const Model& model, Integrator& integrator, const InstantTuple& until, MeshSums& sums) {

@@ -85,7 +85,7 @@ double mean_loss(const Exported& scene, RunState& run, double duration) {
 void restart_sums(RunState& run) {
     OneSample sample;
     pop_mesh_sums(run.model, run.integrator, now(run), run.window_end.sums);
-    begin_window(run.model, run.integrator, run.window_end);
+    begin_window(run.model, run.integrator, now(run), run.window_end);
     fill_sample(run, sample);
 }
 
@@ -123,7 +123,7 @@ void start(const Exported& scene, RunState& run) {
     stored(run.model, integrator.end, integrator.scratch);
     pop_mesh_sums(run.model, integrator, now(run), run.window_end.sums);
     cut(run.model, integrator, now(run));
-    begin_window(run.model, integrator, run.window_end);
+    begin_window(run.model, integrator, now(run), run.window_end);
     fill_sample(run, sample);
     read_ports(run.model, integrator, now(run), run.shown);
     run.started = true;
@@ -136,7 +136,7 @@ void change_point(const Exported& scene, RunState& run) {
     run.integrator.sums.total = {};
     run.integrator.sums.taken = run.integrator.control.step;
     load_point(scene, run);
-    begin_window(run.model, run.integrator, run.window_end);
+    begin_window(run.model, run.integrator, now(run), run.window_end);
     OneSample sample;
     fill_sample(run, sample);
     run.stepped = false;

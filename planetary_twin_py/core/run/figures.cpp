@@ -1,22 +1,12 @@
 #include "run/figures.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "run/part_of_turn.hpp"
 
 namespace gearbox {
 
 namespace {
-
-// Time between two ends of the ledger [s]: an exact difference, rounded once.
-double between(const WindowEnd& begin, const WindowEnd& end) {
-    using Exact = __float128;
-    Exact passed = static_cast<Exact>(end.seconds - begin.seconds);
-    passed += static_cast<Exact>(end.time) - begin.time;
-    passed += static_cast<Exact>(end.time_rest) - begin.time_rest;
-    return static_cast<double>(passed);
-}
 
 // Angle [rad] in [0, 2 pi).
 double wrapped_angle(double angle) {
@@ -46,14 +36,12 @@ void put_bodies(const Train& train, const Report& report, const WindowEnd& begin
         out.machine_speed[m] = mean_speed(train, begin, end, train.coupling[m][0], duration);
 }
 
-void put_powers(const Train& train, const WindowEnd& begin, const WindowEnd& end, Figures& out) {
-    double elapsed = between(begin, end), rate[LEDGER], gained = 0.0;
-    double before = begin.kinetic + begin.elastic;
+void put_powers(const Train& train, const WindowEnd& begin, const WindowEnd& end, double duration,
+                Figures& out) {
+    double rate[LEDGER], gained = 0.0;
+    for (int e = 0; e < LEDGER; ++e) rate[e] = end.ledger[e] / duration;
     out.stored_energy = end.kinetic + end.elastic;
-    bool within_step = !(elapsed > 0.0);
-    for (int e = 0; e < LEDGER; ++e) rate[e] = within_step ? end.power[e] : end.ledger[e] / elapsed;
-    out.stored_power = within_step ? std::numeric_limits<double>::quiet_NaN()
-                                   : (out.stored_energy - before) / elapsed;
+    out.stored_power = (out.stored_energy - begin.kinetic - begin.elastic) / duration;
     for (std::int64_t m = 0; m < train.machines; ++m) {
         out.machine_torque[m] = rate[IMPULSE + m];
         out.machine_power[m] = rate[WORK + m];
@@ -69,7 +57,7 @@ void put_powers(const Train& train, const WindowEnd& begin, const WindowEnd& end
 void window_figures(const Train& train, const Report& report, const WindowEnd& begin,
                     const WindowEnd& end, double duration, Figures& out) {
     put_bodies(train, report, begin, end, duration, out);
-    put_powers(train, begin, end, out);
+    put_powers(train, begin, end, duration, out);
     for (std::int64_t i = 0; i < report.meshes; ++i)
         mesh_statistics(end.sums, report.mesh[i], &out.statistics[0][i], MESHES);
 }

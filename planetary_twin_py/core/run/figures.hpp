@@ -25,7 +25,6 @@ struct alignas(64) Figures {
 };
 
 // Fill `out` for a window of a given duration; angles and speeds are those of the reported bodies.
-// If it is within one step, powers are those at its end and the stored power is not known.
 void window_figures(const Train& train, const Report& report, const WindowEnd& begin,
                     const WindowEnd& end, double duration, Figures& out);
 

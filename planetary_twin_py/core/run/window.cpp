@@ -97,6 +97,14 @@ void put_axes(const Report& report, const Train& train, const Samples& waves,
     }
 }
 
+// Part of the last step that lies after `now`.
+double share_after(const Integrator& integrator, const Instant& now) {
+    const State& end = integrator.end;
+    const double step = delay(integrator.begin, {end.seconds, end.time});
+    if (!(step > 0.0)) return 0.0;
+    return std::clamp(delay(end, now) / -step, 0.0, 1.0);
+}
+
 // Whether a limit is exceeded. Throws NoFiniteState.
 bool fill_waveform(const WindowJob& job) {
     const Train& train = job.model.train;
@@ -124,7 +132,7 @@ Outcome run_window(const WindowJob& job) {
     try {
         if (fill_waveform(job)) return Outcome::EXCEEDED;
         if (!job.closes) return Outcome::WITHIN_LIMITS;
-        begin_window(job.model, job.integrator, job.end);
+        begin_window(job.model, job.integrator, job.until, job.end);
         pop_mesh_sums(job.model, job.integrator, job.until, job.end.sums);
         return Outcome::WITHIN_LIMITS;
     } catch (const NoFiniteState&) {
@@ -132,8 +140,11 @@ Outcome run_window(const WindowJob& job) {
     }
 }
 
-void pop_energy_ledger(Integrator& integrator, double* ledger) {
-    std::copy_n(integrator.end.energy, LEDGER, ledger);
+void pop_energy_ledger(Integrator& integrator, const Instant& until, double* ledger) {
+    const double rest = share_after(integrator, until);
+    const State &begin = integrator.begin, &end = integrator.end;
+    for (int e = 0; e < LEDGER; ++e)
+        ledger[e] = end.energy[e] - rest * (end.energy[e] - begin.energy[e]);
     for (State* state : {&integrator.begin, &integrator.end, &integrator.periodic.start})
         for (int e = 0; e < LEDGER; ++e) state->energy[e] -= ledger[e];
 }
@@ -146,15 +157,17 @@ void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& un
     integrator.sums.total = {};
 }
 
-void begin_window(const Model& model, Integrator& integrator, WindowEnd& end) {
-    end.seconds = integrator.end.seconds;
-    end.time = integrator.end.time;
-    end.time_rest = 0.0;
-    pop_energy_ledger(integrator, end.ledger);
+void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end) {
+    const double rest = share_after(integrator, now);
+    pop_energy_ledger(integrator, now, end.ledger);
     std::copy_n(integrator.last.power, LEDGER, end.power);
-    auto [kinetic, elastic] = stored(model, integrator.end, integrator.scratch);
-    end.kinetic = kinetic;
-    end.elastic = elastic;
+    const Energies after = stored(model, integrator.end, integrator.scratch);
+    end.kinetic = after.kinetic;
+    end.elastic = after.elastic;
+    if (rest == 0.0) return;
+    const Energies before = stored(model, integrator.begin, integrator.scratch);
+    end.kinetic -= rest * (after.kinetic - before.kinetic);
+    end.elastic -= rest * (after.elastic - before.elastic);
 }
 
 }  // namespace gearbox

@@ -37,14 +37,10 @@ struct Waveform {
 
 // State of the train at the end of a window, and the sums up to it.
 //
-// The ledger covers whole steps: up to its clock (seconds + time + time_rest), at or after the end
-// of the window. `time_rest` is the rounding error of `time`.
+// Within the step that contains the end, the powers of the ledger are taken as constant.
 struct alignas(64) WindowEnd {
-    std::int64_t seconds;     // whole ones
-    double time;              // since then [s]
-    double time_rest;         // [s]
     double ledger[LEDGER];    // since the last reading
-    double power[LEDGER];     // of the ledger
+    double power[LEDGER];     // of the ledger, at the end of the last step
     double kinetic, elastic;  // energies [J]
     double turns[AXES];       // whole turns of the motors
     double angle[BODIES];     // in addition to these [rad]
@@ -72,16 +68,17 @@ enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 // If the window ends within the limits, ledger and sums are moved to `end`.
 Outcome run_window(const WindowJob& job);
 
-// Copy the integrals of the ledger since the last call and set them to zero: rounding errors of the
-// sums of a long run would exceed the increments of a window.
-void pop_energy_ledger(Integrator& integrator, double* ledger);
+// Copy the integrals of the ledger from the last call up to `until`, the end of the last window,
+// and set them to zero: rounding errors of the sums of a long run would exceed the increments of a
+// window.
+void pop_energy_ledger(Integrator& integrator, const Instant& until, double* ledger);
 
 // Copy integrals and extremes of the meshes up to `until`, the end of the last window, and restart
 // them.
 void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& until,
                    MeshSums& sums);
 
-// Start a window at the end of the last one: fill time, ledger, power and stored energy of `end`.
-void begin_window(const Model& model, Integrator& integrator, WindowEnd& end);
+// Start a window at `now`, the end of the last one: fill ledger, power and stored energy of `end`.
+void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end);
 
 }  // namespace gearbox

@@ -48,9 +48,6 @@ void bind_run_records(nb::module_& m) {
         .FIELD(Report, meshes)
         .FIELD(Report, mesh);
     record<WindowEnd>(m, "WindowEnd")
-        .FIELD(WindowEnd, seconds)
-        .FIELD(WindowEnd, time)
-        .FIELD(WindowEnd, time_rest)
         .FIELD(WindowEnd, ledger)
         .FIELD(WindowEnd, power)
         .FIELD(WindowEnd, kinetic)
