@@ -14,11 +14,13 @@ _LONGEST = 60  # characters of a value in a message
 
 
 class Losses(NamedTuple):
-    """Messages of a topic that were not received, and those of them after the first received."""
+    """Messages of a topic that were not received, those of them after the first received, and those
+    that were recorded."""
 
     topic: str
     lost: int
     missed: int
+    recorded: int
 
 
 def recorded_losses(account: Mapping[str, str]) -> Losses:
@@ -39,7 +41,8 @@ def recorded_losses(account: Mapping[str, str]) -> Losses:
         if name != "topic" and not _WHOLE.fullmatch(account[name]):
             value = one_line(account[name], _LONGEST)
             raise ValueError(f"{name} = {value!r}: must be a whole number")
-    return Losses(account["topic"], int(account["lost"]), int(account["missed"]))
+    topic, *counts = (account[name] for name in Losses._fields)
+    return Losses(topic, *map(int, counts))
 
 
 @dataclass

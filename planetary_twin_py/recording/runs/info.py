@@ -40,9 +40,12 @@ class TopicInfo:
     type: str
     recorded: int = 0
     lost: int | None = None
-    """Messages published but not received, by the recorder's account; None without one."""
+    """Messages published but not received, by the recorder's account, and recorded ones that cannot
+    be read; None without an account."""
     before: int = 0
     """Lost messages that were published before the first received one."""
+    accounted: int = 0
+    """Messages recorded, by the recorder's account."""
     first: int = 0
     last: int = 0
     longest_gap: int = 0
@@ -137,6 +140,7 @@ def read_info(*paths: Path) -> Info:
             collected.read(file)
         else:
             collected = attempt
+    collected.count_damaged()
     collected.warn_of_missing()
     info = collected.info
     counts = {name: topic.recorded for name, topic in info.topics.items()}
@@ -223,6 +227,12 @@ class _Collector:
             self._missing[topic] += _missing_between(self._states[topic], state)
         self._states[topic] = state
 
+    def count_damaged(self) -> None:
+        """Count messages as lost that were recorded, by the account, but cannot be read."""
+        for topic in self.info.topics.values():
+            if topic.lost is not None:
+                topic.lost += max(topic.accounted - topic.recorded, 0)
+
     def warn_of_missing(self) -> None:
         """Warn of missing states if the recording contains no account of losses."""
         for topic, missing in self._missing.items():
@@ -239,13 +249,14 @@ class _Collector:
         wrong: list[str] = []
         for account in accounts:
             try:
-                name, lost, missed = recorded_losses(account)
+                name, lost, missed, recorded = recorded_losses(account)
             except ValueError as reason:
                 wrong.append(str(reason))
                 continue
             if topic := self.info.topics.get(name):
                 topic.lost = (topic.lost or 0) + lost
                 topic.before += lost - missed
+                topic.accounted += recorded
         if wrong:
             which = "an account" if len(wrong) == 1 else f"{len(wrong)} accounts"
             first = "" if len(wrong) == 1 else "the first: "

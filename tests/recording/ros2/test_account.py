@@ -47,8 +47,8 @@ def test_a_restarted_publisher_starts_a_new_sequence() -> None:
 
 
 def test_recorded_losses_are_those_of_the_account() -> None:
-    account = {"topic": "/t", "lost": "3", "missed": "2", "recorded": "nothing that is read"}
-    assert recorded_losses(account) == ("/t", 3, 2)
+    account = {"topic": "/t", "lost": "3", "missed": "2", "recorded": "7", "other": "x"}
+    assert recorded_losses(account) == ("/t", 3, 2, 7)
 
 
 @pytest.mark.parametrize(
@@ -63,6 +63,6 @@ def test_a_recorded_loss_that_is_no_number_is_refused_with_its_name(
     changes: dict[str, str], reason: str
 ) -> None:
     with pytest.raises(ValueError, match=reason):
-        recorded_losses({"topic": "/t", "lost": "0", "missed": "0"} | changes)
+        recorded_losses({"topic": "/t", "lost": "0", "missed": "0", "recorded": "1"} | changes)
     with pytest.raises(ValueError, match=r"^topic: missing$"):
-        recorded_losses({"lost": "0", "missed": "0"})
+        recorded_losses({"lost": "0", "missed": "0", "recorded": "1"})

@@ -168,12 +168,14 @@ def test_an_invalid_storage_setting_is_refused(field, value):
 def test_accounts_of_all_files_add_up(tmp_path):
     bag = BagWriter(tmp_path / "bag", clocks=lambda: {"system": "1"})
     account = TopicAccount()
-    bag.add_topic(NUMBERS, account)
+    channel = bag.add_topic(NUMBERS, account)
     for number in (1, 3):
         account.receive(number)
+        bag.write(channel, payload(number), START + number, START, number)
     bag.split()
     for number in (4, 8):
         account.receive(number)
+        bag.write(channel, payload(number), START + number, START, number)
     bag.close()
     lost, clocks = [], []
     for file in _files(tmp_path / "bag"):
@@ -184,6 +186,27 @@ def test_accounts_of_all_files_add_up(tmp_path):
     assert lost == [1, 3]
     assert clocks == [2, 2]
     assert read_info(tmp_path / "bag").topics["/numbers"].lost == 4
+
+
+def test_recorded_messages_that_cannot_be_read_count_as_lost(tmp_path):
+    bag, account = BagWriter(tmp_path / "bag", Storage(chunk_size=0.001)), TopicAccount()
+    channel = bag.add_topic(NUMBERS, account)
+    for number in range(1, 1001):
+        account.receive(number)
+        bag.write(channel, payload(number), START + number * PERIOD, START, number)
+    bag.close()
+    (file,) = _files(tmp_path / "bag")
+    with file.open("rb") as stream:
+        _, chunk, *_ = make_reader(stream).get_summary().chunk_indexes
+    data = bytearray(file.read_bytes())
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 1
+    file.write_bytes(data)
+    saved = recover(file, tmp_path / "saved")
+    kept = saved.messages["/numbers"]
+    assert 0 < kept < 1000
+    for found in (file, saved.file):
+        topic = read_info(found).topics["/numbers"]
+        assert (topic.recorded, topic.lost) == (kept, 1000 - kept)
 
 
 def test_a_split_recording_is_verified_shown_and_described_as_a_whole(tmp_path):
