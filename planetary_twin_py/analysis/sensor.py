@@ -33,7 +33,7 @@ def sensor_signal(sensor: Sensor, scene: Scene | None) -> Signal:
         speed = _relative_sun_speed(scene, speed)
     angle = cumulative_trapezoid(speed, sensor.time, initial=0).astype(np.float64)
     text = None if scene is None else scene.model_dump_json()
-    return Signal(sensor.samples, sensor.time, angle, text)
+    return Signal(sensor.samples, sensor.time, angle, text, sensor.remarks)
 
 
 def _relative_sun_speed(scene: Scene, input_speed: Array) -> Array:

@@ -79,6 +79,30 @@ def test_a_sample_rate_replaces_a_missing_time(tmp_path):
     assert done.exit_code == 2 and "missing" in done.stderr and "give --sample-rate" in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("decimals", "rate", "contradicts"),
+    [(9, RATE, False), (3, RATE, False), (9, 0.5 * RATE, True), (9, 1.001 * RATE, True)],
+)
+def test_a_sample_rate_that_contradicts_the_time_column_is_reported_with_both_rates(
+    tmp_path, decimals, rate, contradicts
+):
+    file = tmp_path / "vibration.csv"
+    rows = np.column_stack(vibration())
+    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt=f"%.{decimals}f")
+    done = invoke(file, "--sample-rate", rate)
+    words = f"--sample-rate = {rate:g} Hz contradicts the column 'time', whose stamps are 25600 Hz"
+    assert done.exit_code == 0 and (words in done.stderr) == contradicts
+    assert len(done.stderr.splitlines()) == contradicts
+
+
+def test_a_sample_rate_that_hides_a_gap_in_the_stamps_is_reported(tmp_path):
+    file, (time, values) = tmp_path / "vibration.csv", vibration()
+    time[len(time) // 2 :] += 0.5
+    rows = np.column_stack((time, values))
+    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9f")
+    assert "contradicts the column 'time'" in invoke(file, "--sample-rate", RATE).stderr
+
+
 def test_one_of_several_columns_is_chosen_by_its_name(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     rows = np.column_stack((time, values, 2.0 * values))

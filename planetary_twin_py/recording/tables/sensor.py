@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ...printable import one_line
-from .measurements import TIME, Array, name_and_unit, naming, read_columns, time_step
+from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
 
 
 class Sensor(NamedTuple):
@@ -23,6 +24,8 @@ class Sensor(NamedTuple):
     """Samples in `unit`, (n,)."""
     speed: Array | None
     """Measured speed of a shaft [rad/s], (n,); None without a column of it."""
+    remarks: tuple[str, ...] = ()
+    """Warnings about the samples."""
 
 
 def read_sensor(
@@ -33,7 +36,8 @@ def read_sensor(
     Args:
         path: path of the file.
         column: name of the column; None if the table has one column besides time and speed.
-        sample_rate: sample rate [Hz], in place of a column `time`.
+        sample_rate: sample rate [Hz], in place of a column `time`. A remark names both rates if
+            they differ.
         speed: name of the column with the measured speed of a shaft; None if there is none.
 
     Returns:
@@ -50,10 +54,12 @@ def read_sensor(
     name = _chosen(path, "--column", column, [other for other in names if other != speed_name])
     chosen = columns[name]
     samples = _complete(path, name, chosen.as_given(name))
+    remarks: tuple[str, ...] = ()
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
         begin, step = 0.0, 1.0 / sample_rate
+        remarks = tuple(_other_rate(columns.get(TIME[0]), sample_rate))
     elif TIME[0] in columns:
         time = columns[TIME[0]].in_si(TIME[0], "s")
         with naming(path):
@@ -67,7 +73,32 @@ def read_sensor(
     measured = None
     if speed_name is not None:
         measured = _complete(path, speed_name, columns[speed_name].in_si(speed_name, "rad/s"))
-    return Sensor(name, chosen.unit or "-", stamps, samples, measured)
+    return Sensor(name, chosen.unit or "-", stamps, samples, measured, remarks)
+
+
+def _other_rate(column: Column | None, rate: float) -> Iterator[str]:
+    """A remark if a column of times contradicts the sample rate that replaces it."""
+    if column is None:
+        return
+    try:
+        stamps = column.in_si(TIME[0], "s")
+    except ValueError:
+        return  # times that nobody can read contradict nothing
+    rows = np.flatnonzero(np.isfinite(stamps))
+    known = stamps[rows]
+    if len(rows) < 2 or not known[-1] > known[0]:
+        return
+    steps = np.diff(known)
+    # Equal stamps in successive rows are rounded to the next longer step.
+    rounding = max(float(steps[steps > 0.0].min()), 1.0 / rate)
+    away = np.abs(known - known[0] - (rows - rows[0]) / rate)
+    if float(away.max()) > rounding:
+        stated = (rows[-1] - rows[0]) / (known[-1] - known[0])
+        yield (
+            f"--sample-rate = {rate:g} Hz contradicts the column {column.heading!r}, whose stamps "
+            f"are {stated:.6g} Hz on average: all frequencies are those of "
+            "--sample-rate; omit it if the stamps are right"
+        )
 
 
 def _complete(path: Path, name: str, values: Array) -> Array:
