@@ -8,6 +8,7 @@ from scipy.integrate import cumulative_trapezoid
 from ..dynamics.bodies import rigid_ratios
 from ..recording.tables.sensor import Sensor
 from ..scene import Scene
+from .even_steps import at_equal_steps, drift_remark, drifts, resampled
 from .signals import Array, Signal
 
 
@@ -15,14 +16,15 @@ def sensor_signal(sensor: Sensor, scene: Scene | None) -> Signal:
     """Signal of a sensor.
 
     Args:
-        sensor: uniformly spaced samples. A measured speed is that of the input shaft, and replaces
-            that of the scene.
+        sensor: its samples. A measured speed is that of the input shaft, and replaces that of the
+            scene.
         scene: gears and speeds of the gearbox, which define mesh frequency and orders; None if they
             are unknown.
 
     Returns:
-        The signal. Its angle is that of the sun relative to the carrier; without a scene that of
-        the shaft whose speed is measured, or zero.
+        The signal at equal steps; samples whose stamps drift (see `drifts`) are interpolated, with
+        a remark. Its angle is that of the sun relative to the carrier; without a scene that of the
+        shaft whose speed is measured, or zero.
     """
     speed = np.zeros(len(sensor.time))
     if sensor.speed is not None:
@@ -33,7 +35,11 @@ def sensor_signal(sensor: Sensor, scene: Scene | None) -> Signal:
         speed = _relative_sun_speed(scene, speed)
     angle = cumulative_trapezoid(speed, sensor.time, initial=0).astype(np.float64)
     text = None if scene is None else scene.model_dump_json()
-    return Signal(sensor.samples, sensor.time, angle, text, sensor.remarks)
+    samples, even, remarks = sensor.samples, at_equal_steps(sensor.time), sensor.remarks
+    if drifts(sensor.time):
+        samples, angle = resampled(samples, sensor.time), np.interp(even, sensor.time, angle)
+        remarks += (drift_remark(sensor.time),)
+    return Signal(samples, even, angle, text, remarks)
 
 
 def _relative_sun_speed(scene: Scene, input_speed: Array) -> Array:

@@ -166,6 +166,27 @@ def test_missing_or_invalid_options_are_refused_in_one_line(table, options, word
     assert len(done.stderr.splitlines()) == 1
 
 
+def test_lines_at_stamps_that_drift_have_their_amplitudes_with_a_remark(tmp_path):
+    file, number = tmp_path / "vibration.csv", np.arange(25_600)
+    time = np.cumsum(1.0 + 0.01 * number / len(number)) / RATE
+    turns = 15.0 * time + 0.75 * time**2
+    values = 0.8 * np.sin(2.0 * np.pi * 30.0 * turns)
+    tones = 0.8 * np.sin(2.0 * np.pi * 500.0 * time) + 0.5 * np.sin(2e4 * np.pi * time)
+    rows = np.column_stack((time, tones, values, 15.0 + 1.5 * time))
+    header = "time,a,of_orders,shaft [rev/s]"
+    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    found = lines(file, "--column", "a")[:2]
+    assert [line["frequency_hz"] for line in found] == pytest.approx([500.0, 1e4], rel=1e-5)
+    assert [line["amplitude"] for line in found] == pytest.approx([0.8, 0.5], rel=0.01)
+    line = lines(file, "--column", "of_orders", "--speed", "shaft", "--order")[0]
+    assert line["order"] == pytest.approx(30.0, abs=0.01)
+    assert line["amplitude"] == pytest.approx(0.8, rel=0.01)
+    said = invoke(file, "--column", "a").stderr.splitlines()
+    assert (
+        len(said) == 1 and "the time stamps deviate from equal steps by up to 31.8 sam" in said[0]
+    )
+
+
 def test_missing_samples_and_uneven_times_are_refused(tmp_path):
     file = tmp_path / "vibration.csv"
     file.write_text("time,acceleration\n0,1\n1,\n2,3\n")

@@ -13,13 +13,13 @@ from .measurements import TIME, Array, Column, name_and_unit, naming, read_colum
 
 
 class Sensor(NamedTuple):
-    """Uniformly spaced samples of a sensor."""
+    """Samples of a sensor."""
 
     name: str
     unit: str
     """Unit in the heading of the column; "-" if it has none."""
     time: Array
-    """Sample times [s], (n,)."""
+    """Time stamps [s], (n,), increasing by nearly equal steps."""
     samples: Array
     """Samples in `unit`, (n,)."""
     speed: Array | None
@@ -45,7 +45,7 @@ def read_sensor(
 
     Raises:
         ValueError: the file is not a table, a column does not exist, samples are missing, or the
-            time stamps are not equally spaced.
+            time stamps are not about equally spaced.
         OSError: the file cannot be read.
     """
     columns = read_columns(path)
@@ -58,22 +58,21 @@ def read_sensor(
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
-        begin, step = 0.0, 1.0 / sample_rate
+        time = np.arange(len(samples)) / sample_rate
         remarks = tuple(_other_rate(columns.get(TIME[0]), sample_rate))
     elif TIME[0] in columns:
         time = columns[TIME[0]].in_si(TIME[0], "s")
         with naming(path):
-            begin, step = float(time[0]) if len(time) else 0.0, time_step(time)
+            time_step(time)
     else:
         raise ValueError(
             f"{path}: column {TIME[0]!r}: missing; rename the column of times, or give "
             f"--sample-rate; columns: {_listed(names)}"
         )
-    stamps = begin + step * np.arange(len(samples), dtype=float)
     measured = None
     if speed_name is not None:
         measured = _complete(path, speed_name, columns[speed_name].in_si(speed_name, "rad/s"))
-    return Sensor(name, chosen.unit or "-", stamps, samples, measured, remarks)
+    return Sensor(name, chosen.unit or "-", time, samples, measured, remarks)
 
 
 def _other_rate(column: Column | None, rate: float) -> Iterator[str]:
