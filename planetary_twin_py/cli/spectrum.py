@@ -182,7 +182,8 @@ def _read(asked: Options) -> tuple[Signal, _Subject]:
     from ..analysis.sensor import sensor_signal
     from ..recording.tables.sensor import read_sensor
 
-    sensor = read_sensor(asked.file, asked.column, asked.sample_rate, asked.speed)
+    interval = asked.from_, asked.to
+    sensor = read_sensor(asked.file, asked.column, asked.sample_rate, asked.speed, *interval)
     scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
     return sensor_signal(sensor, scene), _Subject(None, sensor.name, sensor.unit)
 

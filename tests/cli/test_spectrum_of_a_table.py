@@ -195,6 +195,34 @@ def test_missing_samples_and_uneven_times_are_refused(tmp_path):
     assert "row 4: time = 5 s" in invoke(file).stderr
 
 
+def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
+    file, (time, values) = tmp_path / "vibration.csv", vibration()
+    values[:5], time[-100:] = np.nan, time[-100:] + 3.0
+    time[3] = np.nan
+    rows = np.column_stack((time, values))
+    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9f")
+    inside = ("--from", 0.5, "--to", 1.5)
+    done = invoke(file, *inside, "--json", "-")
+    assert done.exit_code == 0 and "planetary-twin: " not in done.stderr
+    figures = json.loads(done.stdout)
+    assert (figures["from_s"], figures["to_s"]) == pytest.approx((0.5, 1.5), abs=1e-9)
+    assert figures["lines"][0]["amplitude"] == pytest.approx(0.8, rel=0.01)
+    assert "row 1: a: has no value" in invoke(file, "--to", 1.5).stderr
+    assert f"row {len(time) - 99}: time" in invoke(file, "--from", 0.5).stderr
+    assert "planetary-twin" not in invoke(file, *inside, "--sample-rate", RATE).stderr
+    nothing = invoke(file, "--from", 7.0).stderr
+    assert "from 7 to 4.99996 s: 0 rows; the table runs from 0 to 4.99996 s" in nothing
+
+
+def test_a_table_of_fewer_than_two_rows_is_refused(tmp_path):
+    file = tmp_path / "vibration.csv"
+    for text in ("time,a\n", "time,a\n0,1\n"):
+        file.write_text(text)
+        for rate in ((), ("--sample-rate", 5.0)):
+            said = invoke(file, *rate).stderr
+            assert "rows: must be at least 2" in said and len(said.splitlines()) == 1
+
+
 def test_a_table_without_headings_or_without_a_time_is_refused(tmp_path):
     file = tmp_path / "vibration.csv"
     file.write_text("0.0,1e-3\n0.1,2\n0.2,3\n")

@@ -320,11 +320,12 @@ def _number(name: str, row: int, value: Any) -> float:
         raise ValueError(f"row {row}: {name} = {shown!r}: must be a number") from None
 
 
-def time_step(time: Array) -> float:
+def time_step(time: Array, first: int = 0) -> float:
     """The step of equally spaced time stamps.
 
     Args:
         time: time stamps [s], (rows,).
+        first: number of rows before these, for messages.
 
     Returns:
         The step [s].
@@ -337,13 +338,13 @@ def time_step(time: Array) -> float:
     steps = np.diff(time)
     for k in np.flatnonzero(~(steps > 0.0))[:1]:
         raise ValueError(
-            f"row {k + 2}: time = {time[k + 1]:.9g} s: must be later than {time[k]:.9g} s in the "
-            "previous row"
+            f"row {first + k + 2}: time = {time[k + 1]:.9g} s: must be later than {time[k]:.9g} s "
+            "in the previous row"
         )
     usual = float(np.median(steps))
     for k in np.flatnonzero(np.abs(steps - usual) > UNEVEN * usual)[:1]:
         raise ValueError(
-            f"row {k + 2}: time = {time[k + 1]:.9g} s: is {steps[k]:.6g} s after the previous row, "
-            f"must be {usual:.6g} s (the median step), to within {UNEVEN:.0%}"
+            f"row {first + k + 2}: time = {time[k + 1]:.9g} s: is {steps[k]:.6g} s after the "
+            f"previous row, must be {usual:.6g} s (the median step), to within {UNEVEN:.0%}"
         )
     return float((time[-1] - time[0]) / len(steps))

@@ -29,7 +29,12 @@ class Sensor(NamedTuple):
 
 
 def read_sensor(
-    path: Path, column: str | None, sample_rate: float | None, speed: str | None = None
+    path: Path,
+    column: str | None,
+    sample_rate: float | None,
+    speed: str | None = None,
+    begin: float | None = None,
+    end: float | None = None,
 ) -> Sensor:
     """Read a column of a CSV, Parquet or MAT file; headings are names, or names with units.
 
@@ -39,48 +44,69 @@ def read_sensor(
         sample_rate: sample rate [Hz], in place of a column `time`. A remark names both rates if
             they differ.
         speed: name of the column with the measured speed of a shaft; None if there is none.
+        begin: start of the interval to read [s]; None is the first row.
+        end: end of the interval [s]; None is the last row.
 
     Returns:
-        The samples, which start at the first time stamp, or at 0 if `sample_rate` is given.
+        The samples of the interval. Without time stamps, the first row of the table is at 0.
 
     Raises:
-        ValueError: the file is not a table, a column does not exist, samples are missing, or the
-            time stamps are not about equally spaced.
+        ValueError: the file is not a table or a column does not exist; or in the interval, samples
+            are missing, or the time stamps are not about equally spaced.
         OSError: the file cannot be read.
     """
     columns = read_columns(path)
     names = [name for name in columns if name != TIME[0]]
     speed_name = None if speed is None else _chosen(path, "--speed", speed, names)
     name = _chosen(path, "--column", column, [other for other in names if other != speed_name])
-    chosen = columns[name]
-    samples = _complete(path, name, chosen.as_given(name))
-    remarks: tuple[str, ...] = ()
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
-        time = np.arange(len(samples)) / sample_rate
-        remarks = tuple(_other_rate(columns.get(TIME[0]), sample_rate))
+        time = np.arange(len(columns[name].values)) / sample_rate
     elif TIME[0] in columns:
         time = columns[TIME[0]].in_si(TIME[0], "s")
-        with naming(path):
-            time_step(time)
     else:
         raise ValueError(
             f"{path}: column {TIME[0]!r}: missing; rename the column of times, or give "
             f"--sample-rate; columns: {_listed(names)}"
         )
-    measured = None
-    if speed_name is not None:
-        measured = _complete(path, speed_name, columns[speed_name].in_si(speed_name, "rad/s"))
-    return Sensor(name, chosen.unit or "-", time, samples, measured, remarks)
+    with naming(path):  # what lies outside of the interval may be wrong
+        part = _rows(time, begin, end)
+        samples = _complete(name, columns[name].as_given(name), part)
+        time_step(time[part], part.start)
+        measured = None
+        if speed_name is not None:
+            rotation = columns[speed_name].in_si(speed_name, "rad/s")
+            measured = _complete(speed_name, rotation, part)
+    remarks = () if sample_rate is None else _other_rate(columns.get(TIME[0]), sample_rate, part)
+    unit = columns[name].unit or "-"
+    return Sensor(name, unit, time[part], samples, measured, tuple(remarks))
 
 
-def _other_rate(column: Column | None, rate: float) -> Iterator[str]:
+def _rows(time: Array, begin: float | None, end: float | None) -> slice:
+    """Rows from the first to the last stamp of an interval."""
+    known = time[np.isfinite(time)]
+    if (begin is None and end is None) or not len(known):
+        return slice(0, len(time))
+    low = float(known.min()) if begin is None else begin
+    high = float(known.max()) if end is None else end
+    inside = np.flatnonzero((time >= low) & (time <= high))
+    if len(inside) < 2:
+        raise ValueError(
+            f"from {low:g} to {high:g} s: {len(inside)} rows; the table runs from "
+            f"{known.min():g} to {known.max():g} s"
+        )
+    return slice(
+        0 if begin is None else int(inside[0]), len(time) if end is None else int(inside[-1]) + 1
+    )
+
+
+def _other_rate(column: Column | None, rate: float, part: slice) -> Iterator[str]:
     """A remark if a column of times contradicts the sample rate that replaces it."""
     if column is None:
         return
     try:
-        stamps = column.in_si(TIME[0], "s")
+        stamps = column.in_si(TIME[0], "s")[part]
     except ValueError:
         return  # times that nobody can read contradict nothing
     rows = np.flatnonzero(np.isfinite(stamps))
@@ -100,11 +126,11 @@ def _other_rate(column: Column | None, rate: float) -> Iterator[str]:
         )
 
 
-def _complete(path: Path, name: str, values: Array) -> Array:
-    """The values, if none is missing."""
-    for row in np.flatnonzero(~np.isfinite(values))[:1]:
-        raise ValueError(f"{path}: row {row + 1}: {name}: has no value")
-    return values
+def _complete(name: str, values: Array, part: slice) -> Array:
+    """The values of some rows, if none is missing."""
+    for row in np.flatnonzero(~np.isfinite(values[part]))[:1]:
+        raise ValueError(f"row {part.start + row + 1}: {name}: has no value")
+    return values[part]
 
 
 def _chosen(path: Path, option: str, column: str | None, names: list[str]) -> str:
