@@ -50,7 +50,7 @@ def amplitude_spectrum(samples: ArrayLike, sample_rate: float, window: str = "ha
     The height of a tone a sin(2 pi f t + p) below half the sample rate is a if f is the frequency
     of a bin. Otherwise it is lower by up to 15 % with a Hann window and 0.1 % with "flattop"
     (scalloping loss); `strongest_lines` corrects that. The value at 0 Hz is the magnitude of the
-    mean, which is subtracted before windowing and does not leak.
+    mean. The mean with the weights of the window is subtracted first and does not leak.
 
     Args:
         samples: the signal in any unit, (n,) or (n, channels), n at least 8.
@@ -67,11 +67,13 @@ def amplitude_spectrum(samples: ArrayLike, sample_rate: float, window: str = "ha
     values, rate = checked(samples), _positive(sample_rate, "sample_rate")
     count = len(values)
     weights = _window(window, count).reshape(-1, *[1] * (values.ndim - 1))
-    mean = values.mean(axis=0)
-    amplitude = np.abs(np.fft.rfft((values - mean) * weights, axis=0)) / weights.sum()
+    # The mean of the window: that of the samples has a share of tones with a part of a cycle, which
+    # would be a line in the first bin.
+    middle = (values * weights).sum(axis=0) / weights.sum()
+    amplitude = np.abs(np.fft.rfft((values - middle) * weights, axis=0)) / weights.sum()
     # Half of a tone is at its negative frequency; 0 and the Nyquist frequency have none.
     amplitude[1 : (count + 1) // 2] *= 2.0
-    amplitude[0] = np.abs(mean)
+    amplitude[0] = np.abs(values.mean(axis=0))
     half = count // 2
     frequency = np.linspace(0.0, rate * half / count, half + 1)
     return Spectrum(frequency, amplitude)

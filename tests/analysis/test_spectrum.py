@@ -54,6 +54,13 @@ def test_the_mean_is_at_zero_hertz_and_nowhere_else(count):
     assert np.all(amplitude[1:] == 0.0)
 
 
+@pytest.mark.parametrize("cycles", [20.3, 20.5, 150.5])
+def test_a_tone_with_part_of_a_cycle_has_no_second_line_in_the_first_bin(cycles):
+    signal = 3.0 + tone(1.0, cycles, 4000, rate=4000.0)
+    amplitude = pt.amplitude_spectrum(signal, 4000.0).amplitude
+    assert amplitude[1] < 2.0 / (np.pi * cycles**3)  # what leaks from both signs of the frequency
+
+
 def test_the_nyquist_line_counts_once():
     samples = np.tile([1.0, -1.0], 50)
     assert pt.amplitude_spectrum(samples, RATE, "boxcar").amplitude[-1] == pytest.approx(1.0)
