@@ -24,9 +24,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..analysis.mesh_spectrum import MeshSpectrum
-    from ..analysis.sidebands import Sideband, Sidebands
     from ..analysis.signals import Signal
-    from ..analysis.spectrum import Line
     from ..scene import Scene
 
 LINES = 12
@@ -276,42 +274,36 @@ def _wrong_scale(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterato
 
 
 def _figures(asked: Options, signal: Signal, found: MeshSpectrum) -> dict[str, Any]:
-    from ..analysis.sidebands import Sidebands
+    from ..analysis.line_names import LineNames
 
-    axis, scene = "order" if asked.order else "frequency_hz", _scene(signal)
-    sidebands = None if scene is None else Sidebands.of(scene)
+    axis = "order" if asked.order else "frequency_hz"
+    names = LineNames(found, _scene(signal), filtered=asked.is_table)
     return {
         "from_s": float(signal.time[0]),
         "to_s": float(signal.time[-1]),
         "samples": len(signal.samples),
         "resolution": float(found.axis[1]),
         "mean": float(signal.samples.mean()),
+        "unresolved_sidebands": names.unresolved(),
         "lines": [
             {
-                axis: line.place,
-                "amplitude": line.amplitude,
-                "mesh_orders": found.in_mesh_orders(line.place),
-                "harmonic": found.harmonic(line.place),
-                "alias_of_harmonic": None if asked.is_table else found.alias(line),
-                "sidebands": [band._asdict() for band in _sidebands(sidebands, found, line)],
+                axis: named.line.place,
+                "amplitude": named.line.amplitude,
+                "over_noise": named.over_noise,
+                "mesh_orders": found.in_mesh_orders(named.line.place),
+                "harmonic": named.harmonic,
+                "alias_of_harmonic": named.alias,
+                "sidebands": [band._asdict() for band in named.sidebands],
+                "shafts": [shaft._asdict() for shaft in named.shafts],
+                "name": named.text,
             }
-            for line in found.lines(LINES)
+            for named in names.named(LINES)
         ],
     }
 
 
-def _sidebands(known: Sidebands | None, found: MeshSpectrum, line: Line) -> list[Sideband]:
-    """Sidebands at a line that is no mesh harmonic."""
-    orders = found.in_mesh_orders(line.place)
-    if known is None or found.mesh is None or orders is None or found.harmonic(line.place):
-        return []
-    return known.at(orders, float(found.axis[1]) / found.mesh)
-
-
 def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None:
     from rich.table import Table
-
-    from ..analysis.sidebands import Sideband, sideband_text
 
     table = Table(box=None, pad_edge=False)
     axis = "order" if figures["lines"] and "order" in figures["lines"][0] else "frequency_hz"
@@ -325,25 +317,39 @@ def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None
             f"{line[axis]:.3f}",
             f"{line['amplitude']:.4g}",
             "-" if orders is None else f"{orders:.4f}",
-            _name(line["harmonic"], line["alias_of_harmonic"])
-            or sideband_text([Sideband(**band) for band in line["sidebands"]]),
+            line["name"],
         )
     console.print(table)
+    unit = "orders" if axis == "order" else "Hz"
+    for line in _unnamed(figures, unit):
+        console.print(line, highlight=False, soft_wrap=True)
     console.print(
         f"{subject.quantity}{f' of {subject.mesh}' if subject.mesh else ''}, "
         f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolution "
-        f"{figures['resolution']:.4g} {'orders' if axis == 'order' else 'Hz'}, "
+        f"{figures['resolution']:.4g} {unit}, "
         f"mean {figures['mean']:.6g} {subject.unit}".removesuffix(" -"),
         highlight=False,
     )
 
 
-def _name(harmonic: int | None, alias: int | None) -> str:
-    """Description of a line: its mesh `harmonic`, and the harmonic it may be an `alias` of."""
-    if harmonic is None:
-        return "" if alias is None else f"alias of mesh harmonic {alias}"
-    beside = "" if alias is None else f", or alias of harmonic {alias}"
-    return f"mesh harmonic {harmonic}{beside}"
+def _unnamed(figures: dict[str, Any], unit: str) -> Iterator[str]:
+    """Sentences that say which lines have no name, and why."""
+    from ..analysis.distinct_lines import DISTINCT
+    from ..analysis.sidebands import RESOLVED
+
+    weak = [line for line in figures["lines"] if line["over_noise"] < DISTINCT]
+    if any(line["mesh_orders"] is not None for line in weak):
+        yield (
+            f"{len(weak)} of these lines have no name: they are less than {DISTINCT:g} times as "
+            "high as the noise around them, or as the leakage of higher lines"
+        )
+    for member, apart in figures["unresolved_sidebands"].items():
+        finest = apart / RESOLVED
+        yield (
+            f"sidebands of the {member} are {apart:.4g} {unit} apart and not named: they need a "
+            f"resolution of {finest:.3g} {unit}, {1.0 / finest:.3g} "
+            f"{'s' if unit == 'Hz' else 'turns'} of signal"
+        )
 
 
 def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) -> None:

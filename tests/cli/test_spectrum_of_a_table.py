@@ -302,6 +302,20 @@ def test_sidebands_name_the_members_that_separate_them(table):
     assert lines(table)[0]["sidebands"] == []
 
 
+def test_a_short_record_says_which_sidebands_it_does_not_separate_and_what_length_does(tmp_path):
+    shown = written(tmp_path / "a.csv", meshing(30)[: int(0.3 * RATE)]).stderr
+    assert "sidebands of the ring are 7.129 Hz apart and not named: they need a" in shown
+    assert "resolution of 1.78 Hz, 0.561 s of signal" in shown
+    assert "of the ring" not in written(tmp_path / "a.csv", meshing(30)).stderr
+
+
+def test_lines_within_the_noise_are_not_named_and_counted(tmp_path):
+    noise = np.random.default_rng(1).standard_normal(int(RATE))
+    done = written(tmp_path / "a.csv", noise)
+    assert "12 of these lines have no name: they are less than 5 times as high as" in done.stderr
+    assert {line["name"] for line in json.loads(done.stdout)["lines"]} == {""}
+
+
 def test_units_of_a_csv_may_be_in_the_file_beside_it_that_export_writes(tmp_path):
     file, time = tmp_path / "vibration.csv", np.arange(2000) / 1000.0
     rows = np.column_stack((1e3 * time, np.sin(200.0 * np.pi * time)))

@@ -1,0 +1,100 @@
+"""Names lines of a spectrum: mesh harmonics, sidebands, rotations of members, and aliases."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from ..scene import Scene
+from .aliases import aliased_harmonic
+from .distinct_lines import DISTINCT, over_noise
+from .mesh_spectrum import MeshSpectrum
+from .shaft_lines import ShaftLine, ShaftLines, shaft_text
+from .sidebands import RESOLVED, Sideband, Sidebands, sideband_text
+from .spectrum import Line
+
+EXACT = 0.5  # [bins] largest distance of a line from the alias of a harmonic of unknown height
+
+
+class NamedLine(NamedTuple):
+    """A line of a spectrum with what coincides with it; nothing unless it is distinct."""
+
+    line: Line
+    """Place and amplitude."""
+    over_noise: float
+    """Amplitude over the noise around it, see `over_noise`."""
+    harmonic: int | None
+    """Number of the mesh harmonic."""
+    alias: int | None
+    """Number of the mesh harmonic of which it may be an alias."""
+    sidebands: list[Sideband]
+    """Sidebands of mesh harmonics."""
+    shafts: list[ShaftLine]
+    """Rotations of the members."""
+    filtered: bool
+    """Whether a filter may have removed aliases."""
+
+    @property
+    def text(self) -> str:
+        """Description of the line; empty if it has no name."""
+        beside = (shaft_text(self.shafts), sideband_text(self.sidebands))
+        alias = "" if self.alias is None else f"alias of mesh harmonic {self.alias}"
+        if self.harmonic is not None:
+            alias = "" if self.alias is None else f", or alias of harmonic {self.alias}"
+            return f"mesh harmonic {self.harmonic}{alias}"
+        if alias and self.filtered:
+            alias = f"{alias}, if it was not filtered"
+        return "; ".join(text for text in (*beside, alias) if text)
+
+
+@dataclass(frozen=True)
+class LineNames:
+    """Names of the lines of one spectrum."""
+
+    spectrum: MeshSpectrum
+    """Whose lines are named."""
+    scene: Scene | None
+    """The gears; None if they are unknown."""
+    filtered: bool
+    """Whether an anti-aliasing filter may precede the samples, as in data loggers."""
+
+    def named(self, count: int) -> list[NamedLine]:
+        """The highest lines in the band, highest first.
+
+        Args:
+            count: largest number of lines.
+        """
+        found, lines = self.spectrum, self.spectrum.lines(count)
+        ratios = over_noise(found.axis, found.amplitude, lines)
+        return [self._named(line, ratio) for line, ratio in zip(lines, ratios, strict=True)]
+
+    def unresolved(self) -> dict[str, float]:
+        """Distance on the axis of the sidebands of each member that are too close to be named."""
+        if self.scene is None or self.spectrum.mesh is None:
+            return {}
+        spacing = Sidebands.of(self.scene).spacing
+        apart = {member: each * self.spectrum.mesh for member, each in spacing.items()}
+        least = RESOLVED * float(self.spectrum.axis[1])
+        return {member: each for member, each in apart.items() if each < least}
+
+    def _named(self, line: Line, ratio: float) -> NamedLine:
+        found = self.spectrum
+        orders = found.in_mesh_orders(line.place)
+        if ratio < DISTINCT or orders is None or found.mesh is None:
+            return NamedLine(line, ratio, None, None, [], [], self.filtered)
+        harmonic = found.harmonic(line.place)
+        sidebands, shafts = self._beside(orders) if harmonic is None else ([], [])
+        alias = found.alias(line)
+        if self.filtered:
+            near, named = EXACT * float(found.axis[1]), harmonic or sidebands or shafts
+            place = line.place, found.mesh, found.sample_rate
+            alias = None if named else aliased_harmonic(*place, near)
+        return NamedLine(line, ratio, harmonic, alias, sidebands, shafts, self.filtered)
+
+    def _beside(self, orders: float) -> tuple[list[Sideband], list[ShaftLine]]:
+        """What coincides with a line that is no mesh harmonic."""
+        if self.scene is None or self.spectrum.mesh is None:
+            return [], []
+        resolution = float(self.spectrum.axis[1]) / self.spectrum.mesh
+        sidebands = Sidebands.of(self.scene).at(orders, resolution)
+        return sidebands, ShaftLines.of(self.scene).at(orders, resolution)

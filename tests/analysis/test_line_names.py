@@ -1,0 +1,124 @@
+"""Lines are named if they stand out of noise and leakage, and if the record separates them."""
+
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.analysis.distinct_lines import DISTINCT, over_noise
+from planetary_twin_py.analysis.line_names import LineNames
+from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of
+from planetary_twin_py.analysis.shaft_lines import ShaftLine, ShaftLines
+from planetary_twin_py.analysis.sidebands import MOST, Sideband, Sidebands
+from planetary_twin_py.analysis.signals import Signal
+from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
+
+RATE = 10_000.0
+PAPER = pt.load_scene("paper").replace(input_speed=pt.rpm(1000.0))  # meshes at 500 Hz
+
+
+def named(samples, scene=PAPER, count=12):
+    time = np.arange(len(samples)) / RATE
+    signal = Signal(samples, time, scene.operating_point.input_speed * time, None)
+    found = frequency_spectrum_of(signal, scene.gearset.teeth.sun)
+    return LineNames(found, scene, True).named(count)
+
+
+def noise(count, seed=0, sigma=1.0):
+    return sigma * np.random.default_rng(seed).standard_normal(count)
+
+
+def ratios(samples, count):
+    spectrum = amplitude_spectrum(samples, RATE)
+    return over_noise(*spectrum, strongest_lines(*spectrum, count))
+
+
+def test_lines_of_noise_have_no_names():
+    assert not [line for seed in range(40) for line in named(noise(20_000, seed)) if line.text]
+
+
+def test_the_ratio_of_a_tone_to_white_noise_is_that_of_the_rayleigh_distribution():
+    """The mean square of a bin is 6 sigma^2/n with a Hann window, its median amplitude follows."""
+    count, sigma, height = 20_000, 0.5, 0.2
+    tone = height * np.sin(2.0 * np.pi * 1000.0 * np.arange(count) / RATE)
+    median = sigma * math.sqrt(6.0 / count * math.log(2.0))
+    found = [ratios(tone + noise(count, seed, sigma), 1)[0] for seed in range(20)]
+    assert np.mean(found) == pytest.approx(height / median, rel=0.05)
+
+
+@pytest.mark.parametrize("fraction", [0.1, 0.5])
+def test_side_lobes_of_a_tone_between_two_bins_are_not_distinct_and_a_second_tone_is(fraction):
+    turns = 2.0 * np.pi * np.arange(4096) / 4096
+    tone = np.sin((400 + fraction) * turns)
+    first, *rest = ratios(tone, 12)
+    assert first > 1e3 * DISTINCT and max(rest, default=0.0) < DISTINCT
+    assert min(ratios(tone + 0.03 * np.sin((408 + fraction) * turns), 2)) > DISTINCT
+
+
+def test_a_weak_line_at_a_sideband_is_named_only_beyond_the_stated_ratio():
+    count = 20_000
+    time = np.arange(count) / RATE
+    median = math.sqrt(6.0 / count * math.log(2.0))
+    for ratio, text in ((3.0, ""), (12.0, "sideband +1 of harmonic 1: sun")):
+        tone = ratio * median * np.sin(2.0 * np.pi * (500.0 + 1000.0 / 60.0) * time)
+        near = [line for line in named(tone + noise(count)) if abs(line.line.place - 516.67) < 0.5]
+        assert {line.text for line in near} <= {text} and (len(near) == 1 or not text)
+
+
+def test_rotations_of_the_members_are_named_by_the_speeds_of_willis():
+    """With the ring held, the sun turns 1 + Zr/Zs times as fast as the carrier."""
+    scene = pt.load_scene("wind_turbine_stage")
+    sun, planet, ring = scene.gearset.tooth_numbers
+    carrier = 1.0 / ring  # turns per mesh cycle
+    turns = {
+        "carrier": carrier,
+        "sun": carrier * (1.0 + ring / sun),
+        "planet": carrier * (ring / planet - 1.0),
+        "planet on its pin": carrier * ring / planet,
+    }
+    shafts = ShaftLines.of(scene)
+    assert shafts.orders == pytest.approx(turns)
+    for member, turn in turns.items():
+        assert ShaftLine(member, 1) in shafts.at(turn, 1e-6)
+        assert ShaftLine(member, 3) in shafts.at(3.0 * turn, 1e-6)
+        assert shafts.at(turn, 0.3 * turn) == []  # so close to zero that a line overlaps itself
+    assert ShaftLines.of(pt.load_scene("differential")).orders == {}
+
+
+def test_lines_at_the_turns_of_sun_and_planet_are_named():
+    time = np.arange(20_000) / RATE
+    sun = 1000.0 / 60.0
+    tones = np.sin(2.0 * np.pi * sun * time) + 0.5 * np.sin(2.0 * np.pi * 1.5 * sun * time)
+    assert [line.text for line in named(tones + noise(20_000, sigma=0.01), count=2)] == [
+        "1x sun", "1x planet",
+    ]  # fmt: skip
+
+
+def test_a_member_whose_sidebands_the_record_does_not_separate_is_stated_with_their_distance():
+    signal = named_signal(0.5)
+    names = LineNames(frequency_spectrum_of(signal, 30), PAPER, True)
+    assert names.unresolved() == {"ring": pytest.approx(500.0 / 70.0)}
+    assert LineNames(frequency_spectrum_of(named_signal(0.6), 30), PAPER, True).unresolved() == {}
+
+
+def named_signal(duration):
+    time = np.arange(0.0, duration, 1.0 / RATE)
+    return Signal(noise(len(time)), time, PAPER.operating_point.input_speed * time, None)
+
+
+def test_sidebands_are_named_up_to_the_third_or_one_for_each_planet():
+    sidebands = Sidebands.of(PAPER)
+    assert sidebands.most == max(MOST, PAPER.gearset.planets)
+    assert Sideband(1, "sun", MOST) in sidebands.at(1.0 + MOST / 30.0, 1e-4)
+    assert all(one.member != "sun" for one in sidebands.at(1.0 + (MOST + 1) / 30.0, 1e-4))
+
+
+def test_an_alias_of_a_mesh_harmonic_in_a_table_is_named():
+    time = np.arange(20_000) / RATE
+    tones = np.sin(2.0 * np.pi * 500.3 * time) + 0.1 * np.sin(2.0 * np.pi * 13 * 500.3 * time)
+    scene = PAPER.replace(input_speed=pt.rpm(1000.6))
+    found = named(tones + noise(20_000, sigma=0.01), scene, 2)
+    assert [line.text for line in found] == [
+        "mesh harmonic 1", "alias of mesh harmonic 13, if it was not filtered",
+    ]  # fmt: skip
