@@ -6,6 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
+from tiers import first
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
@@ -277,6 +278,55 @@ def meshing(teeth, rpm=998.0):
 )
 def test_lines_off_by_one_factor_are_reported(tmp_path, teeth, rpm, words):
     assert words in written(tmp_path / "a.csv", meshing(teeth, rpm)).stderr
+
+
+def series(factor, amplitudes, sidebands):
+    """A second at `factor` times 998 rpm: mesh harmonics, with sidebands once per turn or not."""
+    turns = factor * SIDEBAND * np.arange(0.0, 1.0, 1.0 / RATE)
+    tones = sum(a * np.sin(60.0 * np.pi * h * turns + h) for h, a in amplitudes.items())
+    noise = 0.01 * np.random.default_rng(0).standard_normal(len(turns))
+    return tones * (1.0 + sidebands * np.cos(2.0 * np.pi * turns)) + noise
+
+
+@pytest.mark.parametrize("factor", [1 / 3, 0.5, 2 / 3, 1.5, 2.0, 4.0])
+@pytest.mark.parametrize("amplitudes", [{1: 1.0, 2: 0.4, 3: 0.2}, {1: 0.3, 2: 1.0, 4: 0.2}])
+def test_a_factor_of_integers_is_found_by_the_sidebands(tmp_path, factor, amplitudes):
+    said = written(tmp_path / "a.csv", series(factor, amplitudes, 0.1)).stderr
+    assert f"fit a mesh frequency {factor:.4g} times that of the scene: are the speed" in said
+
+
+@pytest.mark.parametrize("factor", [2, 3, 4])
+def test_an_integer_factor_that_nothing_determines_is_said_to_be_possible(tmp_path, factor):
+    said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
+    assert f"are multiples of {factor}: these fit a mesh frequency {factor} times that of" in said
+
+
+@pytest.mark.parametrize("factor", [1 / 3, 0.5, 1.5])
+def test_a_series_of_harmonics_with_that_of_the_scene_is_found_without_sidebands(tmp_path, factor):
+    said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
+    assert f"mesh frequency {factor:.4g} times that of the scene" in said
+    assert "The scene explains 1 of the 3 highest lines." in said
+
+
+def test_factors_that_explain_as_much_are_all_stated(tmp_path):
+    """First sidebands of one planet, or third ones of a third of that mesh frequency."""
+    said = written(tmp_path / "a.csv", series(1.5, {1: 1.0}, 0.1)).stderr
+    assert "frequency 1.5 times that of" in said and "They fit 0.5 times that of the" in said
+
+
+@pytest.mark.parametrize("strongest", first(1, [3, 1, 2]))
+@pytest.mark.parametrize("turn", first(2, [1.0, 3.0, 1.5, 30.0 / 70.0]))
+@pytest.mark.parametrize("others", ["none", "mains", "bearing", "shaft"])
+def test_a_right_speed_gives_no_warning_whatever_else_vibrates(tmp_path, strongest, turn, others):
+    time = np.arange(0.0, 1.0, 1.0 / RATE)
+    turns = SIDEBAND * time
+    heights = {h: 1.0 if h == strongest else 0.3 for h in (1, 2, 3)}
+    tones = sum(a * np.sin(60.0 * np.pi * h * turns) for h, a in heights.items())
+    tones *= 1.0 + 0.1 * np.cos(2.0 * np.pi * turn * turns)
+    base = {"none": 0.0 * time, "mains": 50.0 * time, "bearing": 4.37 * turns, "shaft": turns}
+    tones += sum(2.0 / k * np.sin(2.0 * np.pi * k * base[others]) for k in (1, 2, 3, 4))
+    noise = 0.01 * np.random.default_rng(0).standard_normal(len(time))
+    assert "times that of the scene" not in written(tmp_path / "a.csv", tones + noise).stderr
 
 
 def test_a_mesh_frequency_above_half_the_sample_rate_is_reported(tmp_path):
