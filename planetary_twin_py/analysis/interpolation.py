@@ -13,11 +13,9 @@ from scipy.ndimage import map_coordinates
 from scipy.signal import firwin, upfirdn
 
 Array = NDArray[np.float64]
-EXACT = 0.45  # of the sample rate: amplitudes of tones up to it are exact to 0.1 %
+EXACT = 0.47  # of the sample rate: amplitudes of tones up to it are exact to 0.2 %
 _UP = 2  # a quintic spline is exact to 0.01 % up to a quarter of the doubled rate
-_HALF = (
-    64  # doubled samples on each side that the filter weights; it is flat to 0.1 % up to `EXACT`
-)
+_HALF = 128  # weights of the filter on each side, which keep it flat to 0.1 % up to `EXACT`
 
 
 def _filter() -> Array:
@@ -40,7 +38,7 @@ def interpolated(samples: Array, places: Array) -> Array:
 
     Returns:
         The values, (m,) or (m, channels). Amplitudes of tones up to `EXACT` times the sample rate
-        are exact to 0.1 %; higher ones are reduced.
+        are exact to 0.2 %; higher ones are reduced.
     """
     ends = [(_HALF, _HALF)] + [(0, 0)] * (samples.ndim - 1)
     longer = np.pad(samples, ends, mode="reflect", reflect_type="odd")

@@ -9,13 +9,14 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from . import interpolation, orders
 from .aliases import NEGLIGIBLE, aliased_harmonic, edge_amplitude
 from .band import Band
-from .orders import order_spectrum
 from .signals import Signal
 from .spectrum import Array, Line, amplitude_spectrum, strongest_lines
 
 NEAR = 1.0  # [bins] largest distance of a line from the harmonic that it is attributed to
+MOST_PER_TURN = 1 << 15  # samples per turn of an order spectrum
 HIGHEST_ALIAS = 2.0  # height of an alias over that of the lines near half the sample rate
 
 
@@ -55,7 +56,7 @@ class MeshSpectrum:
         if not narrowed.in_band.any():
             raise ValueError(
                 f"band = '{band.low:g}:{band.high:g}': must contain a value of the spectrum, which "
-                f"has one every {self.axis[1]:.4g} up to {self.axis[-1]:g}"
+                f"has one every {self.axis[1]:.4g} up to {self.band.high:g}"
             )
         return narrowed
 
@@ -126,17 +127,20 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
         sun_teeth: number of teeth of the sun; None if it is unknown.
 
     Returns:
-        The spectrum, up to the order that the samples resolve at the highest speed of the sun.
+        The spectrum. Its band ends at 0.47 times the sample rate at the highest speed of the sun,
+        up to which amplitudes are exact to 1 %.
 
     Raises:
         ValueError: the sun is at rest or reverses (see `order_spectrum`).
     """
     fastest = float(np.abs(np.diff(signal.angle)).max())
-    per_turn = max(math.floor(2.0 * math.pi / max(fastest, 1e-12)), 4)
-    found = order_spectrum(signal.samples, signal.angle, min(per_turn, 1 << 15))
+    resolved = interpolation.EXACT * 2.0 * math.pi / max(fastest, 1e-12)
+    per_turn = min(max(math.ceil(resolved / orders.EXACT), 4), MOST_PER_TURN)
+    found = orders.order_spectrum(signal.samples, signal.angle, per_turn)
     edge = edge_amplitude(*amplitude_spectrum(signal.samples, signal.sample_rate))
     rate = 2.0 * math.pi * signal.sample_rate / abs(signal.speed)
-    return MeshSpectrum(*found, sun_teeth, _all_of(found.order), rate, edge)
+    band = Band(0.0, min(resolved, orders.EXACT * per_turn))
+    return MeshSpectrum(*found, sun_teeth, band, rate, edge)
 
 
 def _all_of(axis: Array) -> Band:

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py.analysis.mesh_spectrum import order_spectrum_of
+from planetary_twin_py.analysis.signals import Signal
 from planetary_twin_py.gearset.kinematics import Teeth
 
 RATE = 20_000.0
@@ -65,6 +67,17 @@ def test_resampling_follows_the_signal_between_its_samples():
     assert np.allclose(np.diff(found.angle), 2 * np.pi / 500)
     inner = slice(20, -20)
     assert np.abs(found.samples - np.sin(order * found.angle))[inner].max() < 2e-3
+
+
+@pytest.mark.parametrize("share", [0.25, 0.4, 0.469])
+@pytest.mark.parametrize("acceleration", [0.0, 15.0])
+def test_a_line_of_a_spectrum_of_orders_is_exact_up_to_the_end_of_its_band(share, acceleration):
+    angle = 2.0 * np.pi * (10.0 * TIME + 0.5 * acceleration * TIME**2)
+    order = share * RATE / (10.0 + acceleration * TIME[-1])
+    signal = Signal(0.5 * np.sin(order * angle + 0.3), TIME, angle, None)
+    (line,) = order_spectrum_of(signal, None).lines(1)
+    assert line.place == pytest.approx(order, rel=1e-4)
+    assert line.amplitude == pytest.approx(0.5, rel=0.01)
 
 
 def test_what_is_beyond_half_the_samples_per_turn_does_not_fold_back():
