@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 DISTINCT = 5.0  # ratio of a line that is named: 14 dB; one bin of noise in 3e7 exceeds it
 AROUND = 64  # bins on each side whose median is the noise
 _LOBE = 2.0  # [bins] half the width of the main lobe
-_ROUNDING = 1e-15  # of the highest line, below which amplitudes are numerical noise
+_ROUNDING = 1e-12  # of the highest line, below which amplitudes are numerical noise
 
 
 def over_noise(axis: Array, amplitude: Array, lines: Sequence[Line]) -> list[float]:

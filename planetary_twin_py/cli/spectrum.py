@@ -6,7 +6,7 @@ import inspect
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 LINES = 12
+CYCLES = 2  # in the record, from which on the amplitude of a line is exact to 2 %
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class Options:
         str | None,
         typer.Option(
             help="Of a table: the column with the measured speed of the input shaft, for orders "
-            "while the speed varies."
+            "while the speed varies; in rad/s without a unit in its heading."
         ),
     ] = None
     sample_rate: Annotated[
@@ -112,7 +113,9 @@ def spectrum(**given: Any) -> None:
 
     Also of a vibration in a table with columns such as `time` and `acceleration [m/s^2]`; --scene
     defines the gears, and --set the speed: `spectrum vibration.csv --scene paper --set
-    input_speed=998rpm`. If the speed varies, --speed names its column.
+    input_speed=998rpm`. If the speed varies, --speed names its column. Lines 5 times as high as the
+    noise around them are named: mesh harmonics, sidebands up to the third (or one for each planet),
+    rotations of the members, and aliases.
 
     Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
@@ -125,7 +128,8 @@ def spectrum(**given: Any) -> None:
             _write(asked.out, found, _title(asked, subject, signal), _labels(asked, subject))
     except (ValueError, OSError) as error:
         fail(error)
-    remarks = (_constant_speed(asked, signal), _aliases(asked, signal, found))
+    speed = _constant_speed if asked.order else _varying_speed
+    remarks = (speed(asked, signal, found), _aliases(asked, signal, found))
     for line in (*signal.remarks, *chain(*remarks), *_wrong_scale(asked, signal, found)):
         remark(line)
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
@@ -234,9 +238,16 @@ def _scene(signal: Signal) -> Scene | None:
     return None if signal.scene_yaml is None else parse_scene(signal.scene_yaml)
 
 
-def _constant_speed(asked: Options, signal: Signal) -> Iterator[str]:
+def _varying_speed(_asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
+    """A remark if a varying speed lowers lines over frequency."""
+    from ..analysis.varying_speed import speed_remarks
+
+    yield from speed_remarks(signal, found, LINES)
+
+
+def _constant_speed(asked: Options, signal: Signal, _found: MeshSpectrum) -> Iterator[str]:
     """A remark if orders rest on a constant speed, which a table may contradict."""
-    if asked.is_table and asked.order and asked.speed is None:
+    if asked.is_table and asked.speed is None:
         yield (
             f"--order: the speed is assumed to be constant, {signal.speed / math.tau:.6g} turns of "
             "the sun per second relative to the carrier; if it varies, give --speed COLUMN"
@@ -321,7 +332,7 @@ def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None
         )
     console.print(table)
     unit = "orders" if axis == "order" else "Hz"
-    for line in _unnamed(figures, unit):
+    for line in (*_uncertain(figures, axis), *_unnamed(figures, unit)):
         console.print(line, highlight=False, soft_wrap=True)
     console.print(
         f"{subject.quantity}{f' of {subject.mesh}' if subject.mesh else ''}, "
@@ -330,6 +341,28 @@ def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None
         f"mean {figures['mean']:.6g} {subject.unit}".removesuffix(" -"),
         highlight=False,
     )
+
+
+def _uncertain(figures: dict[str, Any], axis: str) -> Iterator[str]:
+    """Sentences on lines whose amplitude other lines, or the ends of the axis, change."""
+    from ..analysis.distinct_lines import DISTINCT
+    from ..analysis.sidebands import RESOLVED
+
+    step = figures["resolution"]
+    places = [line[axis] for line in figures["lines"]]
+    slow = sum(place < CYCLES * step for place in places)
+    if slow:
+        yield (
+            f"{slow} of these lines have fewer than {CYCLES:g} cycles in the record: their "
+            "amplitudes are wrong by up to 40 %"
+        )
+    clear = sorted(line[axis] for line in figures["lines"] if line["over_noise"] >= DISTINCT)
+    near = sum(high - low < RESOLVED * step for low, high in pairwise(clear))
+    if near:
+        yield (
+            f"{near} of these lines are less than {RESOLVED:g} times the resolution above another: "
+            "they overlap, and their amplitudes are uncertain"
+        )
 
 
 def _unnamed(figures: dict[str, Any], unit: str) -> Iterator[str]:

@@ -6,6 +6,7 @@ import pytest
 from planetary_twin_py.analysis.even_steps import at_equal_steps, drifts, resampled
 from planetary_twin_py.analysis.interpolation import EXACT, interpolated
 from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
+from planetary_twin_py.analysis.varying_speed import exact_order
 
 RATE, COUNT = 10_000.0, 20_000
 
@@ -41,6 +42,15 @@ def test_the_bound_is_the_drift_with_which_the_highest_line_is_1_percent_too_low
         tone = np.sin(2.0 * np.pi * 0.499 * RATE * time)
         assert drifts(time) == beyond
         assert (amplitude(tone, time) < 0.99) == beyond
+
+
+@pytest.mark.parametrize("acceleration", [0.02, -0.5])
+def test_a_varying_speed_lowers_the_line_at_the_exact_order_by_1_percent(acceleration):
+    time = np.arange(COUNT) / RATE
+    angle = 2.0 * np.pi * (10.0 * time + 0.5 * acceleration * time**2)
+    tone = np.sin(exact_order(angle) * angle)
+    assert amplitude(tone, time) == pytest.approx(0.99, abs=3e-3)  # interpolated as one tone
+    assert exact_order(20.0 * np.pi * time) > 1e6
 
 
 def test_stamps_rounded_to_a_tenth_of_a_step_do_not_drift():

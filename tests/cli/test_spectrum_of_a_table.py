@@ -1,6 +1,7 @@
 """Spectrum of a vibration in a table: tones of known amplitude, with the harmonics of a scene."""
 
 import json
+import re
 
 import numpy as np
 import pyarrow as pa
@@ -140,6 +141,36 @@ def test_orders_at_a_speed_that_is_assumed_to_be_constant_come_with_a_remark(run
     done = invoke(run_up, *options)
     assert "the speed is assumed to be constant, 16.6667 turns" in done.stderr
     assert "assumed" not in invoke(run_up, "--order", "--speed", "Motor speed").stderr
+
+
+def test_lines_over_frequency_that_a_varying_speed_lowers_come_with_a_remark(run_up):
+    done = invoke(run_up, "--speed", "Motor speed")
+    words = r"the speed varies: lines above [3-6]\.\d+ Hz that follow it are more than 1 % too low"
+    assert re.search(words, done.stderr)
+    assert "the speed varies" not in invoke(run_up, "--speed", "Motor speed", "--order").stderr
+
+
+def test_a_measured_speed_without_a_unit_comes_with_a_remark(tmp_path):
+    file, time = tmp_path / "a.csv", np.arange(0.0, 1.0, 1e-3)
+    rows = np.column_stack((time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time))
+    for heading, remarks in (("speed", 1), ("speed [rpm]", 0)):
+        np.savetxt(file, rows, delimiter=",", header=f"time,a,{heading}", comments="")
+        said = invoke(file, "--order", "--speed", "speed").stderr
+        assert said.count("column 'speed' has no unit and is read in rad/s") == remarks
+
+
+def test_lines_whose_amplitudes_the_record_does_not_determine_are_counted(tmp_path):
+    turns = np.arange(2000) / 2000.0
+    for cycles, words in (
+        ((1.3, 300.0), "1 of these lines have fewer than 2 cycles in the record"),
+        ((300.0, 303.0), "1 of these lines are less than 4 times the resolution above another"),
+        ((20.0, 300.0), ""),
+    ):
+        tones = sum(np.sin(2.0 * np.pi * count * turns) for count in cycles)
+        file = tmp_path / "a.csv"
+        np.savetxt(file, tones, header="a", comments="")
+        shown = invoke(file, "--sample-rate", 1000.0).stdout
+        assert words in shown and (words or "of these lines" not in shown)
 
 
 def test_a_measured_input_speed_is_converted_to_that_of_the_sun_relative_to_the_carrier(tmp_path):

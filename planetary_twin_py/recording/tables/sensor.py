@@ -78,7 +78,14 @@ def read_sensor(
         if speed_name is not None:
             rotation = columns[speed_name].in_si(speed_name, "rad/s")
             measured = _complete(speed_name, rotation, part)
-    remarks = () if sample_rate is None else _other_rate(columns.get(TIME[0]), sample_rate, part)
+    remarks: list[str] = []
+    if sample_rate is not None:
+        remarks += _other_rate(columns.get(TIME[0]), sample_rate, part)
+    if speed_name is not None and columns[speed_name].unit is None:
+        remarks.append(
+            f"column {columns[speed_name].heading!r} has no unit and is read in rad/s; otherwise "
+            f"its heading must be, for example, {speed_name} [rpm]"
+        )
     unit = columns[name].unit or "-"
     return Sensor(name, unit, time[part], samples, measured, tuple(remarks))
 
