@@ -138,16 +138,19 @@ def strongest_lines(axis: ArrayLike, amplitude: ArrayLike, count: int = 10) -> l
         raise ValueError(f"count = {count}: must be at least 1")
     a = np.concatenate(([0.0], a[1:], [0.0]))  # without the mean; the last bin may be a peak
     peaks = 1 + np.flatnonzero((a[1:-1] > a[:-2]) & (a[1:-1] >= a[2:]))
-    lines = [_interpolated(x, a, int(k)) for k in peaks]
-    return sorted(lines, key=lambda line: -line.amplitude)[:count]
+    places, heights = _interpolated(x, a, peaks)
+    highest = np.argsort(-heights, kind="stable")[:count]
+    return [Line(float(places[k]), float(heights[k])) for k in highest]
 
 
-def _interpolated(x: Array, a: Array, peak: int) -> Line:
-    side = 1 if a[peak + 1] >= a[peak - 1] else -1
-    ratio = a[peak + side] / a[peak]
-    beyond = max((2.0 * ratio - 1.0) / (ratio + 1.0), 0.0)  # bins from the peak towards `side`
-    height = a[peak] * (1.0 - beyond**2) / np.sinc(beyond)
-    return Line(float(x[peak] + side * beyond * (x[1] - x[0])), float(height))
+def _interpolated(x: Array, a: Array, peaks: NDArray[np.intp]) -> tuple[Array, Array]:
+    """Places and heights of the lines at `peaks`."""
+    side = np.where(a[peaks + 1] >= a[peaks - 1], 1, -1)
+    ratio = a[peaks + side] / a[peaks]
+    # Bins from the peak towards `side`.
+    beyond = np.maximum((2.0 * ratio - 1.0) / (ratio + 1.0), 0.0)
+    heights = a[peaks] * (1.0 - beyond**2) / np.sinc(beyond)
+    return x[peaks] + side * beyond * (x[1] - x[0]), heights
 
 
 def checked(samples: ArrayLike, name: str = "samples") -> Array:
