@@ -254,7 +254,18 @@ STUDY_RESULTS = _study()
 """Columns of the results of a study, in order."""
 STUDIED_OF_AXES = ("displacement_peak", "bearing_force_peak")
 """Those of `BEARING` that a study stores, of planets the largest."""
-AXES_RESULTS = {"load_sharing_factor": SHARING["load_sharing_factor"]} | {
+ERROR_TURNS = "error_turns"
+"""Column of a study's table, see `planar.error_turns`."""
+AXES_RESULTS = {
+    "load_sharing_factor": Quantity(
+        "Load sharing factor",
+        description="K_gamma, largest mean load share of a planet over a mesh cycle",
+    ),
+    ERROR_TURNS: Quantity(
+        "Turns of errors",
+        description="turns against the planets of the error that turns least; NaN if none turns",
+    ),
+} | {
     f"{body}_{name}": _titled(BEARING[name], "planets" if body == "planet" else body)
     for body in COMPONENTS
     for name in STUDIED_OF_AXES

@@ -66,6 +66,7 @@ class WindowResults:
         """
         mean_speed, record = self._mean_speed.copy(), self._record
         mesh = by_name(self._statistics.copy())
+        frequency = mesh_frequency(self._teeth, mean_speed[self._sun], mean_speed[-1])
         return Window(
             start=plan.begin / TICKS,
             end=plan.end / TICKS,
@@ -78,7 +79,7 @@ class WindowResults:
             mesh=mesh,
             angle=self._angle.copy(),
             mean_speed=mean_speed,
-            mesh_frequency=mesh_frequency(self._teeth, mean_speed[self._sun], mean_speed[-1]),
+            mesh_frequency=frequency,
             machine_speed=self._machine_speed.copy(),
             machine_torque=self._machine_torque.copy(),
             machine_power=self._machine_power.copy(),
@@ -88,6 +89,6 @@ class WindowResults:
             residual_power=record.residual_power,
             course=course,
             given=dict(plan.given),
-            axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"]),
+            axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
             members=self._members,
         )

@@ -108,6 +108,9 @@ def simulate(
     if result.axes is not None and result.axes.statistics is not None:
         axes = _axes(result.axes, result.axes.statistics)
         console.print(_axes_table(result.axes, axes))
+        if "load_sharing_factor" in axes:
+            factor = axes["load_sharing_factor"]
+            console.print(f"load sharing factor K_gamma, largest of these shares: {factor:.4f}")
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
         remark(f"warning: {line}")
@@ -210,6 +213,13 @@ _AXES = {
 }
 
 
+# The same of the load of planets; the largest of the second is K_gamma.
+_SHARES = {
+    "load_share": "share of the load, mean",
+    "largest_load_share": "share of the load, largest mean over a mesh cycle",
+}
+
+
 # The same where axes tilt.
 _TILTING = {
     "axial_displacement_mean_m": ("axial displacement, mean", "m"),
@@ -249,9 +259,10 @@ def _axes(motion: AxesMotion, seen: AxesStatistics) -> dict[str, Any]:
             "tilting_moment_peak_Nm": of_bodies(seen.tilting.tilting_moment_peak),
         }
     planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
-    shares = motion.mean_load_share.tolist()
+    shares, largest = motion.mean_load_share.tolist(), motion.largest_load_share.tolist()
     if all(share == share for share in shares):  # there is a load to share
         found["load_share"] = dict(zip(planets, shares, strict=True))
+        found["largest_load_share"] = dict(zip(planets, largest, strict=True))
         found["load_sharing_factor"] = motion.load_sharing_factor
     return found
 
@@ -267,9 +278,10 @@ def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
         values = [*found[key].values()]
         scale = max(map(abs, values))
         table.add_row(text, *(figure(without_rounding(value, scale), unit) for value in values))
-    share = found.get("load_share", {})
-    shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
-    table.add_row("share of the load, mean", *shares)
+    for key, text in _SHARES.items():
+        share = found.get(key, {})
+        shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
+        table.add_row(text, *shares)
     return table
 
 

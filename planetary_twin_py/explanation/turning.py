@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ..gearset.kinematics import mesh_frequency
+from ..planar.error_turns import WHOLE_TURN, fewest_turns
 from ..result import Result
 from ..scene import Scene
 from ..studies.turning import (
@@ -32,8 +33,9 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
 
     Returns:
         A sentence if the run covers less than a mesh cycle, or only a few and a part of one,
-        another if its mean speed is not that of the operating point. Nothing where the gears are
-        to stand still.
+        another if its mean speed is not that of the operating point, another if it covers a part
+        of the turn of an error that changes load shares. Nothing where the gears are to stand
+        still.
     """
     wanted = wanted_mesh_frequency(scene)
     if not wanted > STANDSTILL:
@@ -58,6 +60,22 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
             "and DTE depend on where the teeth are, unless the number of cycles is whole or above "
             f"{MANY:g}; use {fewer}{MANY / wanted:.4g} s and more"
         )
+    if run.axes is not None:
+        cycles, carrier = frequency * run.duration, abs(speeds["carrier"]) * run.duration
+        yield from _part_of_a_turn(scene, cycles, carrier / (2.0 * math.pi), run.duration)
+
+
+def _part_of_a_turn(scene: Scene, cycles: float, carrier: float, duration: float) -> Iterator[str]:
+    """A warning if an error covers only a part of its turn, by mesh cycles and carrier turns."""
+    error = fewest_turns(scene, cycles, carrier)
+    if error is None or error.turns >= WHOLE_TURN:
+        return
+    longer = f"use {duration / error.turns:.4g} s and more, or " if error.turns else ""
+    yield (
+        f"{error.field} changes the load shares over a turn, but the run covers {error.turns:.2g} "
+        f"of one: load shares and their largest one are those of this part; {longer}see "
+        "load-sharing, which covers all of it"
+    )
 
 
 def duration_for_means(scene: Scene) -> float:

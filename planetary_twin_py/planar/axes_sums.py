@@ -12,9 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..driven import DrivenRun
+from ..dynamics.bodies import BodyNames, body_names, mesh_names
 from ..integrators.clock import samples_until
 from ..integrators.interpolant import Samples
 from ..scene import Scene
+from .cycle_shares import CycleShares
+from .motion import flank_forces
 
 LEAST = 50_000.0  # [Hz] lowest rate at which axes are sampled
 PER_PERIOD = 16.0  # samples of the fastest mode: peaks are then accurate to 1e-3
@@ -43,6 +46,9 @@ class AxesStatistics(NamedTuple):
     """Mean magnitude of the displacement [m], (bodies,)."""
     bearing_force_magnitude: np.ndarray
     """Mean magnitude of the force on the bearing [N], (bodies,)."""
+    largest_load_share: np.ndarray | None
+    """Largest share of each planet, of means over a mesh cycle, (planets,); None before a cycle is
+    complete."""
 
 
 class TiltingStatistics(NamedTuple):
@@ -67,9 +73,16 @@ class TiltingStatistics(NamedTuple):
 
 
 class AxesSums:
-    """Sums over the samples of a run."""
+    """Sums over the samples of a run.
 
-    def __init__(self) -> None:
+    Args:
+        scene: scene of the run, whose axes move.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._teeth, self._bodies = scene.gearset.tooth_numbers.sun, body_names(scene)
+        self._place = mesh_names(scene).place
+        self._shares = CycleShares(scene.gearset.planets)
         self._count = 0
         self._moved, self._tilting = np.zeros(()), np.zeros(())
         self._sizes, self._peaks = np.zeros(()), np.zeros(())  # magnitudes: sum, and largest
@@ -82,6 +95,8 @@ class AxesSums:
             samples: samples of a run whose axes move.
         """
         self._count += len(samples.moved)
+        force = flank_forces(samples, self._place[: len(self._place) // 2])
+        self._shares.add(self._mesh_cycles(samples), force[:, 0] - force[:, 1])
         self._moved = self._moved + samples.moved.sum(axis=0)
         self._tilting = self._tilting + samples.tilting.sum(axis=0)
         moved, tilting = samples.moved, samples.tilting
@@ -122,7 +137,21 @@ class AxesSums:
             tilting=tilting,
             displacement_magnitude=means[DISPLACEMENT],
             bearing_force_magnitude=means[FORCE],
+            largest_load_share=self._shares.largest(),
         )
+
+    def _mesh_cycles(self, samples: Samples) -> np.ndarray:
+        sun, carrier = (_turns(self._bodies, samples, body) for body in ("sun", "carrier"))
+        return np.asarray(self._teeth * (sun - carrier))
+
+
+def _turns(bodies: BodyNames, samples: Samples, name: str) -> np.ndarray:
+    """Turns of a body at the samples, (samples,)."""
+    body = bodies.names.index(name)
+    ratio, place = bodies.ratio[body], bodies.place[body]
+    turns = samples.turns[:, : len(ratio)] @ np.array([float(value) for value in ratio])
+    held = place == samples.angle.shape[1]
+    return np.asarray(turns if held else turns + samples.angle[:, place] / (2.0 * math.pi))
 
 
 def _peaks(values: np.ndarray) -> np.ndarray:
@@ -154,7 +183,7 @@ def read_axes(
     decimation = max(1, math.ceil(needed / sample_rate))
     rate = decimation * sample_rate
     done, last = samples_until(begin, rate), samples_until(until, rate)
-    sums, parts = AxesSums(), list[Samples]()
+    sums, parts = AxesSums(scene), list[Samples]()
     while done < last:
         count = min(_MOST_AT_ONCE, last - done)
         # End between two samples, so that rounding cannot add or drop one.

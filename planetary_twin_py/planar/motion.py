@@ -23,6 +23,7 @@ from ..dynamics.library import library
 from ..integrators.interpolant import Samples, Waves
 from ..scene import Scene
 from ..spatial.motion import TiltingMotion, tilting_motion
+from .cycle_shares import CycleShares
 
 if TYPE_CHECKING:
     from .axes_sums import AxesStatistics
@@ -63,18 +64,40 @@ class AxesMotion:
     """Axial motion and tilts, thrust and moments on bearings; None where axes do not tilt."""
     statistics: AxesStatistics | None = None
     """Means and peaks over a run, independent of its samples; None for a window of a twin."""
+    mesh_cycles: np.ndarray | None = None
+    """Mesh cycles at the samples of a window, from any start, at its mean speed, (samples,)."""
 
     @property
     def load_share(self) -> np.ndarray:
         """Torque that each planet takes from the sun over the mean of all planets, NaN where that
         is zero, (samples, planets)."""
-        sun_meshes = slice(len(self.mean_load_share))
-        return _shares(self.flank_force[:, 0, sun_meshes] - self.flank_force[:, 1, sun_meshes])
+        return _shares(self._load)
+
+    @property
+    def largest_load_share(self) -> np.ndarray:
+        """Largest share of each planet, of means over a mesh cycle, (planets,); `mean_load_share`
+        before a cycle is complete."""
+        if self.statistics is not None:
+            found = self.statistics.largest_load_share
+        elif self.mesh_cycles is not None:
+            shares = CycleShares(len(self.mean_load_share))
+            shares.add(self.mesh_cycles, self._load)
+            found = shares.largest()
+        else:
+            found = None
+        return self.mean_load_share if found is None else found
 
     @property
     def load_sharing_factor(self) -> float:
-        """Load sharing factor K_gamma: the largest mean share of a planet."""
-        return float(self.mean_load_share.max())
+        """Load sharing factor K_gamma: the largest mean share of a planet over a mesh cycle, as of
+        `load_sharing`."""
+        return float(self.largest_load_share.max())
+
+    @property
+    def _load(self) -> np.ndarray:
+        """Net forces of the sun meshes [N], (samples, planets)."""
+        sun_meshes = slice(len(self.mean_load_share))
+        return np.asarray(self.flank_force[:, 0, sun_meshes] - self.flank_force[:, 1, sun_meshes])
 
 
 def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
@@ -121,28 +144,44 @@ def axes_motion(
     Returns:
         Displacements, forces and shares.
     """
-    flanks = samples.mesh.shape[2]
-    drive = place % (flanks // 2)
     moved = np.ascontiguousarray(samples.moved[:, :, :2])
-    forces = np.abs(samples.mesh[:, MESH_FORCE])
     return AxesMotion(
         axes_names(scene.gearset.planets),
         moved,
         np.ascontiguousarray(samples.moved[:, :, 2:]),
         _orbits(library(scene), moved, angle),
-        np.stack([forces[:, drive], forces[:, _other_flanks(drive, flanks)]], axis=1),
+        flank_forces(samples, place),
         _shares(mesh_force[: scene.gearset.planets]),
         tilting_motion(samples.tilting),
     )
 
 
-def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMotion | None:
+def flank_forces(samples: Samples, place: np.ndarray) -> np.ndarray:
+    """Forces of the drive flanks, then of the coast flanks of each mesh.
+
+    Args:
+        samples: samples of the meshes.
+        place: indices of the flanks that carry, (meshes,).
+
+    Returns:
+        The forces [N], (samples, 2, meshes).
+    """
+    flanks = samples.mesh.shape[2]
+    drive = place % (flanks // 2)
+    forces = np.abs(samples.mesh[:, MESH_FORCE])
+    return np.stack([forces[:, drive], forces[:, _other_flanks(drive, flanks)]], axis=1)
+
+
+def axes_of_waves(
+    waves: Waves, planets: int, mesh_force: np.ndarray, mesh_frequency: float
+) -> AxesMotion | None:
     """Compute the motion of the axes from the samples of a window.
 
     Args:
         waves: samples of the window.
         planets: number of planets.
         mesh_force: mean force of each mesh over the window [N], (meshes,).
+        mesh_frequency: mean mesh frequency of the window [Hz].
 
     Returns:
         Displacements, forces and shares; None if the axes are held.
@@ -160,6 +199,7 @@ def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMot
         tilting_motion(
             waves.tilting.reshape(rows, len(names), waves.tilting.shape[1] // len(names))
         ),
+        mesh_cycles=mesh_frequency * waves.time,
     )
 
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ..ledger_check import balance_of_window
+from ..planar.error_turns import fewest_turns
 from ..planar.motion import AxesMotion
 from ..planar.statistics import axes_statistics
 from ..quantities import (
     CLIPPED,
     COURSE,
+    ERROR_TURNS,
     EXCESS,
     MEMBERS,
     MESH,
@@ -86,11 +89,20 @@ def row(scene: Scene, window: Window) -> Row:
     figures |= {name: float(getattr(window.course, name)) for name in COURSE}
     figures[SPEED_SHARE] = speed_share(scene, window.mesh_frequency)
     figures[EXCESS] = balance_of_window(window).excess
-    return figures if window.axes is None else figures | axes_row(window.axes)
+    if window.axes is None:
+        return figures
+    return figures | {ERROR_TURNS: _error_turns(scene, window)} | axes_row(window.axes)
+
+
+def _error_turns(scene: Scene, window: Window) -> float:
+    """Turns of the error that turns least; NaN if none turns."""
+    duration, carrier = window.end - window.start, abs(window.mean_speed[-1]) / (2.0 * math.pi)
+    found = fewest_turns(scene, window.mesh_frequency * duration, carrier * duration)
+    return math.nan if found is None else found.turns
 
 
 def axes_row(motion: AxesMotion) -> Row:
-    """Values of `AXES_RESULTS` of axes that move, in SI.
+    """Values of `AXES_RESULTS` that depend on the motion of axes alone, in SI.
 
     Args:
         motion: statistics of the axes over a window.

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..dynamics.bodies import rigid_ratios
 from ..gearset.kinematics import mesh_frequency
-from ..quantities import SPEED_SHARE
+from ..planar.error_turns import WHOLE_TURN
+from ..quantities import ERROR_TURNS, SPEED_SHARE
 from ..scene import Scene
 
 if TYPE_CHECKING:
@@ -72,7 +73,8 @@ def turning_of_study(table: pa.Table) -> Iterator[str]:
 
     Returns:
         A sentence about the points with less than a mesh cycle, another about those at a mean
-        speed that is not that of their operating point.
+        speed that is not that of their operating point, another about those whose load shares are
+        those of a part of a turn.
     """
     settings = json.loads(table.schema.metadata[b"settings"])
     duration = settings.get("duration", math.inf)  # a Stribeck curve has whole mesh cycles
@@ -97,3 +99,11 @@ def turning_of_study(table: pa.Table) -> Iterator[str]:
             f"speed than that of the operating point on average, at worst {worst:.3g} times it, "
             f"because {ADVICE}"
         )
+    if ERROR_TURNS in table.column_names:
+        turns = [n for n in table[ERROR_TURNS].to_pylist() if n is not None and n < WHOLE_TURN]
+        if turns:
+            yield (
+                f"at {len(turns)} of {len(table)} points ({ERROR_TURNS}) errors that turn against "
+                f"the planets cover less than a turn, down to {min(turns):.2g}: load shares are "
+                "those of this part; increase --duration, or see load-sharing"
+            )

@@ -21,7 +21,7 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
         "simulated_time": window.end,
         "interval": window.end - window.start,
         "sample_rate": window.sample_rate,
-        "load_sharing_factor": axes.load_sharing_factor,
+        "load_sharing_factor": float(axes.mean_load_share.max()),  # of the interval
         "load_share": with_room(axes.mean_load_share),
     }
     for name in FLANKS:
