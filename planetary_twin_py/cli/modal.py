@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need
+from ..terminal.messages import fail, need, remark
 from ..terminal.names import shown
 from ..terminal.output_files import output_file, writing
 from ..terminal.settings import changed_scene, settings
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from ..modal.campbell import Resonance
     from ..modal.modes import NaturalModes
     from ..modal.springs import SpringModel
+    from ..scene import Scene
 
 LEAST_CHANGE = 0.005  # [Hz]
 
@@ -30,8 +32,12 @@ LEAST_CHANGE = 0.005  # [Hz]
 def modal(
     scene: SceneArgument = "paper",
     model: Annotated[
-        str, typer.Option(help="One of torsional, machines, printed, planar, spatial.")
-    ] = "torsional",
+        str | None,
+        typer.Option(
+            help="One of torsional, machines, printed, planar, spatial.",
+            show_default="that of the dynamics of SCENE",
+        ),
+    ] = None,
     set_: SetOption = None,
     input_speed: Annotated[
         str,
@@ -57,11 +63,12 @@ def modal(
     if campbell is not None:
         need("plots", "matplotlib")
     from ..modal.campbell import resonances
-    from ..modal.natural import natural_modes, spring_model
+    from ..modal.natural import model_of, natural_modes, spring_model
 
     try:
-        speed = _speed(input_speed, model)
         loaded = changed_scene(scene, settings(set_ or []))
+        model = model_of(loaded) if model is None else model
+        speed = _speed(input_speed, model)
         single, mean = (natural_modes(loaded, model, k, speed) for k in ("single", "mean"))
         springs = spring_model(loaded, model, "mean")
     except ValueError as error:
@@ -72,6 +79,8 @@ def modal(
     title = f"{shown(loaded.name)}, {model} model{_turning(speed)}"
     console.print(_mode_table(title, single, mean, None if speed else springs))
     _print_resonances(console, found, limit)
+    if line := _bearings_of_load(loaded, model):
+        remark(f"warning: {line}")
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
@@ -100,6 +109,27 @@ def _speed(text: str, model: str) -> float:
             f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
         )
     return speed
+
+
+def _bearings_of_load(scene: Scene, model: str) -> str | None:
+    """A remark on bearings that are linear about their static load, if the model has any."""
+    from ..modal.natural import MOVING_AXES
+    from ..planar.small_motion import depends_on_load
+
+    supports = scene.supports
+    if supports is None or model not in MOVING_AXES:
+        return None
+    bodies = ("sun", "ring", "carrier", "planet")
+    found = [body for body in bodies if depends_on_load(getattr(supports, body))]
+    if not found:
+        return None
+    named = ", ".join(f"supports.{body}" for body in found)
+    torque = figure(scene.operating_point.input_torque, "N m")
+    return (
+        f"{named}: a bearing with clearance or rolling elements is linear about its mean static "
+        f"load at input_torque = {torque}, and has no stiffness without load: modes are those of "
+        "vibration that is small compared with this load"
+    )
 
 
 def _turning(speed: float) -> str:

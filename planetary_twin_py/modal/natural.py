@@ -21,8 +21,31 @@ MOVING_AXES = ("planar", "spatial")
 MODELS = ("torsional", "machines", "printed", "planar", "spatial")
 
 
+def model_of(scene: Scene) -> str:
+    """The model with the motions of a scene: "torsional", "planar" or "spatial".
+
+    That of a quasi-static dynamics has the same axes as the dynamics that vibrates.
+
+    Args:
+        scene: the scene; with dynamics: auto, `choose_dynamics` picks one.
+
+    Raises:
+        ValueError: the scene cannot run with any dynamics.
+    """
+    from ..dynamics_choice import AUTO, choose_dynamics  # runs, which most modes need not
+
+    if scene.dynamics == AUTO:
+        scene = choose_dynamics(scene).scene
+    if scene.tilting_axes:
+        return "spatial"
+    return "planar" if scene.moving_axes else "torsional"
+
+
 def natural_modes(
-    scene: Scene, model: str = "torsional", stiffness: str = "single", input_speed: float = 0.0
+    scene: Scene,
+    model: str | None = None,
+    stiffness: str = "single",
+    input_speed: float = 0.0,
 ) -> NaturalModes:
     """Natural modes of a scene without damping, at rest or turning at a constant speed.
 
@@ -31,8 +54,9 @@ def natural_modes(
         model: "torsional", gears and carrier as in a simulation (Kahraman 1994); "machines", the
             same with motor and load; "printed", eqs. (32)-(38) of Salagianni et al. 2017;
             "planar", Lin and Parker 1999; "spatial", six motions of every body. The last two
-            require `scene.supports`, whose rolling bearings are linear about the static
-            equilibrium at the torque of the scene.
+            require `scene.supports`, whose rolling bearings and bearings with clearance are
+            linear about the static equilibrium at the torque of the scene. None: that of the
+            dynamics of the scene, see `model_of`.
         stiffness: stiffness of every mesh. "single": one tooth pair is in contact; "mean": mean
             over the mesh cycle, which gives the modes at which a simulation resonates.
         input_speed: speed of the first motor [rad/s]. For the models planar and spatial, the
@@ -48,6 +72,7 @@ def natural_modes(
             stiffness is "mean" and at times no tooth pair is in contact; or centrifugal forces
             exceed the stiffness of bearings.
     """
+    model = model_of(scene) if model is None else model
     springs = spring_model(scene, model, stiffness)
     if input_speed == 0.0 or model not in MOVING_AXES:
         return modes_of(springs)
@@ -56,7 +81,7 @@ def natural_modes(
     return turning_modes(springs, turning_terms(springs, speeds["carrier"], speeds, angles))
 
 
-def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "single") -> SpringModel:
+def spring_model(scene: Scene, model: str | None = None, stiffness: str = "single") -> SpringModel:
     """Masses and springs of a scene.
 
     Args:
@@ -70,6 +95,7 @@ def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "singl
     Raises:
         ValueError: see `natural_modes`.
     """
+    model = model_of(scene) if model is None else model
     if model not in MODELS:
         raise ValueError(f"model = {model!r}: must be one of {', '.join(MODELS)}")
     mesh = mesh_stiffness(scene, stiffness)

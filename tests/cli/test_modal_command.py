@@ -29,6 +29,40 @@ def test_figures_are_those_of_the_library(scene, model):
         assert resonance["frequency"] == pytest.approx(mean.frequencies[resonance["mode"]])
 
 
+@pytest.mark.parametrize(
+    "scene, dynamics, model",
+    [
+        ("helical_stage", "spatial", "spatial"),
+        ("helical_stage", "quasi_static_planar", "planar"),
+        ("helical_stage", "torsional", "torsional"),
+        ("floating_sun", "planar", "planar"),
+        ("paper", "quasi_static", "torsional"),
+    ],
+)
+def test_the_model_is_that_of_the_dynamics_of_the_scene(scene, dynamics, model):
+    options = ("--set", f"dynamics={dynamics}", "--json", "-")
+    found, asked = (
+        json.loads(invoke(scene, *options, *more).stdout) for more in ((), ("--model", model))
+    )
+    assert found == asked
+    modes = pt.natural_modes(pt.load_scene(scene).replace(dynamics=dynamics))
+    assert found["frequencies_hz"] == pytest.approx(modes.frequencies.tolist())
+    assert f"{model} model" in invoke(scene, *options[:2]).output
+
+
+def test_the_simplest_dynamics_that_is_accurate_enough_has_the_modes_of_auto():
+    shown = invoke("floating_sun", "--set", "dynamics=auto", "--set", "dynamics_error=0.5").output
+    assert "torsional model" not in shown and "planar model" in shown
+
+
+def test_bearings_that_are_linear_about_their_load_are_named():
+    clearance = ("--set", "supports.planet.clearance=10um")
+    shown = " ".join(invoke("floating_sun", *clearance).stderr.split())
+    assert "warning: supports.planet: a bearing with clearance" in shown and "63 N m" in shown
+    for quiet in (("floating_sun",), ("floating_sun", *clearance, "--model", "torsional")):
+        assert "clearance" not in invoke(*quiet).stderr
+
+
 def test_modes_of_a_turning_carrier_are_those_of_the_library():
     options = ("--model", "planar", "--input-speed", "10rpm")
     figures = json.loads(invoke("wind_turbine_stage", *options, "--json", "-").stdout)

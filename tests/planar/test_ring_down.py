@@ -91,6 +91,17 @@ def test_equations_have_the_frequencies_of_the_planar_modes(flow, speed, planets
     assert found[-len(wanted) :] == pytest.approx(wanted, rel=1e-6)
 
 
+def test_pins_with_clearance_swing_about_their_load_at_the_frequencies_of_the_planar_modes():
+    scene = ringing(FLOWS[0], 4, 100.0)  # evenly spaced: equal loads
+    tight = expected(scene)
+    scene = scene.replace(**{"supports.planet.clearance": 1e-6, "input_torque": 3.0})
+    mass, by_x, _ = equations(scene)
+    found = np.sqrt(np.maximum(np.linalg.eigvals(-by_x / mass[:, None]).real, 0.0))
+    found, wanted = np.sort(found) / (2.0 * math.pi), expected(scene)
+    assert abs(wanted / tight - 1.0).max() > 0.1
+    assert found[-len(wanted) :] == pytest.approx(wanted, rel=1e-5)
+
+
 def swing(scene, mode, size):
     """Start of a run in which one mode swings: its frequency [Hz] and the state."""
     mass, by_x, by_v = equations(scene)
