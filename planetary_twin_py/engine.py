@@ -196,10 +196,13 @@ class Engine:
         if delay(self._end, goal) > LONGEST_UNWATCHED:
             for stop in self._stops(Fraction(until, TICKS), goal):
                 due = min(max(_due(stop, rate, first), done), room)
-                self._watch((yield part_to(instant(stop), _wave_rows(out, done, due), False)), end)
+                part = _wave_rows(out, done, due)
+                self._watch((yield part_to(instant(stop), part, False)), end)
+                self._watch_axes(part)
                 done = due
             out = _wave_rows(out, done, room)
         self._watch((yield part_to(goal, out, True)), end)
+        self._watch_axes(out)
 
     def _watch(self, outcome: int, end: WindowEnd) -> None:
         """Stop the run if the core has found no possible step, or has exceeded a limit."""
@@ -208,6 +211,13 @@ class Engine:
                 raise ArithmeticError(NO_FINITE_STATE)
             if outcome == EXCEEDED:
                 self._limits.check_window(end, self.model.load)
+        except ArithmeticError as reason:
+            self._fail(reason)
+
+    def _watch_axes(self, rows: Waves) -> None:
+        """Stop the run if samples exceed a limit of moving axes, which the core does not have."""
+        try:
+            self._limits.check_waves(rows)
         except ArithmeticError as reason:
             self._fail(reason)
 
@@ -244,6 +254,7 @@ class Engine:
         """Raise an `ArithmeticError` if the train exceeds a limit."""
         limits = self._limits
         limits.check_deflection(samples, self.model.load)
+        limits.check_displacements(samples.moved, samples.tilting)
         limits.speed.check(samples.speed)
         limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
 

@@ -15,8 +15,9 @@ from . import _core
 from ._core import DTE, IMPULSE, Load, Train, WindowEnd
 from .dynamics.bodies import MACHINE_NAMES, MeshNames, build_bodies, mesh_names
 from .dynamics.library import library
+from .dynamics.moving_axes import bearing_names
 from .dynamics.static_load import static_torques
-from .integrators.interpolant import Samples
+from .integrators.interpolant import Samples, Waves
 from .scene import Scene
 
 EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of the drive
@@ -62,6 +63,35 @@ class Limit(NamedTuple):
         )
 
 
+def displacement_limit(scene: Scene) -> Limit:
+    """Limit of the displacements of axes in the plane.
+
+    Args:
+        scene: scene with supports.
+    """
+    names, module = bearing_names(scene), scene.gearset.module
+    return Limit(
+        "displacement",
+        "m",
+        names,
+        np.full(len(names), module),
+        "a module, at which teeth no longer mesh; reduce the torque, or increase the stiffness of "
+        "the bearings (supports.*.bearing)",
+    )
+
+
+def _axial_limit(scene: Scene) -> Limit:
+    names = bearing_names(scene)
+    return Limit(
+        "axial displacement",
+        "m",
+        names,
+        np.full(len(names), scene.gearset.face_width),
+        "gearset.face_width, at which teeth no longer meet; reduce the torque, or increase the "
+        "axial stiffness of the bearings (supports.*.axial)",
+    )
+
+
 class Limits:
     """Limits of a run.
 
@@ -103,6 +133,10 @@ class Limits:
             f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
         )
         """Of the torques of the machines."""
+        self.displacement = displacement_limit(scene)
+        """Of the displacements of axes that move, see `check_displacements`."""
+        self.axial = _axial_limit(scene)
+        """The same along the axes."""
         self.record: _core.Limits = library(scene).Limits(
             deflection=self.deflection.largest,
             error=self._errors,
@@ -124,6 +158,32 @@ class Limits:
             ArithmeticError: a deflection exceeds its limit, or is NaN.
         """
         self._check_dte(np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0), load)
+
+    def check_displacements(self, moved: np.ndarray, tilting: np.ndarray) -> None:
+        """Check the displacements of axes, if these move.
+
+        Args:
+            moved: displacements in the plane [m], (samples, bearings, 2).
+            tilting: as in `Samples`, (samples, bearings, 6 or 0).
+
+        Raises:
+            ArithmeticError: a displacement exceeds its limit, or is NaN.
+        """
+        if moved.shape[1]:
+            self.displacement.check(np.hypot(moved[:, :, 0], moved[:, :, 1]))
+        if tilting.shape[2]:
+            self.axial.check(tilting[:, :, 0])
+
+    def check_waves(self, waves: Waves) -> None:
+        """Check the displacements of axes in the samples of a window, see `check_displacements`.
+
+        Args:
+            waves: the samples.
+        """
+        rows, bearings = len(waves.time), waves.displacement.shape[1] // 2
+        if rows and bearings:
+            moved = waves.displacement.reshape(rows, bearings, 2)
+            self.check_displacements(moved, waves.tilting.reshape(rows, bearings, -1))
 
     def check_window(self, end: WindowEnd, load: Load) -> None:
         """Check deflections and speeds of the samples of a window, and the torques at its end.

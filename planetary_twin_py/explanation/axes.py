@@ -21,7 +21,11 @@ def meaning_of_held_axes(scene: Scene) -> str:
         them it states whether the forces of the planets would move an axis.
     """
     if scene.supports is not None and scene.operating_point.input_torque != 0.0:
-        moving, held = load_sharing(scene), load_sharing(scene.replace(supports=None))
+        try:
+            moving = load_sharing(scene)
+        except ValueError as reason:
+            return f"{HELD}; the bearings of supports do not hold the load in statics: {reason}"
+        held = load_sharing(scene.replace(supports=None))
         return (
             f"{HELD}; in statics the largest share of a planet is {held.factor:.3f} with held "
             f"axes and {moving.factor:.3f} with the bearings of supports (command load-sharing); "

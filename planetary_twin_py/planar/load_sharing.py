@@ -22,11 +22,13 @@ from ..dynamics.rolling_bearings import largest_element_load, rolling_bearing
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
 from ..gearset.kinematics import mesh_cycles_per_turn
-from ..scene import Scene
+from ..runaway import displacement_limit
+from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
 from .errors import Displacements, displacements
 from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
 from .statics import Equilibrium, Springs, eccentricities, equilibrium
+from .unsupported import unsupported
 from .weight import weight_forces
 
 POSITIONS = 64  # in a mesh cycle, if the load repeats with it
@@ -92,10 +94,14 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
         Forces and displacements at each position.
 
     Raises:
-        ValueError: the torque is 0, the teeth are impossible, or bearings cannot hold the load.
+        ValueError: the torque is 0, the teeth are impossible, bearings cannot hold the load, or an
+            axis is displaced so far that teeth no longer mesh.
     """
     if scene.operating_point.input_torque == 0.0:
         raise ValueError("input_torque = 0: must not be 0, as there is no load to share")
+    if scene.supports is not None:
+        for error in unsupported(scene.supports):
+            raise SceneError(error)
     turns = _positions(scene) if turns is None else np.asarray(turns, dtype=float)
     gears = scene.gearset.geometry
     angles = [mesh.pressure_angle for mesh in gears.meshes]
@@ -108,8 +114,18 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
     closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
     solution = equilibrium(springs, force, closed)
+    if scene.supports is not None:
+        _check_displacements(scene, eccentricities(springs, solution.displacement))
     elements = _element_loads(scene, springs, solution)
     return _assemble_result(scene, rows, turns, errors, basis, solution, weight, elements)
+
+
+def _check_displacements(scene: Scene, displaced: np.ndarray) -> None:
+    """Check displacements in the bearings [m], (P, bearings, 2)."""
+    try:
+        displacement_limit(scene).check(np.linalg.norm(displaced, axis=2))
+    except ArithmeticError as reason:
+        raise ValueError(f"{reason}") from None
 
 
 def _positions(scene: Scene) -> np.ndarray:

@@ -123,6 +123,7 @@ class QuasiStaticEngine:
         )
         try:
             self._limits.check_deflection(samples, self.model.load)
+            self._limits.check_displacements(samples.moved, samples.tilting)
         except ArithmeticError as reason:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
         self._core.advance_origin(self.model, self._origin, instant(until))

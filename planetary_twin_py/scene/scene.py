@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from ..gearset.kinematics import MEMBERS
+from ..planar.unsupported import unsupported, unsupported_along
 from ..spatial.bearings import missing_stiffnesses
 from .defect import explain
 from .drive import Drive
@@ -226,6 +227,9 @@ class Scene(Section):
                     f"{', '.join(missing)}: missing; {why} every body requires an axial and a "
                     "tilting stiffness, 0 where it floats"
                 )
+            yield from unsupported(supports)
+            if self.tilting_axes and self.gearset.helix_angle != 0.0:
+                yield from unsupported_along(supports)
             for name in ("sun", "ring", "carrier"):
                 torsion = getattr(supports, name).torsion
                 if torsion != 0.0 and name != held:

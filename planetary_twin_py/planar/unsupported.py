@@ -1,0 +1,53 @@
+"""Bearings without which loads of the teeth have no equilibrium."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..scene.supports import Support, Supports
+
+
+def unsupported(supports: Supports) -> Iterator[str]:
+    """Errors of bearings that leave the gear set, or its planets, without support in the plane.
+
+    Args:
+        supports: the bearings.
+
+    Yields:
+        A line for each error.
+    """
+    central = ("sun", "ring", "carrier")
+    if all(_floats(getattr(supports, body)) for body in central):
+        fields = ", ".join(f"supports.{body}.bearing" for body in central)
+        yield (
+            f"{fields} = 0: one of them must be above 0 N/m, or rolling, as nothing else holds the "
+            "gears in the housing"
+        )
+    if _floats(supports.planet):
+        yield (
+            "supports.planet.bearing = 0: must be above 0 N/m, or rolling, as the pins carry the "
+            "torque between planets and carrier"
+        )
+
+
+def unsupported_along(supports: Supports) -> Iterator[str]:
+    """Errors of bearings that leave a gear with helical teeth without support along its axis.
+
+    The thrusts of both meshes of a planet cancel, those of sun and ring do not.
+
+    Args:
+        supports: the bearings, with their axial stiffness.
+
+    Yields:
+        A line for each error.
+    """
+    for body in ("sun", "ring"):
+        if getattr(supports, body).axial == 0.0:
+            yield (
+                f"supports.{body}.axial = 0: must be above 0 N/m with helical teeth "
+                f"(gearset.helix_angle), which push the {body} along its axis"
+            )
+
+
+def _floats(support: Support) -> bool:
+    return support.rolling is None and not support.bearing

@@ -1,0 +1,83 @@
+"""Bearings that cannot hold their bodies are refused, and runs whose axes leave the teeth stop."""
+
+import re
+
+import numpy as np
+import pytest
+from command_line import run
+
+import planetary_twin_py as pt
+
+FLOATING = pt.load_scene("floating_sun")
+HELICAL = pt.load_scene("helical_stage")
+NOTHING = {"supports.ring.bearing": 0.0, "supports.carrier.bearing": 0.0}  # the sun floats
+ROLLING = {"balls": 9, "diameter": 8e-3}
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (NOTHING, "supports.sun.bearing, supports.ring.bearing, supports.carrier.bearing = 0"),
+        ({"supports.planet.bearing": 0.0}, "supports.planet.bearing = 0: must be above 0 N/m"),
+    ],
+)
+def test_gears_that_nothing_holds_in_the_plane_are_refused_by_runs_and_statics(given, said):
+    for dynamics in ("planar", "quasi_static_planar"):
+        with pytest.raises(ValueError, match=re.escape(said)):
+            FLOATING.replace(dynamics=dynamics, **given)
+    held = FLOATING.replace(dynamics="torsional", **given)  # does not use them
+    pt.simulate(held, 0.002)
+    with pytest.raises(ValueError, match=re.escape(said)):
+        pt.load_sharing(held)
+
+
+def test_one_bearing_of_any_kind_holds_the_gears():
+    for body in ("sun", "ring", "carrier"):
+        pt.load_sharing(FLOATING.replace(**NOTHING | {f"supports.{body}.bearing": 1e8}))
+    carrier = {"supports.carrier": {"mass": 3.0, "rolling": ROLLING}}
+    pt.load_sharing(FLOATING.replace(**{"supports.ring.bearing": 0.0}, **carrier))
+
+
+@pytest.mark.parametrize("body", ["sun", "ring"])
+@pytest.mark.parametrize("dynamics", ["spatial", "quasi_static_spatial"])
+def test_a_helical_gear_without_axial_bearing_is_refused_and_a_spur_gear_is_not(body, dynamics):
+    floats = {f"supports.{body}.axial": 0.0, "dynamics": dynamics}
+    with pytest.raises(ValueError, match=f"supports.{body}.axial = 0: must be above 0 N/m"):
+        HELICAL.replace(**floats)
+    HELICAL.replace(**floats, **{"gearset.helix_angle": 0.0})
+    HELICAL.replace(**{"supports.planet.axial": 0.0, "supports.carrier.axial": 0.0})
+
+
+@pytest.mark.parametrize("dynamics", ["planar", "quasi_static_planar"])
+def test_pins_that_yield_by_a_module_stop_the_run(dynamics):
+    """The load of a pin over its stiffness is its deflection."""
+    scene = FLOATING.replace(dynamics=dynamics, **{"lubrication.friction": False})
+    pin = pt.load_sharing(scene).planet_bearing
+    load = np.linalg.norm(pin, axis=2).max()
+    module = scene.gearset.module
+    stiff, soft = (scene.replace(**{"supports.planet.bearing": load / (part * module)})
+                   for part in (0.6, 1.4))  # fmt: skip
+    displaced = pt.simulate(stiff, 0.01).axes.statistics.displacement_peak
+    assert 0.5 * module < displaced[3:].max() < module
+    stopped = r"the run stops .*: displacement of planet_\d = .* m: must be at most 0.0008 m"
+    with pytest.raises(pt.RunawayError, match=stopped):
+        pt.simulate(soft, 0.01)
+    with pytest.raises(pt.RunawayError, match=stopped):
+        pt.Twin(soft).advance(0.01)
+    pt.load_sharing(stiff)
+    with pytest.raises(ValueError, match="displacement of planet_1 = "):
+        pt.load_sharing(soft)
+
+
+def test_a_helical_sun_that_leaves_the_ring_along_its_axis_stops_the_run():
+    scene = HELICAL.replace(**{"supports.sun.axial": 1e5})
+    stopped = r"axial displacement of sun = .* m: must be at most 0.62 m, gearset.face_width"
+    with pytest.raises(pt.RunawayError, match=stopped):
+        pt.simulate(scene, 0.01)
+
+
+def test_the_command_ends_with_one_line_and_no_figures():
+    made = run("load-sharing", "floating_sun", "--set", "supports.planet.bearing=0N/m")
+    assert made.returncode == 2 and not made.stdout
+    assert made.stderr.startswith("planetary-twin: supports.planet.bearing = 0: ")
+    assert made.stderr.count("\n") == 1
