@@ -48,7 +48,8 @@ def lost_motion(
 
     The input is held, and the output is loaded slowly from 0 to TORQUE, to its opposite and back.
     Angles are those of the members of the gear set, without the couplings; the last stiffness is
-    that from the motor to the load.
+    that from the motor to the load. Bearings, shafts and the carrier are rigid, also those of a
+    scene with supports.
 
     Example: planetary-twin lost-motion paper --torque '100 N m' --picture loop.png
     """
@@ -64,7 +65,9 @@ def lost_motion(
             found = measure(loaded, largest, share, report=advance)
     except (ValueError, ArithmeticError) as error:
         fail(error)
-    _print(console_beside(json_), found, largest)
+    console = console_beside(json_)
+    _print(console, found, largest)
+    console.print(_HELD, highlight=False)
     if not found.settled:
         remark(
             "warning: the twist had not come to rest at some torques: the loop is wider than that "
@@ -83,6 +86,12 @@ def lost_motion(
             save(lost_motion_diagram(loaded, found), str(picture))
     if json_ is not None:
         write_json(_figures(found), json_)
+
+
+_HELD = (
+    "Of the teeth alone: bearings, shafts and the carrier are rigid, so a measured gearbox is "
+    "softer. The compliance of the contacts is that at the largest torque"
+)
 
 
 def _print(console: Console, found: LostMotion, largest: float) -> None:

@@ -136,7 +136,9 @@ def lost_motion(
     The scene is simulated at speed 0, so friction sticks and breaks away by the laws of the scene.
     Machines and couplings are replaced by stiff and well damped ones, which hold the input and come
     to rest between two torques. Inertias are replaced by larger ones, because vibration of light
-    gears would require steps of a microsecond. Neither changes the statics.
+    gears would require steps of a microsecond. Neither changes the statics. Teeth whose stiffness
+    follows the load have that of the largest torque at all torques. Axes are held: bearings, shafts
+    and the carrier are rigid.
 
     Args:
         scene: scene with one input.
@@ -166,6 +168,7 @@ def lost_motion(
             f"torque = {torque!r} N m: must be above 0 and at most {limit * abs(per_input):g} N m, "
             "from drive.torque_limit"
         )
+    scene = scene.replace(input_torque=float(np.clip(torque / per_input, -limit, limit)))
     bench = _on_bench(scene)
     twin = Twin(bench, tolerance=tolerance)
     # Not at torque 0, at which the output may rest anywhere in its backlash.
@@ -196,10 +199,9 @@ def _motion(readings: list[tuple[float, float]]) -> float:
 
 
 def _on_bench(scene: Scene) -> Scene:
-    """The gear set at rest between stiff machines."""
+    """The gear set at rest between stiff machines; contacts are as stiff as at its torque."""
     changes: dict[str, object] = {
         "input_speed": 0.0,
-        "input_torque": 0.0,
         "torque_ripple": 0.0,
         "dynamics": "torsional",
         "mesh.damping": {"law": "viscous", "damping_ratio": MESH_DAMPING},

@@ -52,6 +52,32 @@ def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
     assert found.stiffness_with_couplings == pytest.approx(1.0 / series)
 
 
+def quasi_static_stiffness(scene, torque):
+    """Torque on the output over its twist [N m/rad], in a quasi-static run, mean of both senses."""
+    stiffness = []
+    for sense in (1.0, -1.0):
+        driving = sense * torque / static_torques(scene)[LOAD_MACHINE]
+        changes = {"dynamics": "quasi_static", "input_torque": driving, "input_speed": 1e-3}
+        dte = pt.simulate(scene.replace(**changes), 1e-3, sample_rate=1e4).dte[0]
+        stiffness.append(torque / (abs(dte[0] + dte[5]) / LEVER))
+    return np.mean(stiffness)
+
+
+@pytest.mark.parametrize("torque", [20.0, 400.0])
+def test_contacts_of_involute_teeth_are_as_stiff_as_at_the_torque_of_the_bench(torque):
+    scene = SMOOTH.replace(**{"mesh.stiffness": "involute", "backlash": 0.0})
+    found = lost_motion(scene, torque, levels=10)
+    assert found.stiffness == pytest.approx(quasi_static_stiffness(scene, torque), rel=0.01)
+    light, heavy = (quasi_static_stiffness(scene, each) for each in (1.0, 400.0))
+    assert heavy > 1.1 * light
+
+
+def test_the_command_says_what_is_rigid():
+    options = ["lost-motion", "floating_sun", "--torque", "20 N m", "--set", "dynamics=torsional"]
+    shown = " ".join(CliRunner().invoke(build_app(), options).output.split())
+    assert "bearings, shafts and the carrier are rigid" in shown
+
+
 @pytest.mark.exhaustive
 def test_printed_gears_have_the_lost_motion_and_the_stiffness_of_their_rig():
     # Backlash and output coupling of the scene are chosen so; friction of 0.8, light gears.
