@@ -96,8 +96,13 @@ def write_results(
         write(table, out)
 
 
-def warn(table: pa.Table, scene: Scene) -> None:
-    """Print the warnings that apply to the results of a study of `scene`, a line each."""
+def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
+    """Print the warnings that apply to the results of a study, a line each.
+
+    Args:
+        table: results.
+        scenes: scenes that were computed, such as those of `Study.extremes`.
+    """
     from ..planar.held_axes import held_axes_warning
     from ..studies.clipping import clipping_of_study
     from ..studies.energy_balance import unbalanced_runs
@@ -105,7 +110,7 @@ def warn(table: pa.Table, scene: Scene) -> None:
     from ..studies.turning import turning_of_study
 
     lines = (
-        held_axes_warning(scene),
+        next(filter(None, map(held_axes_warning, scenes)), None),
         clipping_of_study(table),
         unbalanced_runs(table),
         *inaccuracies(table),

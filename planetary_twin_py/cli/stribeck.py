@@ -24,8 +24,8 @@ def stribeck(
 ) -> None:
     """Stribeck curves of the sun and ring meshes of SCENE: boundary, viscous and total friction.
 
-    Each speed is one quasi-static mesh cycle under the load of the scene. The lambda ratio is
-    computed, even if the scene prescribes one.
+    Each speed is one quasi-static mesh cycle under the load of the scene. Axes move if they do in
+    the dynamics of the scene. The lambda ratio is computed, even if the scene prescribes one.
 
     Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
     """
@@ -33,6 +33,7 @@ def stribeck(
     from ..studies.axes import Axis
     from ..studies.local import Threads
     from ..studies.stribeck import stribeck as run
+    from ..studies.stribeck import stribeck_scene
     from ..studies.work import Failure
 
     try:
@@ -50,7 +51,8 @@ def stribeck(
         write_results(table, out, kind="stribeck")
     except (ValueError, OSError) as error:
         fail(error)
-    warn(table, loaded)
+    computed = stribeck_scene(loaded)
+    warn(table, [computed])
     oil = loaded.lubrication
     if oil.boundary == "greenwood_tripp" and oil.traction not in ("schlenk", "table"):
         remark(
@@ -58,4 +60,4 @@ def stribeck(
             "of the load, so friction hardly rises for thin films; use load_sharing for a "
             "boundary regime"
         )
-    typer.echo(f"{out}: {count} speeds")
+    typer.echo(f"{out}: {count} speeds, dynamics = {computed.dynamics}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -17,6 +17,7 @@ from ..terminal.unit_options import SECONDS
 from ._study import TABLES, axis, check_suffix, progress, warn, write_results
 
 if TYPE_CHECKING:
+    from ..scene import Scene
     from ..studies.plan import Study
     from ..studies.sweep import Report
     from ..studies.work import Executor, Failure
@@ -81,9 +82,10 @@ def sweep(
         journal.unlink()
     except (ValueError, OSError) as error:
         fail(error)
-    for line in _without_effect(study, fixed):
+    scenes = study.extremes()
+    for line in _without_effect(scenes, (*fixed, *study.fields)):
         remark(f"warning: {line}")
-    warn(table, loaded)
+    warn(table, scenes)
     failed = len(table) - table["failure"].null_count
     typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
 
@@ -102,13 +104,13 @@ def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
         yield name.replace("-", "_"), text
 
 
-def _without_effect(study: Study, fixed: Iterable[str]) -> Iterator[str]:
-    """A warning for each given field that has no effect at any point."""
-    from ..scene.unused import without_effect
+def _without_effect(scenes: Sequence[Scene], names: Iterable[str]) -> Iterator[str]:
+    """A warning for each of the fields `names` that has no effect in any of the scenes."""
+    from ..scene.unused import not_in_use, without_effect
 
-    chosen = "lubrication.lambda_ratio"  # if it varies, so may the effect of other fields
-    names = (*fixed, *study.fields)
-    return iter(()) if chosen in study.fields else without_effect(study.scene, names)
+    for name in names if scenes else ():
+        if all(not_in_use(scene, name) for scene in scenes):
+            yield from without_effect(scenes[0], [name])
 
 
 @contextmanager

@@ -146,7 +146,7 @@ class QuasiStaticEngine:
         out.time[:] = np.arange(first, first + rows) / rate
         out.dte[:], out.mesh_force[:] = shown[:, DTE], shown[:, MESH_FORCE]
         out.friction[:] = shown[:, BOUNDARY] + shown[:, VISCOUS]
-        if moving:
+        if moving and rows:
             self._put_axes(samples, place, out)
         self.begin_window(until, end)
         end.sums = record_of(self.pop_mesh_sums(time), self._core)

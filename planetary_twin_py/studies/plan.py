@@ -63,6 +63,27 @@ class Study:
     points: tuple[Point, ...]
     settings: Settings = Settings()
 
+    def extremes(self) -> list[Scene]:
+        """Scenes of the first and of the last point with each combination of choices.
+
+        Choices are values that are not numbers, such as the dynamics. Warnings about scenes need
+        not judge every point.
+        """
+        chosen: dict[str, list[Point]] = {}
+        for point in self.points:
+            choices = {
+                name: value for name, value in point.changes.items() if not _is_number(value)
+            }
+            chosen.setdefault(repr(choices), []).append(point)
+        points = [points[end] for points in chosen.values() for end in (0, -1)[: len(points)]]
+        return [scene for point in points if (scene := self._scene(point)) is not None]
+
+    def _scene(self, point: Point) -> Scene | None:
+        try:
+            return self.scene.replace(**point.changes)
+        except ValueError:  # a failure of the point
+            return None
+
     def key(self, point: Point, versions: str) -> str:
         """Digest of everything that determines the results of a point.
 
@@ -162,6 +183,10 @@ def _study(scene: Scene, axes: Sequence[Axis | Span], rows: Any, settings: Setti
         Point(place, dict(zip(fields, row, strict=True))) for place, row in enumerate(rows)
     )
     return Study(scene, fields, points, settings)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def describe(changes: Mapping[str, Any]) -> str:

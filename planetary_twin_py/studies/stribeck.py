@@ -22,8 +22,18 @@ from .work import Executor, Failure, Found
 if TYPE_CHECKING:
     import pyarrow as pa
 
-LAWS = {"dynamics": "quasi_static", "lubrication.lambda_ratio": "computed"}
-"""Changes to the given scene."""
+STILL = {"planar": "quasi_static_planar", "spatial": "quasi_static_spatial"}
+"""Dynamics in which axes move as in those of a scene, without vibration; quasi_static otherwise."""
+
+
+def stribeck_scene(scene: Scene) -> Scene:
+    """The scene of a Stribeck curve: quasi-static with the axes of a scene, lambda ratio computed.
+
+    Args:
+        scene: the gearbox; with dynamics: auto, the axes are held.
+    """
+    dynamics = scene.dynamics if scene.quasi_static else STILL.get(scene.dynamics, "quasi_static")
+    return scene.replace(**{"dynamics": dynamics, "lubrication.lambda_ratio": "computed"})
 
 
 @dataclass(frozen=True)
@@ -57,7 +67,7 @@ _SHORT = 1e-6  # [s], a run from which to read the mesh frequency
 def stribeck(
     scene: Scene, axis: Axis | Span, executor: Executor, report: Report = lambda done, failure: None
 ) -> pa.Table:
-    """Sweep over `axis`, usually the input speed, with the scene changed by `LAWS`.
+    """Sweep over `axis`, usually the input speed, with the scene of `stribeck_scene`.
 
     Args:
         scene: the gearbox.
@@ -73,7 +83,7 @@ def stribeck(
     """
     from .table import tabulate
 
-    study = grid(scene.replace(**LAWS), [axis])
+    study = grid(stribeck_scene(scene), [axis])
     evaluation = CycleEvaluation(study.scene)
     results: dict[int, Found] = {}
     for point, result in executor.run(evaluation, study.points):

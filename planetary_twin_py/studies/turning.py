@@ -99,7 +99,7 @@ def turning_of_study(table: pa.Table) -> Iterator[str]:
             f"speed than that of the operating point on average, at worst {worst:.3g} times it, "
             f"because {ADVICE}"
         )
-    if ERROR_TURNS in table.column_names:
+    if ERROR_TURNS in table.column_names and "duration" in settings:
         turns = [n for n in table[ERROR_TURNS].to_pylist() if n is not None and n < WHOLE_TURN]
         if turns:
             yield (

@@ -45,6 +45,20 @@ def test_a_study_with_held_axes_warns_if_bearings_would_change_the_shares(tmp_pa
     assert "warning: dynamics = torsional holds all axes: planet 1 carries 3.67" in done.output
 
 
+@pytest.mark.parametrize(
+    ("dynamics", "held"), [("planar", 0), ("quasi_static_planar,planar", 0), ("torsional", 1)]
+)
+def test_warnings_are_about_the_scenes_that_are_computed(dynamics, held, tmp_path):
+    done = run(
+        "floating_sun", "--set", "dynamics=torsional", "--dynamics", dynamics,
+        "--supports.sun.bearing", "1e6N/m,1e7N/m", "--duration", "0.004", "--settling", "0",
+        "--out", tmp_path / "s.csv",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    assert done.stderr.count("holds all axes") == held
+    assert done.stderr.count("supports.sun.bearing: has no effect") == held
+
+
 def test_points_are_sampled_on_request(tmp_path):
     out = tmp_path / "study.csv"
     done = run("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)

@@ -9,6 +9,8 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck
+from planetary_twin_py.studies.table import read
+from planetary_twin_py.studies.turning import wanted_mesh_frequency
 
 
 @pytest.mark.parametrize("side", ["sun_planet", "planet_ring"])
@@ -38,3 +40,30 @@ def test_the_command_reports_where_asperities_have_no_boundary_regime(boundary, 
         if "use load_sharing for a boundary regime" in line
     ]
     assert len(warnings) == lines
+
+
+@pytest.mark.parametrize(
+    ("name", "dynamics", "used"),
+    [
+        ("floating_sun", "planar", "quasi_static_planar"),
+        ("floating_sun", "torsional", "quasi_static"),
+        ("floating_sun", "quasi_static_planar", "quasi_static_planar"),
+        ("helical_stage", "spatial", "quasi_static_spatial"),
+    ],
+)
+def test_axes_move_in_a_stribeck_curve_as_in_the_scene(name, dynamics, used, tmp_path):
+    out = tmp_path / "curve.parquet"
+    arguments = ["stribeck", name, "--input-speed", "5rpm,10rpm", "--out", str(out)]
+    done = CliRunner().invoke(build_app(), [*arguments, "--set", f"dynamics={dynamics}"])
+    assert done.exit_code == 0 and f"dynamics = {used}" in done.stdout, done.output
+    held = used == "quasi_static"
+    assert ("holds all axes" in done.stderr) == held
+    table = read(out)
+    assert table["failure"].null_count == 2
+    changes = {"dynamics": used, "lubrication.lambda_ratio": "computed", "input_speed": pt.rpm(10)}
+    scene = pt.load_scene(name).replace(**changes)
+    run = pt.simulate(scene, 1.0 / wanted_mesh_frequency(scene))
+    planets = scene.gearset.planets
+    friction = run.mesh["viscous_friction"][planets:].mean()
+    found = table["planet_ring_viscous_friction"].to_pylist()[-1]
+    assert found == pytest.approx(friction, rel=2e-3)
