@@ -103,6 +103,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
         table: results.
         scenes: scenes that were computed, such as those of `Study.extremes`.
     """
+    from ..explanation.pressure import pressure_of_scene
     from ..planar.held_axes import held_axes_warning
     from ..studies.clipping import clipping_of_study
     from ..studies.energy_balance import unbalanced_runs
@@ -111,6 +112,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
 
     lines = (
         next(filter(None, map(held_axes_warning, scenes)), None),
+        next(filter(None, map(pressure_of_scene, scenes)), None),
         clipping_of_study(table),
         unbalanced_runs(table),
         *inaccuracies(table),

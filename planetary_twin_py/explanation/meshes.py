@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .._core import damping_time, half_width
+from .._core import damping_time
 from ..dynamics.mean_stiffness import mean_stiffness
 from ..dynamics.mesh_damping import natural_frequencies
 from ..dynamics.start import build_load
@@ -13,10 +13,10 @@ from ..dynamics.static_load import mesh_force
 from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.train import build_train, held_axes
 from ..losses.ohlendorf import tooth_loss_factor
-from ..lubrication.hertz import contact_modulus
 from ..mesh.overlap import overlap_ratio
 from ..scene import Scene
 from .friction import friction_figures
+from .pressure import pitch_pressure
 
 
 class MeshFigures(NamedTuple):
@@ -79,7 +79,7 @@ def describe_meshes(scene: Scene) -> Meshes:
     natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
     sun_force = mesh_force(scene, point.input_torque)
     force, from_sun = abs(sun_force), sun_force * passing
-    pressure = [_pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
+    pressure = [pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
     working_meshes = gearset.geometry.meshes
     paths = [mesh.path for mesh in working_meshes]
@@ -126,18 +126,3 @@ def _driver(from_sun: float, first: str, second: str) -> str | None:
     if from_sun == 0.0:
         return None
     return first if from_sun > 0.0 else second
-
-
-def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
-    """Largest pressure [Pa] of one pair at the pitch point under `force` [N].
-
-    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha),
-    over cos(beta_b) of helical teeth, with the same load per length of their contact lines.
-    """
-    gearset, oil = scene.gearset, scene.lubrication
-    first, second = gearset.geometry.meshes[kind].curvatures
-    radius = 1.0 / (1.0 / first + (-1.0 if kind == 1 else 1.0) / second)
-    radius /= math.cos(gearset.base_helix)
-    modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
-    width = gearset.face_width
-    return 0.5 * modulus * half_width(force, radius, width, modulus) / radius

@@ -1,0 +1,82 @@
+"""Hertz pressure of the teeth, and the pressure up to which laws of friction are in use."""
+
+from __future__ import annotations
+
+import math
+
+from .._core import half_width
+from ..dynamics.static_load import mesh_force
+from ..lubrication.hertz import contact_modulus
+from ..quantities import SIDES, side_title
+from ..result import Result
+from ..scene import Scene
+
+LARGEST = 2e9
+"""Largest pressure of the friction laws [Pa]: that up to which docs/lubrication.md compares them. A
+line contact yields at 1.67 times the yield stress (Johnson 1985, sec. 6.1), hardened steel of 1.2
+GPa at 2 GPa."""
+
+
+def pitch_pressure(scene: Scene, force: float, kind: int) -> float:
+    """Largest pressure of one pair at the pitch point.
+
+    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha),
+    over cos(beta_b) of helical teeth, with the same load per length of their contact lines.
+
+    Args:
+        scene: the scene.
+        force: force of the mesh [N], not negative.
+        kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
+
+    Returns:
+        The pressure [Pa].
+    """
+    gearset, oil = scene.gearset, scene.lubrication
+    first, second = gearset.geometry.meshes[kind].curvatures
+    radius = 1.0 / (1.0 / first + (-1.0 if kind == 1 else 1.0) / second)
+    radius /= math.cos(gearset.base_helix)
+    modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
+    width = gearset.face_width
+    return 0.5 * modulus * half_width(force, radius, width, modulus) / radius
+
+
+def pressure_of_run(scene: Scene, run: Result) -> str | None:
+    """Warn if the mean force of any mesh in a run presses teeth beyond the laws of friction.
+
+    Args:
+        scene: the scene.
+        run: its result.
+
+    Returns:
+        A sentence, or None.
+    """
+    forces = abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1).max(axis=1)
+    return _warning(scene, forces.tolist())
+
+
+def pressure_of_scene(scene: Scene) -> str | None:
+    """Warn if the static force of the meshes presses teeth beyond the laws of friction.
+
+    Args:
+        scene: the scene.
+
+    Returns:
+        A sentence, or None.
+    """
+    return _warning(scene, [abs(mesh_force(scene, scene.operating_point.input_torque))] * 2)
+
+
+def _warning(scene: Scene, forces: list[float]) -> str | None:
+    if not scene.lubrication.friction:
+        return None
+    pressures = [pitch_pressure(scene, force, kind) for kind, force in enumerate(forces)]
+    largest = max(pressures)
+    if not largest > LARGEST:
+        return None
+    side = side_title(SIDES[pressures.index(largest)])
+    return (
+        f"Hertz pressure = {1e-9 * largest:.3g} GPa in the {side} meshes, one pair at the pitch "
+        f"point: no law of friction is compared above {1e-9 * LARGEST:g} GPa, where hardened steel "
+        "begins to yield, so friction, losses and efficiency are extrapolated; reduce the torque, "
+        "or check gearset.face_width and gearset.module"
+    )
