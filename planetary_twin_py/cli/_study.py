@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -61,6 +62,27 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span:
         for value in dict.fromkeys(ends):
             say_units(scene.replace(**{field: value}), {field: value})
     return found
+
+
+def default_speeds(scene: Scene, share: float, count: str) -> str:
+    """Input speeds of a study for which none are given.
+
+    Args:
+        scene: the scene.
+        share: lowest speed over the highest one [-].
+        count: number of speeds, as in a range: "41:log".
+
+    Returns:
+        The range up to the largest of 1, 2, 5, 10 ... rpm within `drive.speed_limit`, in the sense
+        of the input speed of the scene.
+    """
+    from ..units import rpm
+
+    limit = scene.drive.speed_limit / rpm(1.0)
+    decade = 10.0 ** math.floor(math.log10(limit))
+    highest = next(part * decade for part in (5.0, 2.0, 1.0) if part * decade <= limit)
+    highest = math.copysign(highest, scene.operating_point.input_speed)
+    return f"{share * highest:.10g}rpm:{highest:.10g}rpm:{count}"
 
 
 def write_results(

@@ -12,15 +12,20 @@ from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
-from ._study import TABLES, axis, check_suffix, progress, write_results
+from ._study import TABLES, axis, check_suffix, default_speeds, progress, write_results
 
 
 def bifurcation(
     scene: SceneArgument,
     out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
     input_speed: Annotated[
-        str, typer.Option(metavar="FROM:TO:COUNT", help="Input speeds, each held constant.")
-    ] = "1000rpm:10000rpm:181",
+        str | None,
+        typer.Option(
+            metavar="FROM:TO:COUNT",
+            help="Input speeds, each held constant.",
+            show_default="181 in a decade up to drive.speed_limit",
+        ),
+    ] = None,
     settling: Annotated[
         float,
         typer.Option(help="Simulated time at each speed before sampling starts.", **SECONDS),
@@ -52,6 +57,7 @@ def bifurcation(
     try:
         changes = settings(set_ or [])
         loaded = changed_scene(scene, changes)
+        input_speed = input_speed or default_speeds(loaded, 0.1, "181")
         speeds = axis(loaded, "input_speed", input_speed)
         if not isinstance(speeds, Axis):
             fail(f"--input-speed = {input_speed!r}: must be FROM:TO:COUNT")

@@ -11,15 +11,20 @@ from ..terminal.arguments import SceneArgument, SetOption
 from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import TABLES, axis, check_suffix, progress, warn, write_results
+from ._study import TABLES, axis, check_suffix, default_speeds, progress, warn, write_results
 
 
 def stribeck(
     scene: SceneArgument,
     out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
     input_speed: Annotated[
-        str, typer.Option(metavar="VALUES", help="Input speeds, written as for sweep.")
-    ] = "1rpm:10000rpm:41:log",
+        str | None,
+        typer.Option(
+            metavar="VALUES",
+            help="Input speeds, written as for sweep.",
+            show_default="41 in four decades up to drive.speed_limit",
+        ),
+    ] = None,
     set_: SetOption = None,
 ) -> None:
     """Stribeck curves of the sun and ring meshes of SCENE: boundary, viscous and total friction.
@@ -38,7 +43,7 @@ def stribeck(
 
     try:
         loaded = changed_scene(scene, settings(set_ or []))
-        speeds = axis(loaded, "input_speed", input_speed)
+        speeds = axis(loaded, "input_speed", input_speed or default_speeds(loaded, 1e-4, "41:log"))
         count = len(speeds.values) if isinstance(speeds, Axis) else 0
         with progress("speeds", count) as advance:
 

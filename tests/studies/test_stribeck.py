@@ -6,7 +6,8 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.cli._study import default_speeds
+from planetary_twin_py.studies.axes import Axis, read_axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.table import read
@@ -67,3 +68,22 @@ def test_axes_move_in_a_stribeck_curve_as_in_the_scene(name, dynamics, used, tmp
     friction = run.mesh["viscous_friction"][planets:].mean()
     found = table["planet_ring_viscous_friction"].to_pylist()[-1]
     assert found == pytest.approx(friction, rel=2e-3)
+
+
+@pytest.mark.parametrize("name", pt.packaged_scenes())
+def test_default_speeds_are_round_and_within_the_limit_of_the_drive(name):
+    scene = pt.load_scene(name)
+    axis = read_axis(scene, "input_speed", default_speeds(scene, 1e-4, "41:log"))
+    assert len(axis.values) == 41
+    assert axis.values[-1] == pytest.approx(1e4 * axis.values[0])
+    assert 0.4 * scene.drive.speed_limit < axis.values[-1] <= scene.drive.speed_limit
+    backwards = scene.replace(input_speed=-scene.operating_point.input_speed)
+    opposite = read_axis(backwards, "input_speed", default_speeds(backwards, 1e-4, "41:log"))
+    assert opposite.values == pytest.approx([-value for value in axis.values])
+
+
+def test_a_slow_machine_needs_no_speeds(tmp_path):
+    out = tmp_path / "curve.csv"
+    done = CliRunner().invoke(build_app(), ["stribeck", "wind_turbine_stage", "--out", str(out)])
+    assert done.exit_code == 0, done.output
+    assert read(out)["failure"].null_count == 41
