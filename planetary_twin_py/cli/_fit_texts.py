@@ -68,7 +68,7 @@ def noise_levels(given: Sequence[str]) -> dict[str, float]:
     for name, value in settings(given, "--noise").items():
         try:
             found[_name(name)] = float(value)
-        except ValueError:
+        except (TypeError, ValueError):  # of a list or null
             raise ValueError(f"--noise {name} = {value!r}: must be a number in SI") from None
     return found
 

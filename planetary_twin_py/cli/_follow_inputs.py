@@ -115,7 +115,7 @@ def _factors(given: Sequence[str]) -> dict[str, float]:
     for name, value in settings(given, "--scale").items():
         try:
             found[name] = float(value)
-        except ValueError:
+        except (TypeError, ValueError):  # of a list or null
             raise ValueError(f"--scale {name} = {value!r}: must be a number") from None
     return found
 

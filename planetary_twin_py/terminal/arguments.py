@@ -78,7 +78,8 @@ SetOption = Annotated[
         "--set",
         metavar="NAME=VALUE",
         help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um, faults.0.tooth=3. "
-        "Write lists as in a scene file. Repeatable. `planetary-twin fields` lists the fields.",
+        "Write lists as in a scene file; null removes an optional field. Repeatable. "
+        "`planetary-twin fields` lists the fields.",
         autocompletion=complete_setting,
     ),
 ]

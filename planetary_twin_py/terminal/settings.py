@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 _COLLECTIONS = ("[", "{")
+_NOTHING = "null"  # removes an optional value or section, as in a scene file
 
 
 def settings(given: Sequence[str], option: str = "--set") -> dict[str, Any]:
@@ -19,10 +20,11 @@ def settings(given: Sequence[str], option: str = "--set") -> dict[str, Any]:
     Args:
         given: texts NAME=VALUE. Lists and sections are written as in a scene file:
             gearset.planet_angles=[0 deg, 180 deg], losses.planet_bearing={mean_diameter: 10 mm}.
+            null removes an optional value or section.
         option: name of the option that gives them, for error messages.
 
     Returns:
-        Values (texts, lists and mappings) by name.
+        Values (texts, lists, mappings and None) by name.
 
     Raises:
         ValueError: a text is not NAME=VALUE, or a name occurs twice.
@@ -36,7 +38,7 @@ def settings(given: Sequence[str], option: str = "--set") -> dict[str, Any]:
             raise ValueError(f"{option} {setting!r}: must be NAME=VALUE")
         if name in values:
             raise ValueError(f"{option} {name}: given twice, as {values[name]} and as {value}")
-        values[name] = value
+        values[name] = None if value.strip() == _NOTHING else value
         if value.lstrip().startswith(_COLLECTIONS):
             values[name] = read_yaml(value, f"{option} {name}")
     return values

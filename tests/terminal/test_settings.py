@@ -69,6 +69,28 @@ def test_lists_and_sections_are_written_as_in_a_scene_file():
     assert scene.mesh.runout.sun == pytest.approx(2e-7)
 
 
+def test_null_removes_what_is_optional_as_in_a_scene_file():
+    given = ["supports=null", "dynamics=torsional", "lubrication.friction_table=null"]
+    scene = pt.load_scene("floating_sun").replace(**settings(given))
+    assert scene.supports is None and scene.lubrication.friction_table is None
+    rolling = ["supports.sun.bearing=null", "supports.sun.rolling={balls: 9, diameter: 8 mm}"]
+    scene = pt.load_scene("floating_sun").replace(**settings(rolling))
+    assert scene.supports.sun.bearing is None and scene.supports.sun.rolling.balls == 9
+
+
+@pytest.mark.parametrize(
+    ("setting", "said"),
+    [
+        ("supports.sun.clearance=null", "supports.sun.clearance = None: must be a number within"),
+        ("mesh=null", "mesh = None: must be a section"),
+    ],
+)
+def test_null_for_what_is_required_is_refused_in_one_line(setting, said):
+    made = invoke("simulate", "floating_sun", "--set", setting)
+    assert made.exit_code == 2 and not made.stdout
+    assert made.stderr.startswith(f"planetary-twin: {said}") and made.stderr.count("\n") == 1
+
+
 def test_a_setting_that_is_given_twice_is_refused():
     with pytest.raises(ValueError, match="--set backlash: given twice, as 1um and as 2um"):
         settings(["backlash=1um", "backlash=2um"])
