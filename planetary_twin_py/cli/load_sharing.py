@@ -119,7 +119,7 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     for heading in ("member", "bearing", "largest displacement", "orbit", "largest bearing force"):
         table.add_column(heading, justify="right")
     largest_force = float(found.mesh_force.max())
-    largest_move = float(np.linalg.norm(found.displacement, axis=2).max())
+    size = scene.gearset.module  # of the lengths that displacements change
     for k, body in enumerate(CENTRAL):
         moved = found.displacement[:, k]
         displaced = float(np.linalg.norm(moved, axis=1).max())
@@ -129,8 +129,8 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
         table.add_row(
             body,
             _bearing_text(support),
-            figure(without_rounding(displaced, largest_move), "m"),
-            figure(without_rounding(orbit, largest_move), "m"),
+            figure(without_rounding(displaced, size), "m"),
+            figure(without_rounding(orbit, size), "m"),
             figure(without_rounding(force, largest_force), "N"),
         )
     return table

@@ -98,19 +98,15 @@ def simulate(
     print_list(console, "gears", gears(loaded))
     print_list(console, "operating point", operating_point(loaded))
     for name, value in train.items():
+        if name in _SOURCES and not _has_several(train):
+            continue
         label, unit = _TRAIN[name]
         note = f" ({losses_in_words(loaded)})" if name == "efficiency" else ""
         console.print(f"{label:38} {figure(value, unit, digits=6)}{note}", markup=False)
     if train["mean_mesh_force_N"] < 0.0:
         console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))
-    axes = {}
-    if result.axes is not None and result.axes.statistics is not None:
-        axes = _axes(result.axes, result.axes.statistics)
-        console.print(_axes_table(result.axes, axes))
-        if "load_sharing_factor" in axes:
-            factor = axes["load_sharing_factor"]
-            console.print(f"load sharing factor K_gamma, largest of these shares: {factor:.4f}")
+    axes = _print_axes(console, result.axes)
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
         remark(f"warning: {line}")
@@ -144,6 +140,9 @@ _TRAIN = {
     "settling_s": ("excluded at the start", "s"),
     "efficiency": ("efficiency", "-"),
     "mean_power_loss_W": ("power loss, mean", "W"),
+    "tooth_friction_W": ("- of tooth friction", "W"),
+    "bearing_loss_W": ("- of bearings, seals and grease", "W"),
+    "churning_loss_W": ("- of churning", "W"),
     "mean_dte_m": ("DTE of all meshes, mean", "m"),
     "dte_vibration_rms_m": ("DTE of all meshes, rms about the mean", "m"),
     "dte_peak_m": ("DTE of any mesh, peak", "m"),
@@ -153,6 +152,12 @@ _TRAIN = {
     "energy_residual": ("energy residual/input energy", "-"),
     "real_time_factor": ("real-time factor", "-"),
 }
+_SOURCES = ("tooth_friction_W", "bearing_loss_W", "churning_loss_W")  # of the power loss
+
+
+def _has_several(train: dict[str, float]) -> bool:
+    """Whether more than one source has a loss."""
+    return sum(train[name] != 0.0 for name in _SOURCES) > 1
 
 
 def _train(scene: Scene, result: Result) -> dict[str, float]:
@@ -167,6 +172,9 @@ def _train(scene: Scene, result: Result) -> dict[str, float]:
     return {
         "efficiency": result.efficiency,
         "mean_power_loss_W": seen.power_loss,
+        "tooth_friction_W": energy.friction / result.duration,
+        "bearing_loss_W": energy.bearing / result.duration,
+        "churning_loss_W": energy.churning / result.duration,
         "mean_dte_m": seen.dte_mean,
         "dte_vibration_rms_m": seen.dte_rms,
         "dte_peak_m": seen.dte_peak,
@@ -229,6 +237,17 @@ _TILTING = {
     "tilting_moment_magnitude_Nm": ("tilting moment on the bearing, mean of its magnitude", "N m"),
     "tilting_moment_peak_Nm": ("tilting moment on the bearing, peak", "N m"),
 }
+
+
+def _print_axes(console: Console, motion: AxesMotion | None) -> dict[str, Any]:
+    """Print the results of axes that move, and return them by JSON name; nothing if held."""
+    if motion is None or motion.statistics is None:
+        return {}
+    found = _axes(motion, motion.statistics)
+    console.print(_axes_table(motion, found))
+    if factor := found.get("load_sharing_factor"):
+        console.print(f"load sharing factor K_gamma, largest of these shares: {factor:.4f}")
+    return found
 
 
 def _axes(motion: AxesMotion, seen: AxesStatistics) -> dict[str, Any]:

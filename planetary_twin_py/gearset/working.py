@@ -19,6 +19,8 @@ from .geometry import (
 from .involute import SpurGear
 from .shift import involute, working_angle
 
+ROUNDING = 1e-12  # relative error of sums of shifts and angles
+
 
 @dataclass(frozen=True)
 class WorkingMesh:
@@ -142,6 +144,8 @@ class WorkingMesh:
         angle, sense = self.first.pressure_angle, -1.0 if self.internal else 1.0
         opened = sense * self.teeth * (involute(self.pressure_angle) - involute(angle))
         closed = 2.0 * self.shift * math.tan(angle)
+        if math.isclose(opened, closed, rel_tol=ROUNDING, abs_tol=ROUNDING * involute(angle)):
+            return 0.0
         return self.first.module * math.cos(angle) * (opened - closed)
 
     @property

@@ -57,6 +57,13 @@ def test_forces_have_units_and_rounding_errors_are_not_shown():
     assert " N " in shown and "e-" not in shown
 
 
+def test_axes_that_stay_in_place_are_displaced_by_nothing():
+    """Equal loads of three planets; sums of their forces leave rounding errors."""
+    shown = invoke("wind_turbine_stage").output
+    rows = [line.split("│") for line in shown.splitlines() if "N/um" in line]
+    assert [[cell.strip() for cell in row[3:5]] for row in rows] == [["0 um", "0 um"]] * 3
+
+
 def test_both_flanks_are_reported():
     wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")
     assert "both flanks of a mesh touch" in invoke("floating_sun", *wedged).output

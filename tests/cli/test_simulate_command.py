@@ -113,6 +113,19 @@ def test_printed_results_have_units_and_name_the_meshes():
     assert printed == pytest.approx([dte[:3].mean(), dte[3:].mean()], rel=0.01)
 
 
+def test_the_loss_of_each_source_is_printed_if_there_are_several():
+    options = ("compact_actuator", "--duration", "0.05")
+    figures = json.loads(invoke(*options, "--json", "-").stdout)
+    parts = [figures[f"{part}_W"] for part in ("tooth_friction", "bearing_loss", "churning_loss")]
+    assert sum(parts) == pytest.approx(figures["mean_power_loss_W"], rel=1e-9)
+    drag = pt.load_scene("compact_actuator").losses.sun_drag.coulomb
+    speed = pt.load_scene("compact_actuator").operating_point.input_speed
+    assert parts[1] == pytest.approx(drag * speed, rel=2e-3)
+    shown = invoke(*options).stdout
+    assert "of bearings, seals and grease" in shown and "of tooth friction" in shown
+    assert "of tooth friction" not in invoke("paper", *SHORT).stdout
+
+
 def test_the_sign_of_the_coast_flanks_is_explained_where_they_carry_the_load():
     line = "Forces and DTE are negative where the coast flanks carry the load."
     assert line not in invoke("paper", *SHORT).stdout

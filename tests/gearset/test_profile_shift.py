@@ -41,6 +41,17 @@ def test_tip_alterations_are_those_of_kisssoft(sizes, alteration):
         assert found == pytest.approx(expected, abs=0.007)
 
 
+@pytest.mark.parametrize("sun, planet", [(0.26, 0.25), (0.3, 0.1), (0.437, 0.043)])
+def test_shifts_without_play_have_a_backlash_of_exactly_zero(sun, planet):
+    """The ring has the centre distance of the sun: x_planet + x_ring = -(x_sun + x_planet)."""
+    shift = PerGear(sun, planet, -sun - 2.0 * planet)
+    gears = build_gear_set(Sizes(Teeth(30, 20, 70), 0.8e-3, TWENTY, 1.0, shift))
+    assert [mesh.backlash for mesh in gears.meshes] == [0.0, 0.0]
+    wider = shift._replace(ring=shift.ring - 1e-6)
+    wider = build_gear_set(Sizes(Teeth(30, 20, 70), 0.8e-3, TWENTY, 1.0, wider))
+    assert wider.meshes[1].backlash > 0.0
+
+
 def test_published_tip_diameters():
     gears = build_gear_set(LJUBLJANA)
     found = [2e3 * gear.tip_radius for gear in (gears.sun, gears.planet, gears.ring)]
