@@ -101,7 +101,7 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
         raise ValueError("input_torque = 0: must not be 0, as there is no load to share")
     if scene.supports is not None:
         for error in unsupported(scene.supports):
-            raise SceneError(f"no static equilibrium is found: {error}")
+            raise SceneError(error)
     turns = _positions(scene) if turns is None else np.asarray(turns, dtype=float)
     gears = scene.gearset.geometry
     angles = [mesh.pressure_angle for mesh in gears.meshes]

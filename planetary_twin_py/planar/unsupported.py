@@ -20,13 +20,13 @@ def unsupported(supports: Supports) -> Iterator[str]:
     if all(_floats(getattr(supports, body)) for body in central):
         fields = ", ".join(f"supports.{body}.bearing" for body in central)
         yield (
-            f"{fields} = 0: one of them must be above 0 N/m, or rolling, as nothing else holds the "
-            "gears in the housing"
+            f"{fields} = 0: one of them must be above 0 N/m, or rolling, or there is no static "
+            "equilibrium: nothing else holds the gears in the housing"
         )
     if _floats(supports.planet):
         yield (
-            "supports.planet.bearing = 0: must be above 0 N/m, or rolling, as the pins carry the "
-            "torque between planets and carrier"
+            "supports.planet.bearing = 0: must be above 0 N/m, or rolling, or there is no static "
+            "equilibrium: the pins carry the torque between planets and carrier"
         )
 
 

@@ -79,5 +79,5 @@ def test_a_helical_sun_that_leaves_the_ring_along_its_axis_stops_the_run():
 def test_the_command_ends_with_one_line_and_no_figures():
     made = run("load-sharing", "floating_sun", "--set", "supports.planet.bearing=0N/m")
     assert made.returncode == 2 and not made.stdout
-    assert "no static equilibrium is found: supports.planet.bearing = 0: must be" in made.stderr
+    assert made.stderr.startswith("planetary-twin: supports.planet.bearing = 0: must be above 0")
     assert made.stderr.count("\n") == 1
