@@ -83,10 +83,17 @@ def parse_scene(text: str) -> Scene:
             name = one_line(str(base), 60)
             raise SceneError(
                 f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
-                f"{did_you_mean(name, packaged_scenes())}"
+                f"{did_you_mean(name, packaged_scenes())}{_no_file(name)}"
             )
         data = _overlaid(_without_other_inertia(load_scene(base).model_dump(), data), data)
     return validated(data)
+
+
+def _no_file(name: str) -> str:
+    """Part of a message if a base is the name of a file: a scene is one file."""
+    if "/" not in name and not name.endswith((".yaml", ".yml")):
+        return ""
+    return "; a file cannot be a base: copy its fields, or change it with --set NAME=VALUE"
 
 
 def _without_other_inertia(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:

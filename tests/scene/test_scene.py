@@ -230,6 +230,13 @@ def test_an_unknown_scene_is_reported_with_the_most_similar_one_if_any(name, end
     assert str(refusal.value).endswith(end)
 
 
+@pytest.mark.parametrize("name", ["own.yaml", "scenes/own", "own.yml"])
+def test_a_file_as_base_is_refused_with_what_to_do_instead(name):
+    with pytest.raises(pt.SceneError, match=r"must be one of .*; a file cannot be a base: ") as no:
+        pt.parse_scene(f"base: {name}")
+    assert str(no.value).endswith("--set NAME=VALUE")
+
+
 @pytest.mark.parametrize(
     "name, largest, unit",
     [
