@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-LEAST = 32  # samples in the mean of a cycle: the ripple then changes it by about 0.01 at most
+LEAST = 32  # samples in the mean of a cycle: a ripple of 0.3 then changes it by about 0.01
 LOADED = 0.5  # of the mean load: shares of cycles with less are not those that load the teeth
 
 
