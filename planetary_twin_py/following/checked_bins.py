@@ -10,7 +10,7 @@ from ..scene import Scene
 from .bins import Array, Bin, Counters
 from .checks import Checks
 from .merging import Merge
-from .sensors import Sensors, torque_gain, torque_noise, torque_zero
+from .sensors import Sensors, torque_noise
 from .spacing import Spacing
 from .train import FollowedTrain, followed_train
 from .unit_remarks import UnitRemarks
@@ -32,7 +32,7 @@ class CheckedBins:
         noise = torque_noise(sensors, train)
         self._ratio, self._period = train.ratio, period
         self._merge = Merge(period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(train, period, torque_zero(sensors, train), torque_gain(sensors))
+        self._checks = Checks(train, sensors, period)
         self._spacing = Spacing()
         self._unit_remarks = UnitRemarks(scene.operating_point)
 
@@ -56,8 +56,7 @@ class CheckedBins:
             InputError: a channel has another unit, sign or shaft, see `checks`.
         """
         for time_bin in self._merge.add(time, columns, sender):
-            self._check(time_bin)
-            yield time_bin
+            yield self._checked(time_bin)
 
     def finish(self) -> Iterator[Bin]:
         """Close the open bins, at the end of a recording.
@@ -69,21 +68,22 @@ class CheckedBins:
             InputError: see `add`.
         """
         for time_bin in self._merge.finish():
-            self._check(time_bin)
-            yield time_bin
+            yield self._checked(time_bin)
         self._checks.check()
 
     def remarks(self) -> Iterator[str]:
-        """A line for each unit that may be wrong."""
+        """A line for each unit that may be wrong, and for each later contradiction."""
+        yield from self._checks.remarks()
         yield from self._spacing.remarks(self._period)
         yield from self._unit_remarks.remarks()
 
-    def _check(self, time_bin: Bin) -> None:
-        self._checks.add(time_bin)
+    def _checked(self, time_bin: Bin) -> Bin:
+        time_bin = self._checks.add(time_bin)
         self._spacing.add((time_bin.number + 1) * self._period)
         values = {name: mean.value for name, mean in time_bin.means.items()}
         speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
         self._unit_remarks.add(values.get("input_torque", math.nan), speed)
+        return time_bin
 
 
 def table_remarks(
@@ -98,7 +98,7 @@ def table_remarks(
         columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
 
     Returns:
-        A line for each unit that may be wrong.
+        A line for each unit that may be wrong, and for each later contradiction.
 
     Raises:
         InputError: a channel has another unit, sign or shaft, see `checks`.

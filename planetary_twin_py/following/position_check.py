@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .checks import CHECKED, RPM, InputError
+from .checks import CHECKED, InputError
+from .contradictions import RPM
 
 FITS = 0.02  # turns, largest median deviation of a unit that fits
 FEWEST = 50  # pairs of readings that are needed
@@ -21,7 +22,7 @@ UNITS = {"rpm": 1.0 / RPM, "deg/s": math.pi / 180.0}
 
 @dataclass
 class PositionCheck:
-    """Compares speeds and positions of a shaft in the first seconds.
+    """Compares speeds and positions of a shaft in the first seconds in which it turns.
 
     Args:
         channel: name of the channel of the speed.
@@ -50,7 +51,6 @@ class PositionCheck:
             return
         self._rows.append((stamp, position, self.scale * speed))
         if stamp - self._rows[0][0] >= CHECKED:
-            self._done = True
             self._check()
             self._rows.clear()
 
@@ -58,6 +58,7 @@ class PositionCheck:
         stamp, position, speed = np.array(self._rows).T
         turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(stamp) / (2.0 * math.pi)
         moved = np.diff(position) / (2.0 * math.pi)
+        self._done = bool(np.median(np.abs(turned)) > FITS)  # any unit fits a slower shaft
         if len(turned) < FEWEST or _deviation(turned, moved) < FITS:
             return
         for unit, factor in UNITS.items():

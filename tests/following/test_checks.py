@@ -6,6 +6,7 @@ from following.plants import paper, played
 
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.sensors import Sensors
 
 RPM = 30.0 / np.pi
 WRONG = {
@@ -99,3 +100,84 @@ def test_kelvin_taken_for_degrees_celsius_is_named(readings):
     warm = np.full(len(time), 343.15 + 273.15)
     with pytest.raises(InputError, match="this sender probably uses kelvin"):
         Follower(paper()).add(Readings(time, columns | {"oil_temperature": warm}))
+
+
+def from_second(second, time, columns, factors):
+    """Columns that are wrong by factors from a time on."""
+    late = time > second
+    return {
+        name: np.where(late, values * factors.get(name, 1.0), values)
+        for name, values in columns.items()
+    }
+
+
+def at_rest_first(readings, seconds):
+    """Readings after a standstill without load."""
+    time, columns = readings
+    rest = np.arange(1, 100 * seconds + 1) / 100.0
+    before = {
+        name: np.full(len(rest), 343.15 if name == "oil_temperature" else 0.0) for name in columns
+    }
+    return np.concatenate([rest, seconds + time]), {
+        name: np.concatenate([before[name], values]) for name, values in columns.items()
+    }
+
+
+LATE = [what for what in WRONG if what != "degrees Celsius"]
+
+
+@pytest.mark.parametrize("what", LATE)
+def test_it_is_refused_too_if_the_train_turns_only_after_a_minute(readings, what):
+    factors, said = WRONG[what]
+    time, columns = at_rest_first(readings, 60)
+    wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
+    follower = Follower(paper())
+    with pytest.raises(InputError, match=said):
+        follower.add(Readings(time, wrong))
+        follower.finish()
+
+
+@pytest.mark.parametrize("what", ["reversed torque", "speed of the output in rpm"])
+def test_readings_that_become_wrong_during_the_run_are_a_remark_with_their_time(what):
+    factors, said = WRONG[what]
+    time, columns = played("steady", {}, 30.0)[1:]
+    follower = Follower(paper())
+    follower.add(Readings(time, from_second(12.0, time, columns, factors)))
+    follower.finish()
+    (line,) = (line for line in follower.estimate().remarks if said in line)
+    assert line.startswith("readings after 10.0 s contradict the scene")
+
+
+def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
+    time, columns = played("steady", {}, 20.0)[1:]
+    wrong = np.where(time > 12.0, 70.0, 343.15)
+    follower = Follower(paper())
+    follower.add(Readings(time, columns | {"oil_temperature": wrong}))
+    follower.finish()
+    found = follower.estimate()
+    assert any("after 12.0 s" in line and "probably degC" in line for line in found.remarks)
+    assert found.operating[1] == pytest.approx(343.15)
+
+
+@pytest.mark.parametrize("duty", ["steady", "varied", "reversing"])
+def test_good_readings_cause_no_remark_in_two_minutes(duty):
+    _, time, columns = played(duty, {}, 120.0, 3)
+    follower = Follower(paper())
+    follower.add(Readings(time, columns))
+    follower.finish()
+    assert not any("contradict" in line for line in follower.estimate().remarks)
+
+
+def test_a_run_up_whose_torque_accelerates_the_train_is_no_contradiction():
+    """All torque goes to the inertia: T = J a in closed form, with a loss of 0.3 N m."""
+    inertia, time = 5.0, np.arange(1, 1401) / 100.0
+    speed = np.minimum(10.5 * time, 104.7)
+    accelerating = speed < 104.7
+    columns = {
+        "input_torque": np.where(accelerating, inertia * 10.5 + 0.3, 63.0),
+        "output_torque": np.where(accelerating, 0.0, 62.0 * 7.0 / 3.0),
+        "input_speed": speed,
+    }
+    follower = Follower(paper(), Sensors(inertia=inertia))
+    follower.add(Readings(time, columns))
+    follower.finish()
