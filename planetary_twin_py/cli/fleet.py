@@ -12,7 +12,7 @@ import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need
+from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import TABLES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
@@ -83,6 +83,7 @@ def fleet(
     except (ValueError, ArithmeticError, OSError) as error:
         fail(error)
     _show(console, found)
+    _warn(found)
     if out is not None:
         from ..fleet.notes import write_state
 
@@ -110,13 +111,14 @@ def _executor(scheduler: str | None) -> Iterator[Executor]:
 
 
 def _show(console: Console, found: Sequence[GearboxResult]) -> None:
-    changed = [one for one in found if one.events]
+    changed = [one for one in found if one.events and not one.fault]
     estimated = sum(math.isfinite(one.estimates["friction_level"][0]) for one in found)
     console.print(
         f"{len(found)} gearboxes, friction level of {estimated} estimated, "
         f"{len(changed) or 'none'} changed",
         highlight=False,
     )
+    _show_faults(console, [one for one in found if one.fault])
     for one in changed[:SHOWN]:
         if not one.fits:
             console.print(
@@ -135,16 +137,51 @@ def _show(console: Console, found: Sequence[GearboxResult]) -> None:
         console.print(f"and {len(changed) - SHOWN} more; --out has all", highlight=False)
 
 
+def _show_faults(console: Console, faulty: Sequence[GearboxResult]) -> None:
+    for one in faulty[:SHOWN]:
+        console.print(
+            f"{one.gearbox}: readings contradict the scene, not estimated: {one.fault}",
+            highlight=False, markup=False, soft_wrap=True,
+        )  # fmt: skip
+    if len(faulty) > SHOWN:
+        more = len(faulty) - SHOWN
+        console.print(f"and {more} more contradict it; --out has all", highlight=False)
+
+
+def _warn(found: Sequence[GearboxResult]) -> None:
+    """Name the gearboxes with a doubtful unit, and those without complete readings."""
+    lines = [f"{one.gearbox}: {line}" for one in found if not one.fault for line in one.remarks]
+    for one in found:
+        count, first = one.missing
+        if count:
+            lines.append(
+                f"{one.gearbox}: at {count} times of the table, the first at {first:g} s, a torque "
+                "or the speed is missing; these rows are not used"
+            )
+    for line in lines[:SHOWN]:
+        remark(f"warning: {line}")
+    if len(lines) > SHOWN:
+        remark(f"warning: and {len(lines) - SHOWN} more lines; --json has all")
+
+
 def _figures(one: GearboxResult) -> dict[str, object]:
     return {
         "readings": one.readings,
+        "missing": one.missing[0],
+        "first_missing": _finite(one.missing[1]),
         "fits": one.fits,
+        "fault": one.fault or None,
+        "remarks": one.remarks,
         "estimates": {
-            name: [value if math.isfinite(value) else None for value in values]
-            for name, values in one.estimates.items()
+            name: [_finite(value) for value in values] for name, values in one.estimates.items()
         },
         "events": [
-            {"since": event.since, "found": event.found, "size": event.size, "share": event.share}
+            {name: _finite(getattr(event, name)) for name in ("since", "found", "size", "share")}
             for event in one.events
         ],
     }
+
+
+def _finite(value: float) -> float | None:
+    """`value`, or None in place of NaN, which JSON lacks."""
+    return value if math.isfinite(value) else None

@@ -19,6 +19,7 @@ from ..following.train import followed_train
 from ..scene import Scene
 from .balances import PARAMETERS, Balances, F, Row
 from .cusums import TERM, Cusums, Steps, limit
+from .faults import Faults
 from .loss_table import loss_table
 
 Array = NDArray[np.float64]
@@ -96,6 +97,7 @@ class Fleet:
         self._interval_filters = Balances(*common, interval_memory(), self.count)
         self._alarm_filters = Balances(*common, alarm_memory(self.train), self.count)
         self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
+        self._faults = Faults(self.scene, self.sensors, self.period, self.count)
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
@@ -104,6 +106,12 @@ class Fleet:
         """Whether the readings do not fit the scene, (n,): the loss has stepped three times in
         close succession, because units, signs or gains are wrong, or the scene is another one.
         Such a gearbox has no estimates, and no further events."""
+        self.missing = np.zeros(self.count, dtype=np.int64)
+        """Number of rows without a torque or the speed, (n,)."""
+        self.first_missing = np.full(self.count, math.nan)
+        """Time of the first of them [s], (n,); NaN if there is none."""
+        self._last_torque = np.full(self.count, self.train.torque)  # at which a step is compared
+        self._last_speed = np.full(self.count, self.train.speed)
         self._last_step_times = np.full(self.count, -math.inf)  # [s]
         self._close_steps = np.zeros(self.count, dtype=np.int64)  # in close succession
 
@@ -134,23 +142,63 @@ class Fleet:
         acceleration = np.where(np.isfinite(change), change / step, 0.0)
         self._time, self._speed = time, speed
         self._oil = np.where(np.isfinite(row["oil_temperature"]), row["oil_temperature"], self._oil)
+        self._note_missing(time, row)
+        self._faults.add(time, row)
         reading = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
         self._interval_filters.update(reading, step)
         innovations = self._alarm_filters.update(reading, step)
         self.readings += np.isfinite(innovations.value)
-        self._alarm(
-            time, reading, self._cusums.add(time, innovations.value, innovations.sd, self.period)
-        )
+        self._alarm(time, self._cusums.add(time, innovations.value, innovations.sd, self.period))
 
-    def _alarm(self, time: float, row: Row, steps: Steps) -> None:
+    def finish(self) -> None:
+        """Compare the last readings with the scene, at the end of a table."""
+        self._faults.check()
+
+    @property
+    def faults(self) -> Mapping[int, str]:
+        """Channel, value and correction by index of a gearbox whose readings contradict the scene.
+
+        Units and signs are checked after 10 rows, and then after ever more, up to 640. Such a
+        gearbox has no estimates.
+        """
+        return self._faults.lines
+
+    def remarks(self, gearbox: int) -> tuple[str, ...]:
+        """Torque and speed that are so far from the scene that their unit may be wrong.
+
+        Args:
+            gearbox: index of the gearbox.
+
+        Returns:
+            A line for each.
+        """
+        return self._faults.remarks(gearbox)
+
+    @property
+    def fits(self) -> NDArray[np.bool_]:
+        """Whether the readings fit the scene, (n,): neither `misfits` nor `faults`."""
+        fits = ~self.misfits
+        fits[list(self.faults)] = False
+        return fits
+
+    def _note_missing(self, time: float, row: Mapping[str, Array]) -> None:
+        """Count the rows without a balance, and keep the last torques and speeds."""
+        torque, speed = row["input_torque"], row["input_speed"]
+        missing = ~np.isfinite(torque + row["output_torque"] + speed)
+        self.missing += missing
+        self.first_missing[missing & np.isnan(self.first_missing)] = time
+        self._last_torque = np.where(missing, self._last_torque, torque)
+        self._last_speed = np.where(missing, self._last_speed, speed)
+
+    def _alarm(self, time: float, steps: Steps) -> None:
         fits = ~self.misfits[steps.gearbox]
         self._note_misfits(time, steps.gearbox)
         gearbox, since, size = (values[fits] for values in steps)
         if not len(gearbox):
             return
-        oil = row.oil_temperature[gearbox]
-        losses = self.table(row.input_torque[gearbox], row.input_speed[gearbox], oil)
-        direction = np.sign(row.input_speed[gearbox])
+        speed = self._last_speed[gearbox]
+        losses = self.table(self._last_torque[gearbox], speed, self._oil[gearbox])
+        direction = np.sign(speed)
         for k, index in enumerate(gearbox):
             value = float(direction[k] * size[k])
             loss = float(losses.teeth[k] + losses.rest[k])
@@ -185,7 +233,7 @@ class Fleet:
             raise ValueError(f"{name!r}: must be one of {', '.join(PARAMETERS[:4])}")
         state, filters = PARAMETERS.index(name), self._interval_filters
         sd = np.sqrt(np.maximum(filters.p[:, state, state], 0.0))
-        known = (sd < IDENTIFIABLE * filters.sd[state]) & ~self.misfits
+        known = (sd < IDENTIFIABLE * filters.sd[state]) & self.fits
         if state == F:
             sd = np.hypot(sd, self.table.error * filters.x[:, F] / CONFIDENT)
         value = np.where(known, filters.x[:, state], math.nan)

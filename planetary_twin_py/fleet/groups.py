@@ -34,7 +34,14 @@ class GearboxResult:
     events: tuple[FleetEvent, ...]
     """Steps of its loss; `FleetEvent.gearbox` is its index in the group."""
     fits: bool
-    """Whether its readings fit the scene, see `Fleet.misfits`."""
+    """Whether its readings fit the scene, see `Fleet.fits`."""
+    fault: str
+    """Channel, value and correction of readings that contradict the scene; empty without."""
+    remarks: tuple[str, ...]
+    """Torque and speed whose unit may be wrong, a line for each."""
+    missing: tuple[int, float]
+    """Number of times of the table without both torques and the speed, and the first of them [s].
+    """
 
 
 @dataclass(frozen=True)
@@ -68,6 +75,7 @@ class FollowGroup:
         fleet = Fleet(self.scene, len(group), period, self.sensors, fleet_size=self.count)
         for row, time in enumerate(table.time):
             fleet.add(float(time), {name: values[row] for name, values in table.columns.items()})
+        fleet.finish()
         estimates = {name: fleet.estimate(name) for name in PARAMETERS[:4]}
         return tuple(
             GearboxResult(
@@ -78,7 +86,10 @@ class FollowGroup:
                     for key, estimate in estimates.items()
                 },
                 tuple(event for event in fleet.events if event.gearbox == n),
-                not fleet.misfits[n],
+                bool(fleet.fits[n]),
+                fleet.faults.get(n, ""),
+                fleet.remarks(n),
+                (int(fleet.missing[n]), float(fleet.first_missing[n])),
             )
             for n, name in enumerate(group)
         )

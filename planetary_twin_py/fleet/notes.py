@@ -30,11 +30,16 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
     batch: dict[str, np.ndarray] = {
         "gearbox": np.array([result.gearbox for result in found]),
         "readings": np.array([result.readings for result in found]),
+        "missing": np.array([result.missing[0] for result in found]),
+        "first_missing": np.array([result.missing[1] for result in found]),
     }
     units = {
         "gearbox": "",
         "readings": "",
+        "missing": "",
+        "first_missing": "s",
         "fits": "",
+        "fault": "",
         "events": "",
         "last_event": "s",
         "last_size": "N m",
@@ -44,6 +49,7 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
             batch[heading] = np.array([result.estimates[name][part] for result in found])
             units[heading] = UNITS[name]
     batch["fits"] = np.array([int(result.fits) for result in found])
+    batch["fault"] = np.array([result.fault for result in found])
     batch["events"] = np.array([len(result.events) for result in found])
     last = [result.events[-1] if result.events else None for result in found]
     batch["last_event"] = np.array([np.nan if event is None else event.found for event in last])

@@ -45,19 +45,28 @@ class UnitRemarks:
 
     def remarks(self) -> Iterator[str]:
         """Lines that ask for the unit, if torques or speeds are far from those of the scene."""
-        if self._count < FEWEST:
-            return
-        torque, speed = abs(self.point.input_torque), abs(self.point.input_speed)
-        if 0.0 < self._torque < SMALL * torque:
-            yield (
-                f"input_torque is at most {self._torque:.3g} N m, and that of the scene is "
-                f"{torque:.3g} N m: is the unit of both torques right? The heading of a column in "
-                "kN m must be input_torque [kN m]"
-            )
-        mean = self._speeds / self._count
-        if speed > 0.0 and mean > FAST * speed:
-            yield (
-                f"input_speed is {mean:.4g} rad/s on average, {mean / speed:.3g} times that of the "
-                "scene: is the unit of both speeds right? The number in rpm is 9.55 times that in "
-                "rad/s; the heading of a column in rpm must be input_speed [rpm]"
-            )
+        if self._count >= FEWEST:
+            yield from unit_remarks(self.point, self._torque, self._speeds / self._count)
+
+
+def unit_remarks(point: OperatingPoint, torque: float, speed: float) -> Iterator[str]:
+    """Lines that ask for the unit, if torques or speeds are far from those of the scene.
+
+    Args:
+        point: operating point of the scene; a torque or speed of zero is not compared.
+        torque: largest magnitude of the input torque while the gearbox turns [N m].
+        speed: mean magnitude of the input speed while it turns [rad/s].
+    """
+    usual_torque, usual_speed = abs(point.input_torque), abs(point.input_speed)
+    if 0.0 < torque < SMALL * usual_torque:
+        yield (
+            f"input_torque is at most {torque:.3g} N m, and that of the scene is "
+            f"{usual_torque:.3g} N m: is the unit of both torques right? The heading of a column "
+            "in kN m must be input_torque [kN m]"
+        )
+    if usual_speed > 0.0 and speed > FAST * usual_speed:
+        yield (
+            f"input_speed is {speed:.4g} rad/s on average, {speed / usual_speed:.3g} times that of "
+            "the scene: is the unit of both speeds right? The number in rpm is 9.55 times that in "
+            "rad/s; the heading of a column in rpm must be input_speed [rpm]"
+        )

@@ -122,3 +122,84 @@ def test_wrong_rows_are_refused_in_one_line(change, message):
 def test_a_period_out_of_range_is_refused():
     with pytest.raises(ValueError, match=r"period = 0\.01 s: must be within 0\.1 and 60"):
         Fleet(paper(), 3, 0.01)
+
+
+RPM = 30.0 / np.pi
+WRONG = {
+    "reversed speed": ({"input_speed": -1.0}, "signs of both torques or of both speeds"),
+    "reversed torque": ({"output_torque": -1.0}, "scale output_torque by -1"),
+    "torque in N mm": ({"output_torque": 1e3}, "output_torque is probably in N mm"),
+    "speed in rpm": ({"input_speed": 2.0 * RPM}, "probably rpm: scale input_speed by 0.10472"),
+    "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "probably degC"),
+    "loss above the input power": ({"output_torque": -0.05}, "output_torque/input_torque"),
+}
+
+
+@pytest.mark.parametrize("begin", [0, 60])
+@pytest.mark.parametrize("what", WRONG)
+def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what, begin):
+    factors, said = WRONG[what]
+    played, good, fleet = Played(4, 9), Fleet(paper(), 4), Fleet(paper(), 4)
+    for time in range(1, 201):
+        row = played.row(float(time))
+        good.add(float(time), row)
+        wrong = {name: values.copy() for name, values in row.items()}
+        for name, factor in factors.items():
+            wrong[name][1] *= factor if time > begin else 1.0
+        fleet.add(float(time), wrong)
+    fleet.finish()
+    assert list(fleet.faults) == [1] and said in fleet.faults[1]
+    assert fleet.fits.tolist() == [True, False, True, True]
+    level, expected = fleet.estimate("friction_level"), good.estimate("friction_level")
+    assert np.isnan(level.value[1])
+    others = [0, 2, 3]
+    assert np.array_equal(level.value[others], expected.value[others])
+
+
+@pytest.mark.parametrize(
+    ("factors", "said"),
+    [
+        ({"input_speed": RPM}, "input_speed is 999.8 rad/s on average, 9.55 times"),
+        ({"input_torque": 1e-3, "output_torque": 1e-3}, "in kN m must be input_torque [kN m]"),
+    ],
+)
+def test_a_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
+    fleet, played = Fleet(paper(), 3), Played(3, 11)
+    for time in range(1, 101):
+        row = played.row(float(time))
+        for name, factor in factors.items():
+            row[name] = row[name] * np.array([1.0, 1.0, factor])
+        fleet.add(float(time), row)
+    fleet.finish()
+    assert not fleet.faults and not fleet.remarks(0) and not fleet.remarks(1)
+    (line,) = fleet.remarks(2)
+    assert said in line
+
+
+def test_good_readings_with_gaps_contradict_nothing():
+    fleet, played = Fleet(paper(), 50), Played(50, 10)
+    for time in range(1, 301):
+        row = played.row(float(time))
+        row["input_torque"][played.chance.random(50) < 0.2] = np.nan
+        fleet.add(float(time), row)
+    fleet.finish()
+    assert not fleet.faults
+
+
+def test_a_step_that_is_found_while_a_reading_is_missing_has_its_share():
+    """The share is that of the same step without the gap, within the scatter of the torque."""
+    whole = followed(Played(20, 2), 2400, 1200)
+    gap = max(event.found for event in whole.events if event.gearbox == 3)
+    played, fleet = Played(20, 2), Fleet(paper(), 20)
+    for time in range(1, 2401):
+        if time == 1200:
+            played.friction[:10] *= 1.1
+        row = played.row(float(time))
+        if time == gap:
+            row = {name: np.where(np.arange(20) == 3, np.nan, row[name]) for name in row}
+        fleet.add(float(time), row)
+    (found,) = (event for event in fleet.events if event.gearbox == 3)
+    (expected,) = (event for event in whole.events if event.gearbox == 3)
+    assert found.found == gap and found.share == pytest.approx(expected.share, rel=0.2)
+    assert fleet.missing.tolist() == [0, 0, 0, 1, *[0] * 16]
+    assert fleet.first_missing[3] == gap and np.isnan(fleet.first_missing[2])

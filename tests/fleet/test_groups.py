@@ -102,6 +102,31 @@ def test_the_command_writes_a_row_for_each_gearbox(table, tmp_path):
     assert float(rows[5]["friction_level"]) == figures["G05"]["estimates"]["friction_level"][0]
 
 
+def test_the_command_names_contradictions_and_missing_rows_in_valid_json(table, tmp_path):
+    lines = table.read_text().splitlines()
+    wrong, state = tmp_path / "wrong.csv", tmp_path / "state.json"
+    with wrong.open("w") as file:
+        for line in lines:
+            cells = line.split(",")
+            if cells[0] == "G05":
+                cells[4] = str(-float(cells[4]))
+            file.write(",".join(cells) + "\n")
+    said = run("fleet", "paper", "--from", wrong, "--out", tmp_path / "state.csv", "--json", state)
+    assert "G05: readings contradict the scene, not estimated: loss torque" in said.stdout
+    assert "G03: at 9 times of the table, the first at 210 s" in said.stderr
+
+    def refuse(constant):
+        raise AssertionError(constant)
+
+    figures = json.loads(state.read_text(), parse_constant=refuse)
+    assert figures["G05"]["fault"].startswith("loss torque") and not figures["G05"]["fits"]
+    assert figures["G05"]["estimates"]["friction_level"] == [None, None, None]
+    assert figures["G03"]["missing"] == 9 and figures["G04"]["fault"] is None
+    with (tmp_path / "state.csv").open() as file:
+        rows = {row["gearbox"]: row for row in csv.DictReader(file)}
+    assert rows["G05"]["fault"].startswith("loss torque") and rows["G03"]["missing"] == "9"
+
+
 def test_a_table_without_a_channel_is_refused_in_one_line(tmp_path):
     path = tmp_path / "scada.csv"
     path.write_text("gearbox,time,input_torque\nA,1,2\nA,2,2\n")
