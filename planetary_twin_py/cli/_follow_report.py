@@ -64,10 +64,8 @@ def _instant(time: float) -> str:
 
 def _lines(state: Following) -> Iterator[str]:
     """Events and teeth, one line each."""
-    if not state.events and _judged(state):
-        yield "no change found"
-    elif not state.events:
-        yield "changes cannot be found without both torques and a speed while the train turns"
+    if not state.events:
+        yield state.unchanged
     for event in state.events:
         causes = f"; {' or '.join(event.causes)}" if event.causes else ""
         since = f"since {_instant(event.since)}, found at {_instant(event.found)}"
@@ -81,12 +79,6 @@ def _lines(state: Following) -> Iterator[str]:
         )
         kinds = " or ".join(tooth.kinds)
         yield f"{tooth.gear} tooth {tooth.tooth}: {kinds}, {size}, z = {tooth.z:.1f}"
-
-
-def _judged(state: Following) -> bool:
-    """Whether a change could have been found: in the torques, by encoders or by vibration."""
-    periods = ("hunting_periods", "vibration_periods")
-    return state.innovation is not None or any(state.counters.get(name, 0) for name in periods)
 
 
 def state_figures(state: Following) -> dict[str, Any]:
@@ -128,6 +120,7 @@ def state_figures(state: Following) -> dict[str, Any]:
             }
             for tooth in state.teeth
         ],
+        "judged": dict(state.judged),
         "counters": state.counters,
         "remarks": state.remarks,
     }

@@ -96,7 +96,7 @@ class Contradictions:
         train, least = self.train, LOADED * self.train.torque
         loaded = (np.abs(input_torque) > least) | (np.abs(train.ratio * output_torque) > least)
         loaded &= np.isfinite(input_torque) & np.isfinite(output_torque) & (input_torque != 0.0)
-        if len(time) > 1:
+        if len(time) > 1 and np.diff(time).min() > 0.0:
             inertial = np.abs(self._inertia * np.gradient(speed, time))
             loaded &= ~(inertial > INERTIAL * np.abs(input_torque))  # true without a speed
         return loaded

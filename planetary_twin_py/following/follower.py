@@ -94,6 +94,22 @@ class Following:
     planet, ring; empty while a baseline is being learned."""
     cells: tuple[LearnedCell, ...]
     """Learning state of the baselines, by operating cell."""
+    judged: Mapping[str, bool] = field(default_factory=dict)
+    """Whether a change could have been found, by what is measured: "torque balance", "teeth" and
+    "vibration"; the remarks say why not."""
+
+    @property
+    def unchanged(self) -> str:
+        """What it means that there are no events."""
+        judged = [f"the {name}" for name, known in self.judged.items() if known]
+        others = [name for name, known in self.judged.items() if not known]
+        if not others:
+            return "no change found"
+        if judged:
+            return f"no change in {' and '.join(judged)}; not judged: {', '.join(others)}"
+        if len(others) == 1:
+            return "changes cannot be found without both torques and a speed while the train turns"
+        return f"not judged: {', '.join(others)}"
 
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of the quantity `name`."""
@@ -137,7 +153,7 @@ class Follower:
         self._teeth: TeethFollower | None = None
         self._vibration: VibrationFollower | None = None
         if self.encoders is not None:
-            self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
+            self._follow_teeth(self.encoders)
 
     @property
     def time(self) -> float:
@@ -189,15 +205,21 @@ class Follower:
 
     def _teeth_follower(self, block: EncoderSamples) -> TeethFollower:
         """Return the follower of the teeth, with the format that the first samples state."""
-        if self._teeth is None:
+        teeth = self._teeth
+        if teeth is None:
             if block.format is None:
                 raise ValueError("encoders: their counts per turn and their period are missing")
             self.encoders = block.format
-            self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
+            teeth = self._follow_teeth(block.format)
             if self._loaded.teeth is not None:
-                self._teeth.restore(self._loaded.teeth)
+                teeth.restore(self._loaded.teeth)
         if block.format not in (None, self.encoders):
             raise InputError(f"encoders: {block.format}: must be {self.encoders} as before")
+        return teeth
+
+    def _follow_teeth(self, encoders: EncoderFormat) -> TeethFollower:
+        """Start to follow the teeth by encoders whose format is known."""
+        self._teeth = TeethFollower(self.scene, *encoders, self.sensors.learning)
         return self._teeth
 
     def learn(self) -> None:
@@ -292,7 +314,17 @@ class Follower:
              *self._vibration_remarks()),
             balance.operating, balance.innovation, balance.scatter,
             () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
+            self._judged(),
         )  # fmt: skip
+
+    def _judged(self) -> dict[str, bool]:
+        """Whether a change could have been found, by what is measured."""
+        judged = {"torque balance": self._balance.innovation is not None}
+        if self._teeth is not None:
+            judged["teeth"] = self._teeth.compared > 0
+        if self._vibration is not None:
+            judged["vibration"] = self._vibration.counters.compared_periods > 0
+        return judged
 
     def _add_readings(self, block: Readings) -> None:
         columns = {}

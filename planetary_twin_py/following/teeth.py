@@ -91,6 +91,8 @@ class TeethFollower:
     """Teeth that have changed."""
     blocks: int = field(init=False, default=0)
     """Number of hunting periods that have been judged."""
+    compared: int = field(init=False, default=0)
+    """Number of hunting periods that have been compared with a baseline."""
     every_z: tuple[float, ...] = field(init=False, default=())
     """Amount of the signature of every tooth in the last hunting period, in standard deviations;
     empty while a baseline is being learned."""
@@ -223,6 +225,7 @@ class TeethFollower:
                 self._subtract_known_teeth(cell, cell_index)
             return
         assert cell.bank is not None  # set with the cell
+        self.compared += 1
         residual, measured = cell.residual(block, torque)
         products, squares = cell.bank.score(residual, measured)
         self._recent.append(
@@ -461,6 +464,10 @@ class TeethFollower:
             yield self._restore_remark
         if self._torque_assumed:
             yield "encoders: the torque is not measured: that of the scene is assumed"
+        if not self.blocks:
+            yield "teeth: not judged, as the encoders show no complete hunting period"
+        elif not self.compared and any(cell.learned for cell in self._cells):
+            yield "teeth: not judged, as no hunting period follows those of the baseline"
         if self._cells and not any(cell.learned for cell in self._cells):
             most = max(cell.count for cell in self._cells)
             yield f"teeth: {most} of {self.learning} hunting periods of a baseline are learned"

@@ -27,7 +27,7 @@ from .estimate import CONFIDENT, Event, estimated, not_identifiable
 from .onset import onset_of
 from .tooth_search import ALARM
 from .train import FollowedTrain
-from .vibration_lines import HARMONICS, PatternAmplitudes
+from .vibration_lines import HARMONICS, STRETCH, PatternAmplitudes
 
 Array = NDArray[np.float64]
 
@@ -37,6 +37,7 @@ OVER_SPEED = 4.0  # largest exponent over the speed: 2 of an acceleration, the r
 WINDOWS = 4, 16  # hunting periods that are judged together
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
 STEADY = 0.02  # relative standard deviation of the speed, above which the period is not used
+DOUBTFUL = 0.05  # share of the hunting periods that are not judged, above which there is a remark
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
 SLOWEST = 0.05  # share of the speed of the scene, below which the train counts as at rest
 UNKNOWN = "; size of the fault: NOT IDENTIFIABLE, as the path to the sensor is unknown"
@@ -79,6 +80,18 @@ class VibrationCounters:
     """Hunting periods that were judged or learned."""
     dropped_periods: int = 0
     """Hunting periods with missing samples, with a varying speed, or with too little torque."""
+    constant_periods: int = 0
+    """Hunting periods in which a channel does not change."""
+    unscaled_periods: int = 0
+    """Hunting periods whose first mesh order is not where the measured speed places it."""
+    compared_periods: int = 0
+    """Hunting periods in which a growth would have been reported."""
+
+    @property
+    def complete(self) -> int:
+        """All complete hunting periods, also those that were not used."""
+        unused = self.dropped_periods + self.constant_periods + self.unscaled_periods
+        return self.periods + unused
 
 
 class _Judged(NamedTuple):
@@ -156,6 +169,10 @@ class VibrationFollower:
         self._most_samples = round(2.0 * self._longest_period / period)
         self._begin = math.nan  # start of the present hunting period [s]
         self._judged_until = math.nan  # time of the last call of `judge` [s]
+        self._sampled = math.inf, -math.inf  # first and last sample [s]
+        self._speed_from = math.nan  # first reading of the speed [s]
+        self._constant: set[str] = set()  # channels
+        self._highest = math.inf  # mesh order that the samples resolve, in the last hunting period
         self.learn()
 
     @property
@@ -218,6 +235,10 @@ class VibrationFollower:
         usable = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
         self.counters.late += int(np.sum(~usable))
         self._waiting.append((time[usable], values[usable]))
+        known = time[np.isfinite(time)]
+        if len(known):
+            first, last = self._sampled
+            self._sampled = min(first, float(known.min())), max(last, float(known.max()))
 
     def _waits_too_long(self) -> bool:
         """Whether there are no readings, or their end is long before the newest samples."""
@@ -236,6 +257,9 @@ class VibrationFollower:
         if until == self._judged_until:
             return
         self._judged_until = until
+        if math.isnan(self._speed_from):
+            known = turning(-math.inf, until).time
+            self._speed_from = float(known[0]) if len(known) else math.nan
         while self._waiting:
             if math.isnan(self._begin) and not self._start(turning(-math.inf, until)):
                 return
@@ -290,25 +314,41 @@ class VibrationFollower:
         if not (complete and steady and abs(torque) > CELL * self._train.torque):
             self.counters.dropped_periods += 1
             return
+        cell = self._cell_at(torque, speed)
+        self._highest = cell.highest
+        if constant := {
+            name
+            for name, spread in zip(self.names, np.ptp(values, axis=0), strict=True)
+            if not spread
+        }:
+            self.counters.constant_periods += 1
+            self._constant |= constant
+            return
+        found = self._amplitudes.of(_angle(time, course), values, cell.highest)
+        if found is None:
+            self.counters.unscaled_periods += 1
+            return
         self.counters.periods += 1
-        cell = next(
-            (baseline for baseline in self._baselines if baseline.covers(torque, speed)), None
-        )
-        if cell is None:
-            mesh = abs(float(self._train.cycles) * speed) * (1.0 + CELL) / (2.0 * math.pi)  # [Hz]
-            cell = _Baseline(torque, speed, RESOLVED / (self.period * mesh))
-            self._baselines.append(cell)
-        angle = _angle(time, course)
-        amplitudes, floor = self._amplitudes.of(angle, values, cell.highest) / abs(torque)
+        amplitudes, floor = found / abs(torque)
         judged = _Judged(span[0], amplitudes, floor, torque, speed)
         if cell is not self._cell:
             self._cell = cell
             self._recent.clear()
+        if not cell.learned:
+            self._baselines.append(cell)
         if len(cell.learned) < self._learning:
             cell.learned.append(judged)
             return
         self._recent.append(judged)
         self._report_growth(cell, span[1])
+
+    def _cell_at(self, torque: float, speed: float) -> _Baseline:
+        """The baseline of an operating point, or a new one."""
+        for baseline in self._baselines:
+            if baseline.covers(torque, speed):
+                return baseline
+        mesh = abs(float(self._train.cycles) * speed) * (1.0 + CELL) / (2.0 * math.pi)  # [Hz]
+        return _Baseline(torque, speed, RESOLVED / (self.period * mesh))
 
     def _report_growth(self, cell: _Baseline, now: float) -> None:
         """Report amplitudes that have grown in any window."""
@@ -317,6 +357,8 @@ class VibrationFollower:
         for key, (event_index, source) in self._reported.items():
             if source is cell:  # another baseline may have been learned after the growth
                 self._update_growth(event_index, key, (mean, sd))
+        if len(self._recent) >= WINDOWS[0] and np.isfinite(mean).any():
+            self.counters.compared_periods += 1
         for count in WINDOWS:
             if count > len(self._recent):
                 return
@@ -372,24 +414,65 @@ class VibrationFollower:
         self.events[event_index] = replace(event, size=size, evidence=evidence)
 
     def remarks(self) -> Iterator[str]:
-        """Reasons why the results are less certain, one line each."""
-        if self._cell is not None and len(self._cell.learned) < self._learning:
+        """Reasons why the results are less certain, or why there are none, one line each."""
+        yield from self._learning_remarks()
+        counted = self.counters
+        if counted.dropped_periods > counted.periods:
+            yield (
+                f"vibration: {counted.dropped_periods} of {counted.complete} hunting periods are "
+                "not used: samples are missing, the speed changes, or the torque is too low"
+            )
+        if counted.constant_periods > DOUBTFUL * counted.complete:
+            yield (
+                f"vibration: {counted.constant_periods} of {counted.complete} hunting periods are "
+                f"not judged, because a channel is constant: {', '.join(sorted(self._constant))}; "
+                "check the sensor, or leave out its column"
+            )
+        if counted.unscaled_periods > DOUBTFUL * counted.complete:
+            yield (
+                f"vibration: {counted.unscaled_periods} of {counted.complete} hunting periods are "
+                "not judged: the mesh frequency is not where the measured speed places it, to "
+                f"within {100.0 * STRETCH:g} %; check the gain of the speed sensor, the times of "
+                "the samples, and whether the sensor shows the mesh at all"
+            )
+        if self._highest < HARMONICS + 1:
+            yield (
+                f"vibration: {1.0 / self.period:.4g} samples per second show lines up to "
+                f"{self._highest:.2g} times the mesh frequency only"
+            )
+
+    def _learning_remarks(self) -> Iterator[str]:
+        """Reasons why there is no hunting period yet that was compared with a baseline."""
+        if not self.counters.complete:
+            yield self._without_period()
+        elif self._cell is not None and len(self._cell.learned) < self._learning:
             yield (
                 f"vibration: {len(self._cell.learned)} of {self._learning} hunting periods of a "
                 "baseline are learned"
             )
-        counted = self.counters
-        if counted.dropped_periods > counted.periods:
+        elif self._recent and not self.counters.compared_periods:
             yield (
-                f"vibration: {counted.dropped_periods} of "
-                f"{counted.dropped_periods + counted.periods} hunting periods are not used: "
-                "samples are missing, the speed changes, or the torque is too low"
+                f"vibration: {len(self._recent)} hunting periods after those of the baseline: must "
+                f"be at least {WINDOWS[0]}"
             )
-        if self._cell is not None and self._cell.highest < HARMONICS + 1:
-            yield (
-                f"vibration: {1.0 / self.period:.4g} samples per second show lines up to "
-                f"{self._cell.highest:.2g} times the mesh frequency only"
-            )
+
+    def _without_period(self) -> str:
+        """Why no hunting period is complete."""
+        if math.isnan(self._speed_from):
+            return "vibration: not judged without readings of the speed"
+        (first, last), begin, end = self._sampled, self._speed_from, self._judged_until
+        shared = min(last, end) - max(first, begin)
+        spans = (
+            f"vibration: not judged: samples from {first:.2f} to {last:.2f} s and readings of the "
+            f"speed from {begin:.2f} to {end:.2f} s"
+        )
+        if shared <= 0.0:
+            return f"{spans} do not overlap"
+        usual = self._period_angle / self._train.speed
+        return (
+            f"{spans} overlap for {shared:.2f} s; a hunting period takes {usual:.2f} s at the "
+            "speed of the scene"
+        )
 
 
 def _explained_growth(recent: Sequence[_Judged], learned: Sequence[_Judged]) -> float:

@@ -5,8 +5,9 @@ orders apart (McFadden 1986, J. Vib. Acoust. 108(2), 165-170). Sidebands that tw
 identify neither of them, so only those that one gear alone has are used.
 
 Amplitudes are those of a Hann window over the angle of the input, the integral of the measured
-speed. The gain error of the speed sensor would shift the lines, so the speed is scaled, by up to
-`STRETCH`, to the maximum of the first mesh order.
+speed. The gain error of the speed sensor would shift the lines, so the speed is scaled, by less
+than `STRETCH`, to the maximum of the first mesh order. If this maximum, searched up to half of the
+way to the next sideband, is farther away, the lines are not where the speed places them.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ Waves = NDArray[np.complex128]
 
 HARMONICS = 3  # of the mesh frequency
 SIDEBANDS = 2  # on each side of a harmonic, for each gear
-STRETCH = 2e-3  # largest relative error of the measured speed
-STEPS = 21  # trial values of the scale of the speed within `STRETCH`
+STRETCH = 2e-3  # relative error that the measured speed must not reach
+STEP = 2e-4  # between trial values of the scale of the speed
 TURN = 0.25  # [rad] phase of the farthest line in a block; see `_near_harmonics`
 
 
@@ -69,10 +70,12 @@ class PatternAmplitudes:
         self.patterns = tuple(_patterns(train))
         self._cycles = abs(float(train.cycles))  # mesh orders per turn of the input
         self._beside = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
+        steps = round(max(self._beside, STRETCH) / STEP)
+        self._stretches = 1.0 + STEP * np.arange(-steps, steps + 1)
         offsets = [abs(line.offset) for pattern in self.patterns for line in pattern.lines]
         self._widest = (1.0 + STRETCH) * (max(offsets) + self._beside) + HARMONICS * STRETCH
 
-    def of(self, angle: Array, values: Array, highest: float) -> Array:
+    def of(self, angle: Array, values: Array, highest: float) -> Array | None:
         """Root mean square of the amplitudes of every pattern.
 
         Args:
@@ -82,13 +85,17 @@ class PatternAmplitudes:
 
         Returns:
             Amplitudes of the lines, and beside the sidebands, (2, channels, patterns); NaN for a
-            pattern without a line below `highest`.
+            pattern without a line below `highest`. None if the speed is not that of the lines.
         """
+        if highest <= 1.0:
+            return np.full((2, values.shape[1], len(self.patterns)), np.nan)
         mesh = angle * self._cycles
         window = np.hanning(len(mesh) + 2)[1:-1]
         weighted = (values - values.mean(axis=0)) * (2.0 * window / window.sum())[:, None]
         near = _near_harmonics(mesh, weighted, self._widest)
-        stretch = _stretch(near[1])
+        stretch = self._stretch(near[1])
+        if abs(stretch - 1.0) > STRETCH - 0.5 * STEP:
+            return None
 
         def mean_square(lines: Sequence[tuple[int, float]]) -> Array:
             """Mean of squares at offsets from harmonics, in mesh orders of the scaled speed."""
@@ -113,6 +120,11 @@ class PatternAmplitudes:
                 )
             )
         return np.sqrt(np.array([np.stack(squares, axis=1), np.stack(floors, axis=1)]))
+
+    def _stretch(self, first: _Near) -> float:
+        """Scale of the speed at which the first mesh order is strongest."""
+        strength = [float(np.sum(np.abs(first.at(trial - 1.0)))) for trial in self._stretches]
+        return float(self._stretches[int(np.argmax(strength))])
 
 
 class _Near(NamedTuple):
@@ -148,13 +160,6 @@ def _near_harmonics(mesh: Array, weighted: Array, widest: float) -> dict[int, _N
         rising, falling = (np.einsum("e,bec->bc", part, parts) for part in (rise, 1.0 - rise))
         near[harmonic] = _Near(middles, rising[:-1] + falling[1:])
     return near
-
-
-def _stretch(first: _Near) -> float:
-    """Scale of the speed at which the first mesh order is strongest."""
-    stretches = 1.0 + np.linspace(-STRETCH, STRETCH, STEPS)
-    strength = [float(np.sum(np.abs(first.at(trial - 1.0)))) for trial in stretches]
-    return float(stretches[int(np.argmax(strength))])
 
 
 def _patterns(train: FollowedTrain) -> Iterator[Pattern]:

@@ -57,7 +57,7 @@ def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Followi
 
 def _headline(state: Following) -> str:
     if not state.events:
-        return "no change found"
+        return state.unchanged
     first, *others = state.events
     more = f", and {len(others)} more" if others else ""
     return f"{first.what}, found at {first.found:.1f} s{more}"

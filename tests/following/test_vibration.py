@@ -183,3 +183,70 @@ def test_the_limit_of_growth_follows_the_number_of_learned_periods():
     assert follower._limit < usual
     follower.learn()
     assert follower._limit == usual
+
+
+def played_with(duration=25.0, gain=1.0, stretched=1.0, shift=0.0, constant=None, seed=0):
+    """Last state of a follower of a crack at 15 s, with a fault of the measurement."""
+    time, load, values = signals(duration, lambda time: {"sun": (2.0, time > 15.0)}, seed)
+    if constant is not None:
+        values[:, constant] = 1.0
+    read = slice(None, None, int(RATE / 100))
+    torque = TRAIN.torque * load[read]
+    columns = {
+        "input_torque": torque,
+        "output_torque": -(torque - 0.97) / TRAIN.ratio,
+        "input_speed": np.full(len(torque), gain * TRAIN.speed),
+    }
+    samples = VibrationSamples(time * stretched + shift, values, NAMES, stretched / RATE)
+    follower = Follower(paper(), Sensors(learning=8))
+    *_, last = play_back(follower, [Readings(time[read], columns)], [samples])
+    return last
+
+
+def assert_not_judged(state, reason):
+    """Neither an alarm nor an all-clear of the vibration, and one line that says why."""
+    assert vibration_events(state) == {}
+    assert state.judged == {"torque balance": True, "vibration": False}
+    assert state.unchanged == "no change in the torque balance; not judged: vibration"
+    rate = "samples per second show lines"
+    (line,) = (line for line in state.remarks if "vibration: " in line and rate not in line)
+    assert reason in line
+
+
+@pytest.mark.parametrize("gain", [0.995, 0.998, 1.002, 1.005, 1.01])
+def test_a_speed_that_does_not_fit_the_mesh_gives_neither_alarm_nor_all_clear(gain):
+    assert_not_judged(played_with(gain=gain), "not where the measured speed places it")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_stretched_time_of_the_samples_gives_neither_alarm_nor_all_clear(seed):
+    state = played_with(stretched=1.01, seed=seed)
+    assert_not_judged(state, "not where the measured speed places it")
+
+
+@pytest.mark.parametrize("constant", [0, [0, 1]])
+def test_a_constant_channel_is_named_as_not_judged(constant):
+    state = played_with(constant=constant)
+    assert_not_judged(state, f"a channel is constant: {'housing' if constant == 0 else 'bearing'}")
+
+
+@pytest.mark.parametrize("shift", [-100.0, 100.0])
+def test_samples_at_other_times_than_the_readings_are_named_as_not_judged(shift):
+    state = played_with(shift=shift)
+    assert_not_judged(state, "readings of the speed from 0.05 to 25.00 s do not overlap")
+
+
+def test_samples_shorter_than_a_hunting_period_are_named_as_not_judged():
+    """A hunting period is 420 mesh cycles of 2 ms."""
+    assert_not_judged(played_with(shift=24.5), "overlap for 0.50 s; a hunting period takes 0.84 s")
+
+
+def test_a_baseline_without_later_hunting_periods_is_no_all_clear():
+    assert_not_judged(played_with(duration=6.0), "7 of 8 hunting periods")
+    assert_not_judged(played_with(duration=9.0), "2 hunting periods after those of the baseline")
+
+
+def test_what_is_judged_is_said_to_be_unchanged():
+    state = followed(20.0)
+    assert state.judged == {"torque balance": True, "vibration": True}
+    assert state.unchanged == "no change found"

@@ -133,5 +133,5 @@ def _condition(state: Following, limits: Limits, feed: Feed) -> _Part:
         return DiagnosticStatus.ERROR, "; ".join(worst), values
     if lines:
         return DiagnosticStatus.WARN, "; ".join(lines), values
-    found = f"{len(every)} events, all acknowledged" if every else "no change found"
+    found = f"{len(every)} events, all acknowledged" if every else state.unchanged
     return DiagnosticStatus.OK, found, values
