@@ -73,13 +73,18 @@ class EncoderCheck:
         if ratio == 0.0:
             raise InputError(f"{fault}; the counts of the output do not change")
         backwards = " and one counts backwards" if factor < 0.0 else ""
+        likely = rounded_counts(first / abs(factor)), rounded_counts(second * abs(factor))
         raise InputError(
-            f"{fault}; the counts per turn are probably {_round(first / abs(factor))} (input) "
-            f"or {_round(second * abs(factor))} (output) instead of {first} and {second}{backwards}"
+            f"{fault}; the counts per turn are probably {likely[0]} (input) or {likely[1]} (output) "
+            f"instead of {first} and {second}{backwards}"
         )
 
 
-def _round(counts: float) -> str:
-    """Counts per turn to the accuracy of the check: a power of two if one is near."""
+def rounded_counts(counts: float) -> str:
+    """Counts per turn to the accuracy of the check: a power of two if one is near.
+
+    Args:
+        counts: counts per turn, measured.
+    """
     power = 2 ** round(np.log2(counts)) if counts >= 1.0 else 0
     return f"{power}" if abs(power - counts) < NEAR * counts else f"about {counts:.3g}"

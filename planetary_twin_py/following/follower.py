@@ -22,6 +22,7 @@ from .bins import CHANNELS
 from .checked_bins import PERIOD
 from .checks import InputError
 from .clock_watch import ClockWatch
+from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
 from .sensors import Sensors, check_scale
 from .teeth import TeethFollower, ToothState
@@ -151,6 +152,7 @@ class Follower:
         self._balance = BalanceFollower(self.scene, self.sensors, self.period)
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
+        self._encoder_speed: EncoderSpeed | None = None
         self._vibration: VibrationFollower | None = None
         if self.encoders is not None:
             self._follow_teeth(self.encoders)
@@ -177,6 +179,8 @@ class Follower:
         """
         if isinstance(block, EncoderSamples):
             self._teeth_follower(block).add(block.sample, block.counts)
+            if self._encoder_speed is not None:
+                self._encoder_speed.add(block.sample, block.counts)
         elif isinstance(block, VibrationSamples):
             self._vibration_follower(block).add(block.time, block.values)
         else:
@@ -186,6 +190,8 @@ class Follower:
 
     def _judge(self, until: float) -> None:
         """Judge the hunting periods that end by a time."""
+        if self._encoder_speed is not None:
+            self._encoder_speed.judge(until, self._balance.turning_between)
         if self._teeth is not None:
             self._teeth.judge(until, self._balance.torque_between)
         if self._vibration is not None:
@@ -219,6 +225,7 @@ class Follower:
 
     def _follow_teeth(self, encoders: EncoderFormat) -> TeethFollower:
         """Start to follow the teeth by encoders whose format is known."""
+        self._encoder_speed = EncoderSpeed(*encoders)
         self._teeth = TeethFollower(self.scene, *encoders, self.sensors.learning)
         return self._teeth
 
@@ -276,6 +283,8 @@ class Follower:
             InputError: see `add`.
         """
         self._balance.finish()
+        if self._encoder_speed is not None and math.isfinite(self._balance.time):
+            self._encoder_speed.judge(self._balance.time, self._balance.turning_between)
         if self._teeth is not None:
             self._teeth.finish()
             self._teeth.judge(math.inf, self._balance.torque_between)
@@ -351,6 +360,8 @@ class Follower:
                 "numbered from each new start, and baselines are learned again"
             )
         yield from self._teeth.remarks()
+        if self._encoder_speed is not None and self._teeth.blocks:
+            yield from self._encoder_speed.remarks()
 
     def __repr__(self) -> str:
         """One line."""

@@ -1,0 +1,93 @@
+"""Counts per turn and sample rate are compared with the measured speed."""
+
+import numpy as np
+import pytest
+from following.plants import COUNTS, RATE, paper
+
+from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
+from planetary_twin_py.following.train import followed_train
+
+TRAIN = followed_train(paper())
+SLOW = 2_000.0  # [Hz]
+
+
+def followed(stated=COUNTS, rate=SLOW, speed=lambda time: TRAIN.speed, sign=1, cuts=9, lost=None):
+    """A follower of readings and of encoders with COUNTS per turn at 2 kHz, for 8 s."""
+    time = np.arange(0.0, 8.0, 1.0 / SLOW)
+    omega = np.broadcast_to(speed(time), time.shape)
+    turned = np.concatenate([[0.0], np.cumsum(0.5 * (omega[1:] + omega[:-1]))]) / SLOW
+    turned /= 2.0 * np.pi
+    if lost is not None:
+        turned = turned + np.where(time > lost, 1.0, 0.0)
+    counts = np.floor(np.stack([turned, TRAIN.ratio * turned], axis=1) * sign * COUNTS)
+    follower = Follower(paper(), encoders=EncoderFormat((stated, stated), 1.0 / rate))
+    read = time[20::20]
+    columns = {
+        "input_torque": np.full(len(read), 63.0),
+        "output_torque": np.full(len(read), -62.0 / TRAIN.ratio),
+        "input_speed": omega[20::20],
+    }
+    for rows in np.array_split(np.arange(len(read)), cuts):
+        follower.add(Readings(read[rows], {name: v[rows] for name, v in columns.items()}))
+    for rows in np.array_split(np.arange(len(time)), cuts):
+        follower.add(EncoderSamples(rows, counts[rows].astype(np.int64)))
+    follower.finish()
+    return follower.estimate()
+
+
+def wandering(time):
+    return TRAIN.speed * (1.0 + 0.1 * np.sin(time))
+
+
+@pytest.mark.parametrize("cuts", [1, 9])
+@pytest.mark.parametrize("speed", [lambda time: TRAIN.speed, wandering])
+def test_encoders_that_turn_with_the_measured_speed_pass(speed, cuts):
+    remarks = followed(speed=speed, cuts=cuts).remarks
+    assert not any("not checked" in line for line in remarks)
+
+
+def test_a_lost_turn_is_no_wrong_encoder():
+    followed(lost=1.5, speed=lambda time: 0.1 * TRAIN.speed)
+
+
+@pytest.mark.parametrize("cuts", [1, 9])
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"stated": COUNTS // 4}, "1048576 and 1048576 instead of 262144 and 262144"),
+        ({"stated": 4 * COUNTS}, "1048576 and 1048576 instead of 4194304 and 4194304"),
+        ({"rate": 2.0 * SLOW}, "sample rate is 2000 Hz instead of 4000 Hz"),
+        ({"sign": -1}, "both encoders count backwards"),
+    ],
+)
+def test_encoders_that_do_not_are_refused_with_the_likely_values(wrong, said, cuts):
+    with pytest.raises(InputError, match=said):
+        followed(**wrong, cuts=cuts)
+
+
+def test_without_a_measured_speed_it_is_a_remark_that_nothing_is_checked():
+    follower = Follower(paper(), encoders=EncoderFormat((COUNTS, COUNTS), 1.0 / RATE))
+    time = np.arange(0.0, 3.0, 1.0 / RATE)
+    turned = TRAIN.speed * time / (2.0 * np.pi)
+    counts = np.floor(np.stack([turned, TRAIN.ratio * turned], axis=1) * COUNTS)
+    torque = np.arange(1, 300) / 100.0
+    follower.add(Readings(torque, {"input_torque": np.full(len(torque), 63.0)}))
+    follower.add(EncoderSamples(np.arange(len(time)), counts.astype(np.int64)))
+    follower.finish()
+    assert any("sample rate are not checked" in line for line in follower.estimate().remarks)
+
+
+def test_encoders_without_a_hunting_period_are_named_as_not_judged():
+    follower = Follower(paper(), encoders=EncoderFormat((COUNTS, COUNTS), 1.0 / RATE))
+    time = np.arange(1, 300) / 100.0
+    columns = {
+        "input_torque": np.full(len(time), 63.0),
+        "output_torque": np.full(len(time), -62.0 / TRAIN.ratio),
+        "input_speed": np.full(len(time), TRAIN.speed),
+    }
+    follower.add(Readings(time, columns))
+    follower.finish()
+    state = follower.estimate()
+    assert state.unchanged == "no change in the torque balance; not judged: teeth"
+    assert any(line.startswith("teeth: not judged") for line in state.remarks)
