@@ -75,8 +75,8 @@ class EncoderCheck:
         backwards = " and one counts backwards" if factor < 0.0 else ""
         likely = rounded_counts(first / abs(factor)), rounded_counts(second * abs(factor))
         raise InputError(
-            f"{fault}; the counts per turn are probably {likely[0]} (input) or {likely[1]} (output) "
-            f"instead of {first} and {second}{backwards}"
+            f"{fault}; the counts per turn are probably {likely[0]} (input) or {likely[1]} "
+            f"(output) instead of {first} and {second}{backwards}"
         )
 
 
