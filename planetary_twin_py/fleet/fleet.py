@@ -14,6 +14,7 @@ from ..brief import brief
 from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import alarm_memory, interval_memory
 from ..following.estimate import CONFIDENT
+from ..following.friction_remark import friction_remarks
 from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..scene import Scene
@@ -164,7 +165,7 @@ class Fleet:
         return self._faults.lines
 
     def remarks(self, gearbox: int) -> tuple[str, ...]:
-        """Torque and speed that are so far from the scene that their unit may be wrong.
+        """Torques and speeds whose unit may be wrong, and a doubtful friction level.
 
         Args:
             gearbox: index of the gearbox.
@@ -172,7 +173,11 @@ class Fleet:
         Returns:
             A line for each.
         """
-        return self._faults.remarks(gearbox)
+        level, one = self.estimate("friction_level"), [gearbox]
+        interval = (float(values[gearbox]) for values in (level.low, level.value, level.high))
+        losses = self.table(self._last_torque[one], self._last_speed[one], self._oil[one])
+        doubtful = friction_remarks(*interval, float(losses.teeth[0]))  # none without an estimate
+        return (*self._faults.remarks(gearbox), *doubtful)
 
     @property
     def fits(self) -> NDArray[np.bool_]:

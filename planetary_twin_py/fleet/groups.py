@@ -38,7 +38,7 @@ class GearboxResult:
     fault: str
     """Channel, value and correction of readings that contradict the scene; empty without."""
     remarks: tuple[str, ...]
-    """Torque and speed whose unit may be wrong, a line for each."""
+    """See `Fleet.remarks`."""
     missing: tuple[int, float]
     """Number of times of the table without both torques and the speed, and the first of them [s].
     """

@@ -34,6 +34,7 @@ from .bins import Bin, Counters
 from .checked_bins import PERIOD, CheckedBins
 from .cusum import Cusum, Step
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
+from .friction_remark import friction_remarks
 from .history import History
 from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
@@ -375,11 +376,9 @@ class BalanceFollower:
                 "steps of the loss are not reported"
             )
         level = self._parameter(F)
-        if level.high < 0.0:
-            yield (
-                f"friction_level is below {level.high:.2g}, which is impossible: the signs of both "
-                "torques or of both speeds may be reversed, or a torque has a wrong gain"
-            )
+        if level.status == "ESTIMATED" and math.isfinite(self.operating[0]):
+            teeth = self._losses(float(self._interval_filter.x[T]), *self.operating).teeth
+            yield from friction_remarks(level.low, level.value, level.high, teeth)
         yield from self.counters.remarks()
         yield from self._bins.remarks()
         if self.gated:

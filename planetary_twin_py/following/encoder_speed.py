@@ -105,7 +105,7 @@ class EncoderSpeed:
         raise InputError(
             f"{line}; the counts per turn are probably {first} and {second} instead of "
             f"{self.counts_per_turn[0]} and {self.counts_per_turn[1]}, or the sample rate is "
-            f"{1.0 / (self.period * abs(ratio)):.4g} Hz instead of {1.0 / self.period:.4g} Hz, or "
+            f"{1.0 / (self.period * abs(ratio)):.6g} Hz instead of {1.0 / self.period:.6g} Hz, or "
             "the unit of the speed is wrong"
         )
 
