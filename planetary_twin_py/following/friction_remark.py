@@ -20,10 +20,11 @@ def friction_remarks(low: float, value: float, high: float, teeth: float) -> Ite
             "or of both speeds may be reversed, or a torque has a wrong gain"
         )
     elif low < 0.0 or high - low >= value:
+        impossible = ", of which values below 0 are impossible" if low < 0.0 else ""
+        zero = teeth * (value - 1.0)
         yield (
             f"friction_level is {value:.2g}, with an interval of {low:.2g} to {high:.2g}"
-            f"{', of which values below 0 are impossible' if low < 0.0 else ''}: the readings "
-            f"hardly determine it; a zero of the torque sensors of {teeth * (value - 1.0):+.2g} N m "
-            "at the input has the same effect as this difference from 1. Check the zeros without "
-            "load, or let the torque reverse"
+            f"{impossible}: the readings hardly determine it; a zero of the torque sensors of "
+            f"{zero:+.2g} N m at the input has the same effect as this difference from 1. Check "
+            "the zeros without load, or let the torque reverse"
         )
