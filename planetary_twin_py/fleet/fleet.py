@@ -174,9 +174,9 @@ class Fleet:
             A line for each.
         """
         level, one = self.estimate("friction_level"), [gearbox]
-        interval = (float(values[gearbox]) for values in (level.low, level.value, level.high))
+        low, value, high = (float(v[gearbox]) for v in (level.low, level.value, level.high))
         losses = self.table(self._last_torque[one], self._last_speed[one], self._oil[one])
-        doubtful = friction_remarks(*interval, float(losses.teeth[0]))  # none without an estimate
+        doubtful = friction_remarks(low, value, high, float(losses.teeth[0]))  # none of NaN
         return (*self._faults.remarks(gearbox), *doubtful)
 
     @property

@@ -29,6 +29,7 @@ from ..runs.origin import Measured, Origin
 from ..runs.reader import SCENE_ATTACHMENT
 from ..runs.schedule import nanoseconds
 from .measurements import Array, Measurements, naming, read_measurements
+from .possible_losses import MEASURED, impossible_loss
 
 TOPICS = (ORIGIN, DESCRIPTION, POINT, STATE)
 PARTS = 4  # of an operating point, whose means are compared
@@ -68,7 +69,8 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
         The recording.
 
     Raises:
-        ValueError: a heading, a time stamp or a value is invalid.
+        ValueError: a heading, a time stamp or a value is invalid, or a loss is negative or above
+            the input power.
         FileExistsError: `out` exists.
         OSError: the table cannot be read, or the recording cannot be written.
     """
@@ -156,7 +158,12 @@ def _points(measured: Measurements, scene: Scene) -> Iterator[SteadyRows]:
     }
     for first, last in pairwise([*begins, len(labels)]):
         means = {name: _mean(name, column, first, last) for name, column in columns.items()}
-        yield SteadyRows(first, last, means, scene.replace(**means))
+        at_point = scene.replace(**means)
+        rows = {n: measured.columns[n][first:last] for n in MEASURED if n in measured.columns}
+        found = impossible_loss(rows, at_point)
+        if found is not None:
+            raise ValueError(f"row {first + found.row + 1}: {found.statement}")
+        yield SteadyRows(first, last, means, at_point)
 
 
 def _mean(name: str, column: Array, first: int, last: int) -> float:

@@ -17,6 +17,7 @@ from .estimate import Estimate, conclude
 from .excerpt import Excerpt, read_excerpt
 from .least_squares import Minimum, explained, minimise, with_initial_magnitudes
 from .least_squares import search as find_least
+from .measured_losses import check_losses
 from .misfit import WeightedReadings, means_of, measure_noise
 from .missing_loss import MissingLoss, find_missing_loss
 from .model import Model, ModelOutput, read_all
@@ -111,6 +112,7 @@ def identify(
     _check(search)
     waveform = HARMONICS in (search.observe or USUAL)
     excerpt = read_excerpt(Path(path), namespace, begin, end, waveform)
+    check_losses(excerpt)
     parameters = read_parameters(excerpt.scene, search.free, search.start)
     observe = usual_observables(excerpt) if search.observe is None else tuple(search.observe)
     data = _read_data(observe, excerpt)
@@ -138,6 +140,7 @@ def identify(
     if hold_out is not None:
         _check_apart(excerpt, hold_out)
         other = read_excerpt(Path(path), namespace, *hold_out, waveform)
+        check_losses(other)
         held_out_runs = Simulations(
             Model(other, model.free, model.observables), runs.threads, report
         )

@@ -235,3 +235,42 @@ def test_torque_may_be_written_as_engineers_do(tmp_path, heading):
     columns = {"time": [0.1, 0.2], heading: [50.0, 50.0]}
     done = bring_in(tmp_path, columns)
     assert done.exit_code == 0 and "input_torque = 50 N m" in done.output, done.output
+
+
+RIG = {
+    "time": np.arange(1, 9) / 10.0,
+    "input_torque": np.full(8, 63.0),
+    "input_speed [rpm]": np.full(8, 1000.0),
+}
+POWER = 63.0 * 1000.0 * np.pi / 30.0  # [W]
+
+
+@pytest.mark.parametrize(
+    ("column", "said"),
+    [
+        ({"power_loss": [*[75.0] * 5, 8000.0, 75.0, 75.0]},
+         f"row 6: power_loss = 8000 W: must be below the input power, {POWER:.6g} W"),
+        ({"power_loss": np.full(8, -75.0)}, "power_loss is -75 W on average: must not be negative"),
+        ({"efficiency": [0.99, 0.99, -0.2, *[0.99] * 5]},
+         "row 3: efficiency = -0.2: must be at least 0"),
+        ({"efficiency": np.full(8, 98.9)}, "must be efficiency [%]"),
+        ({"power_loss": np.full(8, 75.0), "input_power": np.full(8, 60.0)},
+         "row 1: power_loss = 75 W: must be below the input power, 60 W"),
+    ],
+)  # fmt: skip
+def test_a_loss_that_no_gearbox_has_is_refused_with_its_row(tmp_path, column, said):
+    done = bring_in(tmp_path, RIG | column)
+    assert done.exit_code == 2 and said in " ".join(done.output.split()), done.output
+    assert not (tmp_path / "rig").exists()
+
+
+def test_losses_that_noise_makes_negative_are_accepted(tmp_path):
+    """Ten watts with a standard deviation of thirty, and an efficiency of 1 within its noise."""
+    noise = np.array([1.0, -1.0, 0.5, -0.5, 1.5, -1.5, 0.2, -0.2])
+    columns = {"power_loss": 10.0 + 30.0 * noise, "efficiency": 1.001 + 0.01 * noise}
+    assert bring_in(tmp_path, RIG | columns).exit_code == 0
+
+
+def test_the_output_may_drive_and_its_loss_exceed_the_power_at_the_input(tmp_path):
+    columns = {"input_torque": np.full(8, -0.1), "power_loss": np.full(8, 75.0)}
+    assert bring_in(tmp_path, RIG | columns).exit_code == 0

@@ -7,6 +7,7 @@ from pyarrow import csv, parquet
 from studies.fit.rig import PAPER, record
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.tables import rig_recording
 from planetary_twin_py.recording.tables.export import Export, export
 from planetary_twin_py.recording.tables.rig_recording import write_measured
 from planetary_twin_py.studies.fit.excerpt import read_excerpt
@@ -101,4 +102,14 @@ def test_without_a_default_observable_those_that_were_recorded_are_named(tmp_pat
     csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
     write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
     with pytest.raises(ValueError, match=r"neither dte_rms nor power_loss; has .*input_torque"):
+        identify(tmp_path / "rig", Search(("lambda_ratio",)))
+
+
+def test_a_recording_with_a_loss_above_the_input_power_is_refused(tmp_path, monkeypatch):
+    """An import would refuse it, so the recording is that of another program."""
+    rows = {"time": np.arange(1, 31) / 100.0, "power_loss": np.full(30, 8000.0)}
+    csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
+    monkeypatch.setattr(rig_recording, "impossible_loss", lambda columns, scene: None)
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    with pytest.raises(ValueError, match=r"ends at 0\.01 s: power_loss = 8000 W: must be below"):
         identify(tmp_path / "rig", Search(("lambda_ratio",)))

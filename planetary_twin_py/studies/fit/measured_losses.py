@@ -1,0 +1,35 @@
+"""Refuses measured losses that no gearbox has."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from itertools import groupby
+
+import numpy as np
+
+from ...integrators.clock import TICKS
+from ...recording.tables.possible_losses import MEASURED, impossible_loss
+from .excerpt import Excerpt
+
+
+def check_losses(excerpt: Excerpt) -> None:
+    """Check the losses of a table of a rig.
+
+    Args:
+        excerpt: part of a recording; that of a simulation is not checked.
+
+    Raises:
+        ValueError: a loss is negative or above the input power; names the interval.
+    """
+    if not excerpt.measured:
+        return
+    times = [change.time for change in excerpt.changes]
+    rows = list(zip(excerpt.intervals, excerpt.states, strict=True))
+    for change, part in groupby(rows, lambda row: bisect_right(times, row[0].begin / TICKS) - 1):
+        intervals, states = zip(*part, strict=True)
+        columns = {name: np.array([getattr(one, name) for one in states]) for name in MEASURED}
+        values = excerpt.changes[change].values if change >= 0 else {}
+        found = impossible_loss(columns, excerpt.scene.replace(**values))
+        if found is not None:
+            end = intervals[found.row].end / TICKS
+            raise ValueError(f"interval that ends at {end:g} s: {found.statement}")
