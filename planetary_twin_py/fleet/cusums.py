@@ -67,7 +67,7 @@ class Cusums:
         self._total, self._weight = np.zeros(shape), np.zeros(shape)
         self._held = np.zeros(shape, dtype=bool)
         self.correlation = np.zeros(self.count)
-        """Correlation of successive innovations, (n,)."""
+        """Mean product of successive standardised innovations, (n,)."""
         self._sums = np.zeros((4, self.count))  # scores, readings, weighted values, weights
         self._begin = math.nan
         self._last, self._known = np.full(self.count, math.nan), np.zeros(self.count)
@@ -128,7 +128,7 @@ class Cusums:
     def _update_correlation(
         self, score: Array, has_reading: NDArray[np.bool_], step: float
     ) -> None:
-        """Update the correlation of successive innovations, over a minute or 50 of them."""
+        """Update the mean product of successive innovations, over a minute or 50 of them."""
         successive = has_reading & np.isfinite(self._last)
         share = min(step / MEMORY, 0.02)
         change = np.where(successive, score * self._last - self.correlation, 0.0)

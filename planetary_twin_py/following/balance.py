@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..interval_text import plus_minus
 from ..scene import Scene
 from .balance_filter import (
     CAUSES,
@@ -258,10 +259,10 @@ class BalanceFollower:
         size = estimated("loss_torque_step", direction * step_size.size, step_size.sd, "N m")
         torque = float(np.mean([read.input_torque for read in reads[step_size.likely :]]))
         loss = self._losses(torque, *self.operating).teeth
-        evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m"
+        evidence = f"{plus_minus(size.value, CONFIDENT * size.sd, '+')} N m"
         for reference, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
             if abs(size.value) < MANY * reference:
-                evidence += f", {100.0 * size.value / reference:.3g} % of {name}"
+                evidence += f", {_percent(size.value / reference)} of {name}"
         since = float(times[step_size.first]) - 0.5 * self.period
         from_start = offset + step_size.first == 0 and len(self._recent) < RECENT
         description = "readings do not fit the scene" if from_start else "loss torque stepped"
@@ -403,6 +404,11 @@ def _uncertainty(balance_filter: BalanceFilter, state: int) -> float:
     if state == F:  # the loss of the scene is as uncertain as the torque
         sd = math.hypot(sd, float(balance_filter.x[F] * balance_filter.x[G]))
     return sd
+
+
+def _percent(share: float) -> str:
+    """A share in per cent with three digits, not as a power of ten."""
+    return f"{float(f'{100.0 * share:.3g}'):.12g} %"
 
 
 def _possible_causes(

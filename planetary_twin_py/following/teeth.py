@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..interval_text import plus_minus
 from ..scene import Scene, SceneError
 from .baseline import Baseline, LearnedCell
 from .baseline_file import TeethBaseline
@@ -373,9 +374,8 @@ class TeethFollower:
     def _record_event(self, tooth: int, state: ToothState, times: tuple[float, float]) -> None:
         """Add an event, with its earliest start and its detection [s], or update it."""
         size = state.loss
-        half_width = CONFIDENT * size.sd
         size_text = (
-            f"loss {100 * size.value:.2g} +- {100 * half_width:.2g} %"
+            f"loss {plus_minus(100.0 * size.value, 100.0 * CONFIDENT * size.sd)} %"
             if size.status == "ESTIMATED"
             else f"its size follows from {size.remedy}"
         )

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
 
+from ..interval_text import plus_minus
 from .baseline_file import VibrationBaseline
 from .checks import InputError
 from .estimate import CONFIDENT, Event, estimated, not_identifiable
@@ -409,8 +410,8 @@ class VibrationFollower:
         size = estimated(
             "vibration_growth", (float(amplitudes.mean()) - mean) / mean, growth_sd / mean, ""
         )
-        growth_text = f"amplitude {100 * size.value:+.2g} +- {100 * CONFIDENT * size.sd:.2g} %"
-        evidence = f"{self.names[key[0]]}: {growth_text}{UNKNOWN}"
+        growth = plus_minus(100.0 * size.value, 100.0 * CONFIDENT * size.sd, "+")
+        evidence = f"{self.names[key[0]]}: amplitude {growth} %{UNKNOWN}"
         self.events[event_index] = replace(event, size=size, evidence=evidence)
 
     def remarks(self) -> Iterator[str]:

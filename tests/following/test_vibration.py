@@ -1,5 +1,7 @@
 """Vibration at mesh orders and their sidebands: what has grown, and what is never claimed."""
 
+import re
+
 import numpy as np
 import pytest
 from following.plants import paper
@@ -79,6 +81,12 @@ def test_a_grown_harmonic_is_reported_with_its_size():
     assert set(events) == {"vibration grew: mesh harmonic 2"}
     size = events["vibration grew: mesh harmonic 2"].size
     assert size.low < 0.3 < size.high and size.high - size.low < 0.1
+
+
+def test_a_growth_by_a_multiple_is_printed_in_plain_per_cent():
+    estimate = followed(20.0, lambda time: {"mesh 2": (3.5, time > 12.0)})
+    (event,) = vibration_events(estimate).values()
+    assert re.search(r"amplitude \+3[45]\d(\.\d)? \+- [\d.]+ %", event.evidence), event.evidence
 
 
 @pytest.mark.parametrize("seed", range(3))
