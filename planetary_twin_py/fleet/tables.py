@@ -11,7 +11,7 @@ import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from ..following.bins import CHANNELS as UNITS
-from ..recording.tables.measurements import read_columns
+from ..recording.tables.measurements import day_numbers, missing_column, read_columns
 from .fleet import CHANNELS
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def gearboxes_of(path: Path) -> tuple[str, ...]:
     """
     columns = read_columns(path)
     if GEARBOX not in columns:
-        raise ValueError(f"{path}: column {GEARBOX!r}: missing")
+        raise missing_column(path, GEARBOX, columns)
     names = pc.unique(columns[GEARBOX].values).to_pylist()
     if not names:
         raise ValueError(f"{path}: has no rows")
@@ -70,7 +70,7 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     table = read_columns(path)
     for name in (GEARBOX, TIME, *CHANNELS[:3]):
         if name not in table:
-            raise ValueError(f"{path}: column {name!r}: missing")
+            raise missing_column(path, name, table)
     labels = pc.cast(table[GEARBOX].values, pa.string())
     selected = pc.is_in(labels, pa.array(gearboxes))
     table = {
@@ -82,6 +82,8 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     if not np.isfinite(stamps).all():
         raise ValueError(f"{path}: {TIME}: must be a finite number in every row")
     time, row = np.unique(stamps, return_inverse=True)
+    if advice := day_numbers(time):
+        raise ValueError(f"{path}: {advice}")
     columns = {}
     for name in CHANNELS:
         values = np.full((len(time), len(gearboxes)), np.nan)

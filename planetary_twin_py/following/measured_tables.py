@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..printable import one_line
-from ..recording.tables.measurements import TIME, Column, read_columns
+from ..recording.tables.measurements import (
+    TIME,
+    Column,
+    day_numbers,
+    missing_column,
+    read_columns,
+)
 from ..units import LARGEST
 from .bins import AHEAD, CHANNELS
 from .follower import EncoderSamples, Readings
@@ -29,7 +35,7 @@ class MeasuredTable(NamedTuple):
     ignored: tuple[str, ...]
     """Headings of columns that are not used."""
     remarks: tuple[str, ...]
-    """A line for each column without which less can be estimated."""
+    """A line for each column without which less can be estimated, and for a doubtful time."""
     begin: np.datetime64 | None
     """Date of second 0 of the stamps; None if the table has no dates."""
 
@@ -67,16 +73,17 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
             ignored.append(column.heading)
     arrival = columns.pop(ARRIVAL, None)
     if stamps is None:
-        raise ValueError(f"{path}: column {TIME[0]!r}: missing")
+        raise missing_column(path, TIME[0], table)
     if not columns:
         raise ValueError(
             f"{path}: has none of the columns {', '.join(CHANNELS)}; state other names under "
-            "`columns` in the file of --sensors"
+            f"`columns` in the file of --sensors; has {one_line(', '.join(ignored), 400)}"
         )
     if not any((np.isfinite(stamps) & np.isfinite(values)).any() for values in columns.values()):
         raise ValueError(f"{path}: has no row with a time and a reading")
     readings = _in_order(Readings(stamps, columns, arrival))
-    return MeasuredTable(readings, tuple(ignored), tuple(_lacking(columns)), begin)
+    remarks = [*_lacking(columns), *filter(None, [day_numbers(readings.time)])]
+    return MeasuredTable(readings, tuple(ignored), tuple(remarks), begin)
 
 
 def _lacking(columns: Mapping[str, np.ndarray]) -> Iterator[str]:
@@ -148,7 +155,7 @@ def read_encoders(path: Path, period: float, begin: np.datetime64 | None = None)
     columns = read_columns(path)
     for name in COUNTS:
         if name not in columns:
-            raise ValueError(f"{path}: column {name!r}: missing")
+            raise missing_column(path, name, columns)
     counts = np.stack(
         [_whole_numbers(path, name, columns[name].in_si(name, "")) for name in COUNTS], axis=1
     )
@@ -191,7 +198,7 @@ def read_vibration(
     """
     columns = read_columns(path)
     if TIME[0] not in columns:
-        raise ValueError(f"{path}: column {TIME[0]!r}: missing")
+        raise missing_column(path, TIME[0], columns)
     excluded = {*TIME, ARRIVAL, SAMPLE, *COUNTS, *CHANNELS, *names.values()}
     sensors = {
         column.heading: column.as_given(column.heading)

@@ -77,5 +77,5 @@ def _say(line: str, colour: str) -> None:
     from ..printable import printable
 
     Console(stderr=True).print(
-        printable(line), style=colour, markup=False, highlight=False, soft_wrap=True
+        printable(line), style=colour, markup=False, emoji=False, highlight=False, soft_wrap=True
     )

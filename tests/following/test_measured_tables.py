@@ -1,5 +1,6 @@
 """Tables of readings: what is read twice, too large or not at all is refused."""
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,6 +17,7 @@ from planetary_twin_py.following.measured_tables import (
 )
 from planetary_twin_py.following.sensors import read_sensors
 from planetary_twin_py.plant.hidden import read_hidden
+from planetary_twin_py.recording.tables.measurements import read_measurements
 from planetary_twin_py.scene import SceneError
 from planetary_twin_py.studies.fit.course import read_course
 
@@ -280,3 +282,67 @@ def test_columns_without_which_losses_are_not_estimated_are_named(write, heading
     assert len(remarks) == len(lacking)
     for line, name in zip(remarks, lacking, strict=True):
         assert f"no column {name} with readings: losses are not estimated" in line
+
+
+READERS = [
+    lambda table: read_readings(table, {}),
+    lambda table: read_fleet(table, ("A",)),
+    lambda table: read_measurements(table, {"input_torque": "N m"}),
+]
+
+
+@pytest.mark.parametrize("read", READERS)
+@pytest.mark.parametrize("time", ["22.11.2026 10:00:00", "22/11/2026 10:00", "10:00:00"])
+def test_a_time_that_is_neither_seconds_nor_such_a_date_is_refused_with_an_example(
+    write, read, time
+):
+    wanted = (
+        f"row 1: time = '{time}': must be a number of seconds, or a date such as "
+        "2026-11-22 10:00:00"
+    )
+    rows = [f"A,{time},60,-140,100", f"A,{time},60,-140,100"]
+    table = write(HEADING, *rows)
+    if read is READERS[2]:
+        table = write("time,input_torque", f"{time},60", f"{time},60")
+    with pytest.raises(ValueError, match=re.escape(wanted)):
+        read(table)
+
+
+def test_day_numbers_of_a_spreadsheet_are_named(write):
+    days = [f"{46348.0 + second / 86_400.0!r}" for second in range(4)]
+    advice = r"steps of 1\.16e-05 s: are these day numbers .* such as 2026-11-22 10:00:00"
+    table = write(HEADING, *[f"A,{day},60,-140,100" for day in days])
+    (line,) = read_readings(table, {}).remarks
+    assert re.search(advice, line)
+    with pytest.raises(ValueError, match=advice):
+        read_fleet(table, ("A",))
+    rig = write("time,input_torque", *[f"{day},60" for day in days], name="import.csv")
+    with pytest.raises(ValueError, match=advice):
+        read_measurements(rig, {"input_torque": "N m"})
+
+
+def test_seconds_of_a_day_are_no_day_numbers(write):
+    table = write(HEADING, *[f"A,{43200 + n / 100},60,-140,100" for n in range(4)])
+    assert read_readings(table, {}).remarks == ()
+
+
+@pytest.mark.parametrize(
+    ("heading", "said"),
+    [
+        ("gearbox,Stamp,input_torque", "column 'time': missing; has gearbox, Stamp, input_torque"),
+        (
+            "gearbox,time,Input Torque,Output-Torque,n",
+            "column 'input_torque': missing; rename Input Torque to input_torque",
+        ),
+    ],
+)
+def test_a_missing_column_is_named_beside_those_that_there_are(write, heading, said):
+    table = write(heading, ",".join(["1"] * len(heading.split(","))))
+    with pytest.raises(ValueError, match=said):
+        read_fleet(table, ("1",))
+
+
+def test_a_table_without_a_channel_lists_its_headings(write):
+    table = write("time,T_in,T_out", "1,2,3")
+    with pytest.raises(ValueError, match=r"has none of the columns .*; has T_in, T_out"):
+        read_readings(table, {})

@@ -13,6 +13,7 @@ from planetary_twin_py.terminal.messages import fail, naming_options
         (OSError(5, "Input/output error", "a.mcap"), "a.mcap: Input/output error"),
         (OSError(5, "Input/output error"), "Input/output error"),  # from a read
         (OSError("no reason of the system"), "no reason of the system"),
+        (ValueError("[h:m:s] is no unit"), "[h:m:s] is no unit"),  # :m: would be a symbol
     ],
 )
 def test_an_error_is_one_line_without_the_names_of_python(capsys, error, line):

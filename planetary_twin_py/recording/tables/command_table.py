@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...commands import NAMES, UNITS, Commands
 from ...scene.names import did_you_mean
-from .measurements import TIME, naming, read_columns
+from .measurements import TIME, missing_column, naming, read_columns
 
 
 def read_commands(path: Path) -> Commands:
@@ -30,7 +30,7 @@ def read_commands(path: Path) -> Commands:
             expected = near or f"; must be {TIME[0]} or one of {', '.join(NAMES)}"
             raise ValueError(f"{path}: column {column.heading!r}: no such quantity{expected}")
     if TIME[0] not in table:
-        raise ValueError(f"{path}: column {TIME[0]!r}: missing")
+        raise missing_column(path, TIME[0], table)
     if len(table) == 1:
         raise ValueError(f"{path}: has no column of commands; possible: {', '.join(NAMES)}")
     units = {TIME[0]: "s"} | {name: UNITS[name.split("_")[1]] for name in NAMES}

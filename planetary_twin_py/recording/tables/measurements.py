@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
@@ -31,6 +31,10 @@ UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that an import ignores, because it numbers its own messages."""
 _LONGEST_REASON = 200  # characters
 _LONGEST_VALUE = 60  # characters
+_LONGEST_LIST = 400  # characters
+DATE = "2026-11-22 10:00:00"  # example
+_DAY_NUMBERS = 20_000.0, 80_000.0  # of a spreadsheet, from 1954 to 2119
+_SHORT = 1e-3  # [s] step of readings, or a minute and a half in days
 _MOST_COLUMNS = 2000
 _NUMBER = 8  # bytes in memory
 _TEXTS = (
@@ -57,6 +61,40 @@ def naming(path: Path) -> Iterator[None]:
     except ValueError as reason:
         named = str(reason).startswith(f"{path}: ")
         raise ValueError(str(reason) if named else f"{path}: {reason}") from None
+
+
+def missing_column(path: Path, name: str, columns: Iterable[str]) -> ValueError:
+    """The error that a column is missing, with the names that there are.
+
+    Args:
+        path: of the table.
+        name: expected heading.
+        columns: names in the headings of the table.
+    """
+    given = list(columns)
+    near = next((one for one in given if re.sub(r"\W+", "_", one.lower()) == name), None)
+    listed = one_line(", ".join(given), _LONGEST_LIST)
+    advice = f"; has {listed}" if near is None else f"; rename {near} to {name}"
+    return ValueError(f"{path}: column {name!r}: missing{advice}")
+
+
+def day_numbers(time: Array) -> str:
+    """Advice if times in seconds look like day numbers of a spreadsheet; empty otherwise.
+
+    Args:
+        time: times in their order [s], (rows,).
+    """
+    known = time[np.isfinite(time)]
+    low, high = _DAY_NUMBERS
+    if len(known) < 2 or known.min() < low or known.max() > high:
+        return ""
+    step = float(np.median(np.diff(known)))
+    if not 0.0 < step < _SHORT:
+        return ""
+    return (
+        f"time is {known[0]:.10g} s with steps of {step:.3g} s: are these day numbers of a "
+        f"spreadsheet? Then write dates, such as {DATE}"
+    )
 
 
 class Column(NamedTuple):
@@ -123,7 +161,7 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
             near = did_you_mean(name, [TIME[0], LABEL, *units])
             raise ValueError(f"{path}: column {column.heading!r}: no such quantity{near or _NAMES}")
     if TIME[0] not in table:
-        raise ValueError(f"{path}: column {TIME[0]!r}: missing")
+        raise missing_column(path, TIME[0], table)
     labels = table.pop(LABEL).values.to_pylist() if LABEL in table else None
     columns = {
         name: column.in_si(name, units.get(name, "s"))
@@ -131,7 +169,10 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
         if name not in UNREAD
     }
     with naming(path):
-        step = time_step(columns.pop(TIME[0]))
+        time = columns.pop(TIME[0])
+        if advice := day_numbers(time):
+            raise ValueError(advice)
+        step = time_step(time)
     if not any(np.isfinite(values).any() for values in columns.values()):
         raise ValueError(f"{path}: has no value besides the time")
     return Measurements(step, columns, labels)
@@ -317,7 +358,8 @@ def _number(name: str, row: int, value: Any) -> float:
         return math.nan if value is None else float(value)
     except (TypeError, ValueError):
         shown = one_line(str(value), _LONGEST_VALUE)
-        raise ValueError(f"row {row}: {name} = {shown!r}: must be a number") from None
+        expected = f" of seconds, or a date such as {DATE}" if name == TIME[0] else ""
+        raise ValueError(f"row {row}: {name} = {shown!r}: must be a number{expected}") from None
 
 
 def time_step(time: Array, first: int = 0) -> float:
