@@ -78,21 +78,16 @@ class VibrationCounters:
     """Samples that arrived after their hunting period or too long before the readings of the speed,
     occur twice, or are not finite."""
     periods: int = 0
-    """Hunting periods that were judged or learned."""
+    """Hunting periods with all samples, at a steady speed under load."""
     dropped_periods: int = 0
     """Hunting periods with missing samples, with a varying speed, or with too little torque."""
     constant_periods: int = 0
-    """Hunting periods in which a channel does not change."""
+    """Of these, periods in which a channel does not change; they are neither judged nor learned."""
     unscaled_periods: int = 0
-    """Hunting periods whose first mesh order is not where the measured speed places it."""
+    """Of these, periods whose first mesh order is not where the measured speed places it; they are
+    neither judged nor learned."""
     compared_periods: int = 0
-    """Hunting periods in which a growth would have been reported."""
-
-    @property
-    def complete(self) -> int:
-        """All complete hunting periods, also those that were not used."""
-        unused = self.dropped_periods + self.constant_periods + self.unscaled_periods
-        return self.periods + unused
+    """Of these, periods in which a growth would have been reported."""
 
 
 class _Judged(NamedTuple):
@@ -315,6 +310,7 @@ class VibrationFollower:
         if not (complete and steady and abs(torque) > CELL * self._train.torque):
             self.counters.dropped_periods += 1
             return
+        self.counters.periods += 1
         cell = self._cell_at(torque, speed)
         self._highest = cell.highest
         if constant := {
@@ -329,7 +325,6 @@ class VibrationFollower:
         if found is None:
             self.counters.unscaled_periods += 1
             return
-        self.counters.periods += 1
         amplitudes, floor = found / abs(torque)
         judged = _Judged(span[0], amplitudes, floor, torque, speed)
         if cell is not self._cell:
@@ -418,20 +413,21 @@ class VibrationFollower:
         """Reasons why the results are less certain, or why there are none, one line each."""
         yield from self._learning_remarks()
         counted = self.counters
+        complete = counted.periods + counted.dropped_periods
         if counted.dropped_periods > counted.periods:
             yield (
-                f"vibration: {counted.dropped_periods} of {counted.complete} hunting periods are "
+                f"vibration: {counted.dropped_periods} of {complete} hunting periods are "
                 "not used: samples are missing, the speed changes, or the torque is too low"
             )
-        if counted.constant_periods > DOUBTFUL * counted.complete:
+        if counted.constant_periods > DOUBTFUL * complete:
             yield (
-                f"vibration: {counted.constant_periods} of {counted.complete} hunting periods are "
+                f"vibration: {counted.constant_periods} of {complete} hunting periods are "
                 f"not judged, because a channel is constant: {', '.join(sorted(self._constant))}; "
                 "check the sensor, or leave out its column"
             )
-        if counted.unscaled_periods > DOUBTFUL * counted.complete:
+        if counted.unscaled_periods > DOUBTFUL * complete:
             yield (
-                f"vibration: {counted.unscaled_periods} of {counted.complete} hunting periods are "
+                f"vibration: {counted.unscaled_periods} of {complete} hunting periods are "
                 "not judged: the mesh frequency is not where the measured speed places it, to "
                 f"within {100.0 * STRETCH:g} %; check the gain of the speed sensor, the times of "
                 "the samples, and whether the sensor shows the mesh at all"
@@ -444,7 +440,7 @@ class VibrationFollower:
 
     def _learning_remarks(self) -> Iterator[str]:
         """Reasons why there is no hunting period yet that was compared with a baseline."""
-        if not self.counters.complete:
+        if not self.counters.periods + self.counters.dropped_periods:
             yield self._without_period()
         elif self._cell is not None and len(self._cell.learned) < self._learning:
             yield (
