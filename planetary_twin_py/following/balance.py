@@ -41,8 +41,8 @@ from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
 from .sensors import Sensors
 from .train import followed_train
+from .turning import Turning
 from .variety import Variety
-from .vibration import Turning
 
 Array = NDArray[np.float64]
 

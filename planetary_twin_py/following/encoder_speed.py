@@ -16,7 +16,7 @@ import numpy as np
 from .checks import InputError
 from .encoder_check import rounded_counts
 from .transmission_error import Counts
-from .vibration import Turning
+from .turning import Turning
 
 EVERY = 1.0  # [s] between samples that are compared
 LEAST = 1.0  # turns of the input in a span that is compared

@@ -12,7 +12,7 @@ from planetary_twin_py.following.baseline_fields import FIELDS
 from planetary_twin_py.following.baseline_file import VERSION, _digest, read_baseline
 from planetary_twin_py.following.hunting_blocks import BINS
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.following.vibration import _Baseline
+from planetary_twin_py.following.vibration_growth import LearnedBaseline
 
 SCENE = pt.load_scene("paper")
 
@@ -60,7 +60,7 @@ def loaded(path, arrays):
     np.savez(path, **arrays)
     saved = read_baseline(path, SCENE)
     Baseline.of_fields(saved.teeth.cells[0], 1)
-    _Baseline.of_fields(saved.vibration.cells[0])
+    LearnedBaseline.of_fields(saved.vibration.cells[0])
 
 
 NAMES = [f"{kind}/0/{name}" for kind, fields in FIELDS.items() for name in fields]

@@ -12,7 +12,9 @@ from planetary_twin_py.following.measured_tables import read_readings, read_vibr
 from planetary_twin_py.following.play_back import play_back
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.following.vibration import Turning, VibrationFollower, VibrationSamples
+from planetary_twin_py.following.turning import Turning
+from planetary_twin_py.following.vibration import VibrationFollower, VibrationSamples
+from planetary_twin_py.following.vibration_growth import VibrationGrowth
 
 RATE = 4_000.0  # [Hz]
 TRAIN = followed_train(paper())
@@ -185,12 +187,12 @@ def test_hunting_periods_too_short_for_the_speed_are_dropped():
 
 def test_the_limit_of_growth_follows_the_number_of_learned_periods():
     """A saved baseline of more hunting periods is better known."""
-    follower = VibrationFollower(TRAIN, NAMES, 1.0 / RATE, 8)
-    usual = follower._limit
-    follower._learning = 30
-    assert follower._limit < usual
-    follower.learn()
-    assert follower._limit == usual
+    growth = VibrationGrowth(NAMES, (), 8)
+    usual = growth._limit
+    growth.learning = 30
+    assert growth._limit < usual
+    growth.learn()
+    assert growth._limit == usual
 
 
 def played_with(duration=25.0, gain=1.0, stretched=1.0, shift=0.0, constant=None, seed=0):
