@@ -41,7 +41,7 @@ class DrivenRun:
 
     @property
     def first_unused(self) -> float | None:
-        """Time of the first command that has not begun to act [s]; None if all have."""
+        """Time of the first command that does not act so far [s]; None if all do."""
         late = (action.begin for action in self._pending if action.command.values)
         ticks = next(late, None)
         return None if ticks is None else ticks / TICKS
