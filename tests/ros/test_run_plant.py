@@ -110,16 +110,19 @@ def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Pat
 
 
 @pytest.mark.exhaustive
-def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path: Path) -> None:
+def test_an_interrupt_leaves_a_finished_recording_and_says_what_was_judged(
+    run: Run, peer: Peer, tmp_path: Path
+) -> None:
     from planetary_twin_msgs.msg import FollowerEstimate
 
     estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")
-    process = run("--duration", "600", "--record", "rig")
+    (tmp_path / "unchanged.yaml").write_text(HIDDEN.partition("changes:")[0])
+    process = run("--hidden", "unchanged.yaml", "--duration", "600", "--record", "rig")
     peer.until(lambda: any(one.input_torque_status == "ESTIMATED" for one in estimates))
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
-    assert "no change found" in output
+    assert "no change in the torque balance; not judged: vibration" in output
     assert counts(tmp_path / "recordings" / "rig")[f"{TWIN}/measured/joint_states"] > 0
 
 

@@ -12,7 +12,8 @@ from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.recording.ros2.topics import status_name
 
-REPORTS = "inputs", "clock", "estimator", "condition"
+CONDITION = "condition"
+REPORTS = "inputs", "clock", "estimator", CONDITION
 _UNUSED = ("late", "doubled", "outlying", "ahead", "encoder_late", "encoder_lost")
 
 

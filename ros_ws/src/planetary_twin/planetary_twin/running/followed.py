@@ -22,13 +22,19 @@ _HEADINGS = "quantity", "estimate", "95 % interval", "unit", "status", "improved
 
 @dataclass(frozen=True)
 class Followed:
-    """Results of a finished run; `begin` is the stamp of the first reading [s]."""
+    """
+    Results of a finished run.
+
+    `begin` is the stamp of the first reading [s], `condition` the last report on the condition,
+    which says what it means that there are no changes.
+    """
 
     folder: Path
     begin: float
     estimate: FollowerEstimate
     teeth: FollowerTeeth | None
     events: Sequence[FollowerEvent]
+    condition: str
 
     def figures(self) -> dict[str, Any]:
         """Return the values for `--json`; times are since the first reading."""
@@ -58,6 +64,7 @@ class Followed:
                 for event in self.events
             ],
             "teeth": [] if self.teeth is None else list(self.teeth.changed),
+            "condition": self.condition,
         }
 
 
@@ -77,7 +84,7 @@ def print_followed(console: Console, followed: Followed) -> None:
         table.add_row(*row)
     console.print(table)
     lines = [event_line(event, followed.begin) for event in followed.events]
-    for line in (*(lines or ["no change found"]), f"recording  {followed.folder}"):
+    for line in (*(lines or [followed.condition]), f"recording  {followed.folder}"):
         console.print(line, highlight=False, markup=False, soft_wrap=True)
 
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
+from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
 from planetary_twin_msgs.msg import FollowerEstimate, FollowerEvent, FollowerTeeth, RecorderStatus
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 
+from planetary_twin_py.recording.ros2.topics import status_name
+
 from ..client import Client
+from ..follower_reports import CONDITION
 from .children import RunError
 
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -33,6 +37,9 @@ class FollowerListener(Client):
         """Changes by their numbers, as last published."""
         self.begin: float | None = None
         """Stamp of the first reading [s]."""
+        self.condition = ""
+        """Last report on the condition: what it means that there are no changes."""
+        self._report = status_name(f"follower: {CONDITION}", namespace)
         self._recorder = RecorderStatus()
         self._arrived = time.monotonic()
         subscribe = self.node.create_subscription
@@ -40,6 +47,7 @@ class FollowerListener(Client):
         subscribe(FollowerTeeth, "follower/teeth", self._on_teeth, 100)
         subscribe(FollowerEvent, "follower/event", self._on_event, _LATCHED)
         subscribe(RecorderStatus, "logger/status", self._on_status, 10)
+        subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 100)
         self._first = subscribe(JointState, "measured/joint_states", self._on_joints, 10)
         self._change = self.node.create_client(ChangeState, "follower/change_state")
         self._get = self.node.create_client(GetState, "follower/get_state")
@@ -80,6 +88,11 @@ class FollowerListener(Client):
 
     def _on_status(self, message: RecorderStatus) -> None:
         self._recorder = message
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            if status.name == self._report:
+                self.condition = status.message
 
     def _on_joints(self, message: JointState) -> None:
         stamp = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec

@@ -67,7 +67,14 @@ def _run(plan: PlantPlan, console: Console) -> Followed:
         if listener.estimate is None or listener.begin is None:
             raise RunError("follower: has published no estimate")
         events = [listener.events[number] for number in sorted(listener.events)]
-        return Followed(plan.folder, listener.begin, listener.estimate, listener.teeth, events)
+        return Followed(
+            plan.folder,
+            listener.begin,
+            listener.estimate,
+            listener.teeth,
+            events,
+            listener.condition,
+        )
 
 
 def _parameters(plan: PlantPlan) -> dict[str, dict[str, object]]:
