@@ -10,6 +10,7 @@ from pyarrow import parquet
 from tiers import first
 from typer.testing import CliRunner
 
+from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.tables.units_file import write_units
 
@@ -171,6 +172,30 @@ def test_lines_whose_amplitudes_the_record_does_not_determine_are_counted(tmp_pa
         np.savetxt(file, tones, header="a", comments="")
         shown = invoke(file, "--sample-rate", 1000.0).stdout
         assert words in shown and (words or "of these lines" not in shown)
+
+
+def most_too_low(low, high):
+    """Largest share that a tone lacks of its height 1, with this many cycles in the record."""
+    turns = np.arange(1000) / 1000.0
+    tones = [
+        np.sin(2.0 * np.pi * cycles * turns + phase)
+        for cycles in np.linspace(low, high, 20, endpoint=False)
+        for phase in np.linspace(0.0, np.pi, 20)
+    ]
+    return max(1.0 - strongest_lines(*amplitude_spectrum(tone, 1.0), 1)[0][1] for tone in tones)
+
+
+def test_the_stated_errors_of_lines_with_few_cycles_are_those_of_tones_of_any_phase(tmp_path):
+    file = tmp_path / "a.csv"
+    np.savetxt(file, np.sin(2.0 * np.pi * 1.3 * np.arange(2000) / 2000.0), header="a", comments="")
+    shown = invoke(file, "--sample-rate", 1000.0).stdout
+    stated = re.search(
+        r"up to (\d+) % too low from 1.5 cycles, (\d+) % from one, more below", shown
+    )
+    assert stated is not None
+    for share, (low, high) in zip(stated.groups(), ((1.5, 2.0), (1.0, 1.5)), strict=True):
+        assert most_too_low(low, high) == pytest.approx(0.01 * int(share), abs=0.005)
+    assert most_too_low(0.6, 1.0) > 0.42 and most_too_low(2.0, 3.0) < 0.02
 
 
 def test_a_measured_input_speed_is_converted_to_that_of_the_sun_relative_to_the_carrier(tmp_path):
