@@ -111,10 +111,13 @@ def frequency_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum
         sun_teeth: number of teeth of the sun; None if it is unknown.
 
     Returns:
-        The spectrum, with the mesh frequency at the mean speed.
+        The spectrum, with the mesh frequency at the mean speed if there is one (see
+        `has_mean_speed`).
     """
     found = amplitude_spectrum(signal.samples, signal.sample_rate)
-    mesh = None if sun_teeth is None else sun_teeth * abs(signal.speed) / (2.0 * math.pi)
+    mesh = None
+    if sun_teeth is not None and signal.has_mean_speed:
+        mesh = sun_teeth * abs(signal.speed) / (2.0 * math.pi)
     edge = edge_amplitude(found.frequency, found.amplitude)
     return MeshSpectrum(*found, mesh or None, _all_of(found.frequency), signal.sample_rate, edge)
 

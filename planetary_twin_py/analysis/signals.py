@@ -18,6 +18,7 @@ from ..recording.tables.unpacking import check_unpacked
 from .segments import full_rate, longest_segment, sample_rate
 
 Array = NDArray[np.float64]
+MEAN = 0.5  # of the rms speed; the mean of a run-up from standstill is 0.87 of it
 QUANTITIES = {"dte": "m", "mesh_force": "N", "friction": "N"}
 
 
@@ -46,6 +47,19 @@ class Signal:
     def speed(self) -> float:
         """Mean speed of the sun relative to the carrier [rad/s]."""
         return float((self.angle[-1] - self.angle[0]) / (self.time[-1] - self.time[0]))
+
+    @property
+    def rms_speed(self) -> float:
+        """Rms speed of the sun relative to the carrier [rad/s] of uniformly spaced samples."""
+        return float(np.sqrt(np.mean(np.diff(self.angle) ** 2))) * self.sample_rate
+
+    @property
+    def has_mean_speed(self) -> bool:
+        """Whether the mean speed is at least `MEAN` times the rms, so that it defines frequencies.
+
+        That of a shaft that reverses is near zero.
+        """
+        return abs(self.speed) >= MEAN * self.rms_speed
 
     def within(self, begin: float | None, end: float | None) -> Self:
         """The longest uniformly sampled segment of an interval.

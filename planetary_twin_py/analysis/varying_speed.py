@@ -15,7 +15,7 @@ from scipy.signal import get_window
 
 from .even_steps import PHASE
 from .mesh_spectrum import MeshSpectrum
-from .signals import Array, Signal
+from .signals import MEAN, Array, Signal
 
 
 def exact_order(angle: Array) -> float:
@@ -32,13 +32,21 @@ def exact_order(angle: Array) -> float:
 
 
 def speed_remarks(signal: Signal, spectrum: MeshSpectrum, count: int) -> Iterator[str]:
-    """A line if the speed varies so much that some of the highest lines are too low.
+    """A line if the speed reverses, or varies so much that some of the highest lines are too low.
 
     Args:
         signal: of a mesh or a sensor; an angle that is constant states no speed.
         spectrum: of this signal over frequency.
         count: number of lines that are listed.
     """
+    if not signal.has_mean_speed:
+        yield (
+            f"the mean speed of the sun relative to the carrier, {signal.speed:.3g} rad/s, is less "
+            f"than {MEAN:g} times its rms, {signal.rms_speed:.3g} rad/s: there is no mesh "
+            "frequency and no line is named; select an interval without reversal or rest by --from "
+            "and --to"
+        )
+        return
     frequency = exact_order(signal.angle) * abs(signal.speed) / math.tau
     if any(line.place > frequency for line in spectrum.lines(count)):
         yield (

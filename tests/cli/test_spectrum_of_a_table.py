@@ -151,6 +151,25 @@ def test_lines_over_frequency_that_a_varying_speed_lowers_come_with_a_remark(run
     assert "the speed varies" not in invoke(run_up, "--speed", "Motor speed", "--order").stderr
 
 
+@pytest.mark.parametrize("options", [(), ("--scene", "paper")])
+def test_a_speed_that_reverses_defines_no_mesh_frequency_and_comes_with_one_remark(
+    tmp_path, options
+):
+    file, time = tmp_path / "reversing.csv", np.arange(0.0, 2.0, 2e-4)
+    speed = 50.0 * np.sin(2.0 * np.pi * time)
+    rows = np.column_stack((time, np.sin(600.0 * np.pi * time), speed))
+    header = "time [s],a [m/s^2],speed [rad/s]"
+    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    done = invoke(file, "--speed", "speed", *options)
+    (remark,) = done.stderr.splitlines()
+    assert "times its rms, 35.4 rad/s: there is no mesh frequency" in remark
+    assert "sidebands of" not in done.stdout and "mesh harmonic" not in done.stdout
+    half = ("--speed", "speed", *options, "--to", 0.5, "--json", "-")
+    assert "no mesh frequency" not in invoke(file, *half).stderr
+    orders = {line["mesh_orders"] is None for line in lines(file, *half[:-2])}
+    assert orders == {not options}
+
+
 def test_a_measured_speed_without_a_unit_comes_with_a_remark(tmp_path):
     file, time = tmp_path / "a.csv", np.arange(0.0, 1.0, 1e-3)
     rows = np.column_stack((time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time))
