@@ -29,6 +29,7 @@ MOST_OF = 0.5  # share of the sum of the squared amplitudes of these lines
 EXACT = 0.5  # [bins] largest distance of a line from its harmonic, as places are interpolated
 FEWEST = 2  # explained lines
 SERIES = 3  # harmonics that are evidence without sidebands
+_ROUNDING = 1e-9  # by which a mesh frequency at half the sample rate may seem to be above it
 CLOSE = 0.1  # deviation of a factor from 1 that another speed explains
 
 
@@ -66,7 +67,7 @@ def scale_remarks(spectrum: MeshSpectrum, scene: Scene) -> Iterator[str]:
     """
     if spectrum.mesh is None:
         return
-    if spectrum.mesh > 0.5 * spectrum.sample_rate:
+    if spectrum.mesh > 0.5 * spectrum.sample_rate * (1.0 + _ROUNDING):
         yield (
             f"the mesh frequency of the scene is {2.0 * spectrum.mesh / spectrum.sample_rate:.3g} "
             "times half the sample rate, so no mesh harmonic is seen: is the unit of the time "
