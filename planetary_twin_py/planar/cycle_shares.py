@@ -28,7 +28,7 @@ class CycleShares:
         self._last = np.zeros((0, 1 + planets))
 
     def add(self, cycles: np.ndarray, load: np.ndarray) -> None:
-        """Add samples at equal distances in time.
+        """Add samples at equal distances in time; cycles with one that is NaN are left out.
 
         Args:
             cycles: mesh cycles from any start, (samples,).
@@ -38,12 +38,18 @@ class CycleShares:
         if not len(samples):
             return
         self._last = samples[-1:]
+        known = np.isfinite(samples[:, 0])
+        if not known.any():
+            return
         if math.isnan(self._start):
-            self._start = float(samples[0, 0])
+            self._start = float(samples[known][0, 0])
         passed = np.abs(samples[:, 0] - self._start)
-        self._passed = max(self._passed, float(passed.max()))
-        begin, end = np.sort([passed[:-1], passed[1:]], axis=0)
+        self._passed = max(self._passed, float(passed[known].max()))
         mean = 0.5 * (samples[:-1, 1:] + samples[1:, 1:])
+        mean[~(known[:-1] & known[1:])] = math.nan  # in the cycle of the end that is known
+        placed = known[:-1] | known[1:]
+        begin = np.fmin(passed[:-1], passed[1:])[placed]
+        end, mean = np.fmax(passed[:-1], passed[1:])[placed], mean[placed]
         first, last = begin.astype(int), end.astype(int)
         # Part of the interval between two samples that is in the later of two cycles.
         later = np.divide(end - last, end - begin, out=np.zeros_like(end), where=last > first)
@@ -73,7 +79,11 @@ class CycleShares:
             values[..., : groups * together].reshape(*values.shape[:-1], groups, together).sum(-1)
             for values in (self._sums, self._time)
         )
-        means = load[:, time > 0.0] / time[time > 0.0]
+        # Without cycles with NaN: a mean over a part of one contains the ripple.
+        whole_ones = (time > 0.0) & np.isfinite(load).all(axis=0)
+        means = load[:, whole_ones] / time[whole_ones]
+        if not means.size:
+            return None
         of_all = means.mean(axis=0)
         loaded = np.abs(of_all) > LOADED * abs(of_all.mean())
         if not loaded.any():
