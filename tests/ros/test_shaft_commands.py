@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin import shaft_commands
-from planetary_twin.shaft_commands import ShaftCommands
+from planetary_twin.shaft_commands import ShaftCommands, fault_of_names
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
@@ -270,6 +270,16 @@ def test_a_misspelt_joint_is_named_while_its_shaft_has_no_command() -> None:
         0,
         "received",
     )
+
+
+def test_only_a_joint_of_the_twin_that_is_named_twice_discards_a_command() -> None:
+    other = JointState(name=["elbow", SUN, "elbow"], effort=[7.0, 5.0, 8.0])
+    assert fault_of_names(other, (SUN, RING)) == ""
+    own = JointState(name=[SUN, RING, SUN], effort=[1.0, 2.0, 3.0])
+    assert fault_of_names(own, (SUN, RING)) == "a name twice"
+    commands = received(other, own)
+    assert torques(commands) == {"input_torque": 5.0}
+    assert commands.ignored == {"a name twice": 1}
 
 
 def test_messages_with_fewer_values_than_names_are_counted() -> None:

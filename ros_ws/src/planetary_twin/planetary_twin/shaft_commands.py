@@ -97,7 +97,7 @@ class ShaftCommands:
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
         values, now = values_of(message, self.joints), self._now() - waited if stamp else 0
         reasons = set[str]()
-        if fault := fault_of_names(message):
+        if fault := fault_of_names(message, self.joints):
             values = {}
             reasons.add(fault)
         elif not values:
@@ -237,9 +237,14 @@ def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
     return near
 
 
-def fault_of_names(message: JointState) -> str:
-    """Return what is wrong with the names of `message`; ros2_control sends no surplus values."""
+def fault_of_names(message: JointState, joints: tuple[str, str]) -> str:
+    """
+    Return what is wrong with the names of `message`; ros2_control sends no surplus values.
+
+    Names other than those of `joints` may repeat: they have no effect.
+    """
     longest = max(len(message.position), len(message.velocity), len(message.effort))
     if longest > len(message.name):
         return "more values than names"
-    return "" if len({*message.name}) == len(message.name) else "a name twice"
+    names = list(message.name)
+    return "a name twice" if any(names.count(joint) > 1 for joint in joints) else ""

@@ -221,11 +221,11 @@ class Simulation(ManagedNode):
 
     def command(self, message: JointState) -> dict[str, float]:
         """Return what a command gives at the ports, as arguments of `Twin.advance`."""
-        if fault := fault_of_names(message):
+        joints = joint_names(self._given.scene)
+        if fault := fault_of_names(message, joints):
             raise ValueError(f"command: has {fault}")
         if not message.name:
             return {}
-        joints = joint_names(self._given.scene)
         values = values_of(message, joints)
         if not values:
             raise ValueError(
