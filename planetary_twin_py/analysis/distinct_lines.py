@@ -21,20 +21,24 @@ _LOBE = 2.0  # [bins] half the width of the main lobe
 _ROUNDING = 1e-12  # of the highest line, below which amplitudes are numerical noise
 
 
-def over_noise(axis: Array, amplitude: Array, lines: Sequence[Line]) -> list[float]:
+def over_noise(
+    axis: Array, amplitude: Array, lines: Sequence[Line], error: float = 0.0
+) -> list[float]:
     """Heights of the bins of lines over the noise around them, or over the leakage of higher lines.
 
     Args:
         axis: frequency [Hz] or order [cycles per turn], uniformly spaced, (bins,).
         amplitude: with a Hann window, in any unit, (bins,).
         lines: of this spectrum.
+        error: of interpolated samples, over the height of a tone; lower lines than this share of
+            the highest may be products of the interpolation, and are not distinct.
 
     Returns:
         The ratio of each line to the higher of both, to be compared with `DISTINCT`.
     """
     every = np.array(strongest_lines(axis, amplitude, len(axis))).reshape(-1, 2)
     places, heights = every[:, 0] / axis[1], every[:, 1]
-    least = _ROUNDING * heights.max(initial=0.0)
+    least = max(_ROUNDING, error / DISTINCT) * heights.max(initial=0.0)
     found = []
     for line in lines:
         bin_ = round(line.place / float(axis[1]))

@@ -13,7 +13,8 @@ from scipy.ndimage import map_coordinates
 from scipy.signal import firwin, upfirdn
 
 Array = NDArray[np.float64]
-EXACT = 0.47  # of the sample rate: amplitudes of tones up to it are exact to 0.2 %
+EXACT = 0.47  # of the sample rate: amplitudes of tones up to it are exact to `ERROR`
+ERROR = 2e-3
 _UP = 2  # a quintic spline is exact to 0.01 % up to a quarter of the doubled rate
 _HALF = 128  # weights of the filter on each side, which keep it flat to 0.1 % up to `EXACT`
 

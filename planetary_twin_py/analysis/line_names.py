@@ -65,7 +65,7 @@ class LineNames:
             count: largest number of lines.
         """
         found, lines = self.spectrum, self.spectrum.lines(count)
-        ratios = over_noise(found.axis, found.amplitude, lines)
+        ratios = over_noise(found.axis, found.amplitude, lines, found.error)
         return [self._named(line, ratio) for line, ratio in zip(lines, ratios, strict=True)]
 
     def unresolved(self) -> dict[str, float]:

@@ -36,6 +36,8 @@ class MeshSpectrum:
     """In the unit of the axis."""
     edge: float
     """Height of the lines just below half the sample rate, see `edge_amplitude`."""
+    error: float = 0.0
+    """Of interpolated samples, over the height of a tone."""
 
     @property
     def alias_share(self) -> float:
@@ -119,7 +121,8 @@ def frequency_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum
     if sun_teeth is not None and signal.has_mean_speed:
         mesh = sun_teeth * abs(signal.speed) / (2.0 * math.pi)
     edge = edge_amplitude(found.frequency, found.amplitude)
-    return MeshSpectrum(*found, mesh or None, _all_of(found.frequency), signal.sample_rate, edge)
+    band, rate = _all_of(found.frequency), signal.sample_rate
+    return MeshSpectrum(*found, mesh or None, band, rate, edge, signal.error)
 
 
 def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
@@ -143,7 +146,7 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
     edge = edge_amplitude(*amplitude_spectrum(signal.samples, signal.sample_rate))
     rate = 2.0 * math.pi * signal.sample_rate / abs(signal.speed)
     band = Band(0.0, min(resolved, orders.EXACT * per_turn))
-    return MeshSpectrum(*found, sun_teeth, band, rate, edge)
+    return MeshSpectrum(*found, sun_teeth, band, rate, edge, signal.error + interpolation.ERROR)
 
 
 def _all_of(axis: Array) -> Band:

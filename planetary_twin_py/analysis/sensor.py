@@ -9,6 +9,7 @@ from ..dynamics.bodies import rigid_ratios
 from ..recording.tables.sensor import Sensor
 from ..scene import Scene
 from .even_steps import at_equal_steps, drift_remark, drifts, resampled
+from .interpolation import ERROR
 from .signals import Array, Signal
 
 
@@ -36,10 +37,12 @@ def sensor_signal(sensor: Sensor, scene: Scene | None) -> Signal:
     angle = cumulative_trapezoid(speed, sensor.time, initial=0).astype(np.float64)
     text = None if scene is None else scene.model_dump_json()
     samples, even, remarks = sensor.samples, at_equal_steps(sensor.time), sensor.remarks
+    error = 0.0
     if drifts(sensor.time):
         samples, angle = resampled(samples, sensor.time), np.interp(even, sensor.time, angle)
         remarks += (drift_remark(sensor.time),)
-    return Signal(samples, even, angle, text, remarks)
+        error = ERROR
+    return Signal(samples, even, angle, text, remarks, error)
 
 
 def _relative_sun_speed(scene: Scene, input_speed: Array) -> Array:

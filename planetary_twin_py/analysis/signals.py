@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 from zipfile import BadZipFile
@@ -37,6 +37,8 @@ class Signal:
     """The scene, if it is known."""
     remarks: tuple[str, ...] = ()
     """Warnings about the samples."""
+    error: float = 0.0
+    """Of interpolated samples, over the height of a tone."""
 
     @property
     def sample_rate(self) -> float:
@@ -98,8 +100,12 @@ class Signal:
                 f"the sample rate is reduced from {full:.0f} to {rate:.0f} Hz: components above "
                 f"{0.5 * rate:.0f} Hz appear as aliases",
             )
-        return type(self)(
-            self.samples[part], self.time[part], self.angle[part], self.scene_yaml, remarks
+        return replace(
+            self,
+            samples=self.samples[part],
+            time=self.time[part],
+            angle=self.angle[part],
+            remarks=remarks,
         )
 
 

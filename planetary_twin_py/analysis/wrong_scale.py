@@ -125,7 +125,7 @@ def _fits(spectrum: MeshSpectrum, scene: Scene) -> tuple[list[Line], Fit, list[F
         nearest to 1; there are no others if another speed or held member explains it.
     """
     highest = strongest_lines(spectrum.axis, spectrum.amplitude, LINES)
-    ratios = over_noise(spectrum.axis, spectrum.amplitude, highest)
+    ratios = over_noise(spectrum.axis, spectrum.amplitude, highest, spectrum.error)
     lines = [line for line, ratio in zip(highest, ratios, strict=True) if ratio >= DISTINCT]
     assert spectrum.mesh is not None
     step, sidebands, held = float(spectrum.axis[1]), Sidebands.of(scene), _held_factors(scene)

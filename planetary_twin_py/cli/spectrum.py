@@ -374,7 +374,8 @@ def _unnamed(figures: dict[str, Any], unit: str) -> Iterator[str]:
     if any(line["mesh_orders"] is not None for line in weak):
         yield (
             f"{len(weak)} of these lines have no name: they are less than {DISTINCT:g} times as "
-            "high as the noise around them, or as the leakage of higher lines"
+            "high as the noise around them, or as the leakage of higher lines, or too low for "
+            "interpolated samples"
         )
     for member, apart in figures["unresolved_sidebands"].items():
         finest = apart / RESOLVED
