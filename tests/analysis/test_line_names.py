@@ -9,10 +9,12 @@ import planetary_twin_py as pt
 from planetary_twin_py.analysis.distinct_lines import DISTINCT, over_noise
 from planetary_twin_py.analysis.line_names import LineNames
 from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+from planetary_twin_py.analysis.sensor import sensor_signal
 from planetary_twin_py.analysis.shaft_lines import ShaftLine, ShaftLines
 from planetary_twin_py.analysis.sidebands import MOST, Sideband, Sidebands
 from planetary_twin_py.analysis.signals import Signal
 from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
+from planetary_twin_py.recording.tables.sensor import Sensor
 
 RATE = 10_000.0
 PAPER = pt.load_scene("paper").replace(input_speed=pt.rpm(1000.0))  # meshes at 500 Hz
@@ -134,3 +136,13 @@ def test_products_of_the_interpolation_of_an_order_spectrum_have_no_names(rate, 
         found = LineNames(order_spectrum_of(signal, 30), PAPER, True).named(12)
         assert [line.over_noise >= DISTINCT for line in found[:12]].count(True) == distinct
         assert not any(line.text for line in found[distinct:])
+
+
+@pytest.mark.parametrize(("drift", "names"), [(0.0, 2), (1e-3, 1)])
+def test_weak_lines_have_no_names_where_drifting_stamps_are_interpolated(drift, names):
+    even = np.arange(20_000) / RATE
+    time = even + drift * np.sin(np.pi * even) ** 2
+    tones = np.sin(1000.0 * np.pi * time) + 1e-3 * np.sin(2000.0 * np.pi * time)
+    signal = sensor_signal(Sensor("a", "g", time, tones, None), PAPER).within(None, None)
+    found = LineNames(frequency_spectrum_of(signal, 30), PAPER, True).named(12)
+    assert [bool(line.text) for line in found].count(True) == names
