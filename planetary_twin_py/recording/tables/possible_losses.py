@@ -14,6 +14,9 @@ from ...scene import Scene
 Array = NDArray[np.float64]
 
 CERTAIN = 4.0  # standard errors by which a mean must be out of range
+FEWEST = 3  # rows of an operating point whose scatter shows the error of their mean
+ACCURACY = 0.002  # of the input power: errors of power analysers and torque sensors
+EXCESS = 0.15  # of the input power, by which a single row must be out of range
 MEASURED = "power_loss", "efficiency", "input_power"
 
 
@@ -29,8 +32,8 @@ class ImpossibleLoss(NamedTuple):
 def impossible_loss(columns: Mapping[str, Array], scene: Scene) -> ImpossibleLoss | None:
     """The first impossible loss among the rows of one operating point.
 
-    Single rows are compared with the input power; noise may make single losses negative, so the
-    sign of the mean counts.
+    Noise may put single rows out of range, and loss and input power are equal without load, so the
+    mean of several rows counts, or a row that is far out of range.
 
     Args:
         columns: measured values of `MEASURED` in SI, (rows,) each; NaN where they are missing.
@@ -41,27 +44,29 @@ def impossible_loss(columns: Mapping[str, Array], scene: Scene) -> ImpossibleLos
     """
     if "power_loss" in columns:
         loss, power = columns["power_loss"], _input_power(columns, scene)
-        for row in np.flatnonzero((power > 0.0) & (loss > power))[:1]:
+        driven = np.where(power > 0.0, power, math.nan)
+        if (row := _exceeding((loss - driven) / driven)) is not None:
             return ImpossibleLoss(
-                int(row),
+                row,
                 f"power_loss = {loss[row]:.6g} W: must be below the input power, "
                 f"{power[row]:.6g} W; is a unit wrong?",
             )
-        if (mean := _certain_mean(loss)) is not None and mean < 0.0:
+        if (row := _exceeding(-loss / np.abs(power))) is not None:
             return ImpossibleLoss(
-                0, f"power_loss is {mean:.4g} W on average: must not be negative; is a sign wrong?"
+                row,
+                f"power_loss = {loss[row]:.6g} W: must not be negative on average; is a sign wrong?",
             )
     efficiency = columns.get("efficiency", np.empty(0))
-    for row in np.flatnonzero(efficiency < 0.0)[:1]:
+    if (row := _exceeding(-efficiency)) is not None:
         return ImpossibleLoss(
-            int(row),
-            f"efficiency = {efficiency[row]:.4g}: must be at least 0: the loss exceeds the input "
+            row,
+            f"efficiency = {efficiency[row]:.6g}: must be at least 0: the loss exceeds the input "
             "power",
         )
-    if (mean := _certain_mean(efficiency - 1.0)) is not None and mean > 0.0:
+    if (row := _exceeding(efficiency - 1.0)) is not None:
         return ImpossibleLoss(
-            0,
-            f"efficiency is {1.0 + mean:.4g} on average: must be at most 1; the heading of a "
+            row,
+            f"efficiency = {efficiency[row]:.6g}: must be at most 1 on average; the heading of a "
             "column in per cent must be efficiency [%]",
         )
     return None
@@ -76,10 +81,17 @@ def _input_power(columns: Mapping[str, Array], scene: Scene) -> Array:
     return np.where(np.isfinite(measured), measured, usual)
 
 
-def _certain_mean(values: Array) -> float | None:
-    """Mean of the known values; None if its sign is not certain."""
-    values = values[np.isfinite(values)]
-    if not len(values):
+def _exceeding(excess: Array) -> int | None:
+    """Index of the row that is farthest out of range; None if noise may explain all rows.
+
+    Args:
+        excess: amounts by which rows are out of range, relative to the input power, (rows,);
+            negative in range, NaN if unknown.
+    """
+    known = excess[np.isfinite(excess)]
+    if not len(known):
         return None
-    mean, error = float(values.mean()), float(values.std()) / math.sqrt(len(values))
-    return mean if abs(mean) > CERTAIN * error else None
+    certain = len(known) >= FEWEST and known.mean() > ACCURACY + CERTAIN * float(
+        known.std(ddof=1)
+    ) / math.sqrt(len(known))
+    return int(np.nanargmax(excess)) if certain or known.max() > EXCESS else None

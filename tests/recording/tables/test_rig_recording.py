@@ -250,7 +250,7 @@ POWER = 63.0 * 1000.0 * np.pi / 30.0  # [W]
     [
         ({"power_loss": [*[75.0] * 5, 8000.0, 75.0, 75.0]},
          f"row 6: power_loss = 8000 W: must be below the input power, {POWER:.6g} W"),
-        ({"power_loss": np.full(8, -75.0)}, "power_loss is -75 W on average: must not be negative"),
+        ({"power_loss": np.full(8, -75.0)}, "row 1: power_loss = -75 W: must not be negative on average"),
         ({"efficiency": [0.99, 0.99, -0.2, *[0.99] * 5]},
          "row 3: efficiency = -0.2: must be at least 0"),
         ({"efficiency": np.full(8, 98.9)}, "must be efficiency [%]"),
@@ -269,6 +269,25 @@ def test_losses_that_noise_makes_negative_are_accepted(tmp_path):
     noise = np.array([1.0, -1.0, 0.5, -0.5, 1.5, -1.5, 0.2, -0.2])
     columns = {"power_loss": 10.0 + 30.0 * noise, "efficiency": 1.001 + 0.01 * noise}
     assert bring_in(tmp_path, RIG | columns).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("loss", "efficiency"),
+    [
+        ([52.7, 51.9, 52.4], [-0.0126, 0.008, 0.002]),  # output without load, power 52.3 W
+        ([-0.02], [1.0003]),  # one row at an operating point
+    ],
+)
+def test_losses_within_the_errors_of_the_sensors_are_accepted(tmp_path, loss, efficiency):
+    columns = {
+        "time": np.arange(1, len(loss) + 1) / 10.0,
+        "input_torque": np.full(len(loss), 0.5),
+        "input_speed [rpm]": np.full(len(loss), 1000.0),
+        "input_power": np.full(len(loss), 52.3),
+        "power_loss": np.array(loss),
+        "efficiency": np.array(efficiency),
+    }
+    assert bring_in(tmp_path, columns).exit_code == 0
 
 
 def test_the_output_may_drive_and_its_loss_exceed_the_power_at_the_input(tmp_path):
