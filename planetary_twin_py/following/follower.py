@@ -332,7 +332,7 @@ class Follower:
         if self._teeth is not None:
             judged["teeth"] = self._teeth.compared > 0
         if self._vibration is not None:
-            judged["vibration"] = self._vibration.counters.compared_periods > 0
+            judged["vibration"] = self._vibration.judged
         return judged
 
     def _add_readings(self, block: Readings) -> None:

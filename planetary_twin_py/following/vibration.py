@@ -49,7 +49,7 @@ class VibrationCounters(SampleCounters):
     dropped_periods: int = 0
     """Hunting periods with missing samples, with a varying speed, or with too little torque."""
     constant_periods: int = 0
-    """Of `periods`, those in which a channel does not change; they are neither judged nor
+    """Of `periods`, those in which a channel does not change, which is neither judged nor
     learned."""
     unscaled_periods: int = 0
     """Of `periods`, those whose first mesh order is not where the measured speed places it; they
@@ -82,6 +82,18 @@ class VibrationFollower:
     def events(self) -> list[Event]:
         """Patterns that have grown."""
         return self._growth.events
+
+    @property
+    def judged(self) -> bool:
+        """Whether a growth in any channel would have been reported."""
+        return self.counters.compared_periods > 0 and not self._often(
+            self.counters.constant_periods
+        )
+
+    def _often(self, periods: int) -> bool:
+        """Whether so many hunting periods are a remark."""
+        complete = self.counters.periods + self.counters.dropped_periods
+        return periods > DOUBTFUL * complete
 
     @property
     def saved(self) -> VibrationBaseline | None:
@@ -151,16 +163,18 @@ class VibrationFollower:
     def _judge(self, period: HuntingPeriod, torque: float, speed: float) -> None:
         cell = self._growth.baseline_at(torque, speed) or self._new_baseline(torque, speed)
         self._highest = cell.highest
-        spreads = zip(self.names, np.ptp(period.values, axis=0), strict=True)
-        if constant := {name for name, spread in spreads if not spread}:
+        constant = np.ptp(period.values, axis=0) == 0.0
+        if constant.any():
             self.counters.constant_periods += 1
-            self._constant |= constant
+            self._constant |= {self.names[channel] for channel in np.flatnonzero(constant)}
+        if constant.all():
             return
         angle = period.course.angle(period.time)
         found = self._amplitudes.of(angle, period.values, cell.highest)
         if found is None:
             self.counters.unscaled_periods += 1
             return
+        found[:, constant] = np.nan
         amplitudes, floor = found / abs(torque)
         judged = JudgedPeriod(period.begin, amplitudes, floor, torque, speed)
         self.counters.compared_periods += self._growth.add(judged, cell, period.end)
@@ -179,13 +193,13 @@ class VibrationFollower:
                 f"vibration: {counted.dropped_periods} of {complete} hunting periods are "
                 "not used: samples are missing, the speed changes, or the torque is too low"
             )
-        if counted.constant_periods > DOUBTFUL * complete:
+        if self._often(counted.constant_periods):
             yield (
-                f"vibration: {counted.constant_periods} of {complete} hunting periods are "
-                f"not judged, because a channel is constant: {', '.join(sorted(self._constant))}; "
-                "check the sensor, or leave out its column"
+                f"vibration: in {counted.constant_periods} of {complete} hunting periods a channel "
+                f"is constant: {', '.join(sorted(self._constant))}, and not judged; check the "
+                "sensor, or leave out its column"
             )
-        if counted.unscaled_periods > DOUBTFUL * complete:
+        if self._often(counted.unscaled_periods):
             yield (
                 f"vibration: {counted.unscaled_periods} of {complete} hunting periods are "
                 "not judged: the mesh frequency is not where the measured speed places it, to "

@@ -180,8 +180,9 @@ class VibrationGrowth:
             return False
         self._recent.append(period)
         self._report_growth(cell, end)
-        known = bool(np.isfinite([each.found for each in cell.learned]).all(axis=0).any())
-        return len(self._recent) >= WINDOWS[0] and known
+        compared = [*cell.learned, *list(self._recent)[-WINDOWS[0] :]]
+        known = np.isfinite([each.found for each in compared]).all(axis=0)
+        return len(self._recent) >= WINDOWS[0] and bool(known.any())
 
     @property
     def _limit(self) -> float:
@@ -241,6 +242,7 @@ class VibrationGrowth:
         amplitudes = np.array(
             [period.found[key] for period in self._recent if period.begin >= event.found]
         )
+        amplitudes = amplitudes[np.isfinite(amplitudes)]  # without constant channels
         if not len(amplitudes):
             return
         mean, sd = (float(statistic[key]) for statistic in baseline)

@@ -237,7 +237,14 @@ def test_a_stretched_time_of_the_samples_gives_neither_alarm_nor_all_clear(seed)
 @pytest.mark.parametrize("constant", [0, [0, 1]])
 def test_a_constant_channel_is_named_as_not_judged(constant):
     state = played_with(constant=constant)
-    assert_not_judged(state, f"a channel is constant: {'housing' if constant == 0 else 'bearing'}")
+    names = ", ".join(sorted(np.array(NAMES)[np.atleast_1d(constant)]))
+    assert any(f"a channel is constant: {names}, and not judged" in line for line in state.remarks)
+    assert not state.judged["vibration"]
+
+
+def test_the_other_channel_shows_the_fault_beside_a_constant_one():
+    (event,) = played_with(constant=0).events
+    assert "sun" in event.what and event.found > 15.0 and NAMES[1] in event.evidence
 
 
 @pytest.mark.parametrize("shift", [-100.0, 100.0])
