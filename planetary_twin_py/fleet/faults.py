@@ -6,6 +6,7 @@ of ever more, which costs less.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -73,7 +74,7 @@ class Faults:
             own = {name: values[:, n] for name, values in columns.items()}
             rows = Rows(time, {name: own.get(name, missing) for name in CHANNELS})
             lines = [
-                *map(impossible_temperature, _ends(own["oil_temperature"])),
+                impossible_temperature(_median(own["oil_temperature"])),
                 *self._contradictions.shown_by(rows).values(),
             ]
             if line := next(filter(None, lines), ""):
@@ -101,7 +102,7 @@ class Faults:
         self._torque = np.maximum(self._torque, largest)
 
 
-def _ends(values: Array) -> list[float]:
-    """Least and greatest of the values that are not missing."""
+def _median(values: Array) -> float:
+    """Median of the values that are not missing; NaN if all are."""
     known = values[np.isfinite(values)]
-    return [float(known.min()), float(known.max())] if len(known) else []
+    return float(np.median(known)) if len(known) else math.nan

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..brief import brief
 from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import alarm_memory, interval_memory
+from ..following.contradictions import CELSIUS, HOTTEST
 from ..following.estimate import CONFIDENT
 from ..following.friction_remark import friction_remarks
 from ..following.sensors import Sensors
@@ -142,7 +143,8 @@ class Fleet:
         change = speed - self._speed
         acceleration = np.where(np.isfinite(change), change / step, 0.0)
         self._time, self._speed = time, speed
-        self._oil = np.where(np.isfinite(row["oil_temperature"]), row["oil_temperature"], self._oil)
+        oil = row["oil_temperature"]
+        self._oil = np.where((oil >= CELSIUS) & (oil <= HOTTEST), oil, self._oil)
         self._note_missing(time, row)
         self._faults.add(time, row)
         reading = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)

@@ -21,6 +21,8 @@ NEAR = 0.02  # relative deviation within which two speed ratios agree
 EFFICIENCY = 0.3, 1.15  # plausible range of a torque ratio over that without loss
 LOADED = 0.2  # share of the torque of the scene below which torques are not compared
 INERTIAL = 0.3  # share of the torque for the acceleration above which torques are not compared
+FEWEST = 5  # rows of which torques are compared: fewer do not show what accelerates the train
+SEVERAL = 3  # rows that must exceed the speed limit: one may be an error of transmission
 EXCESS = 10.0  # multiple of the torque limit that no overload reaches, but a wrong unit does
 SMALL = 0.05  # share of the torque of the scene below which a unit may be 1000 times too large
 MOVING = 0.05  # share of the speed of the scene below which speeds are not compared
@@ -65,20 +67,21 @@ class Contradictions:
         train = self.train
         speed_in, speed_out, input_torque, output_torque = (rows.columns[name] for name in CHANNELS)
         found: dict[str, str] = {}
-        if np.isfinite(speed_in).any():
-            found["speed limit"] = self._speed_limit(float(np.nanmax(np.abs(speed_in))))
+        speeds = np.sort(np.abs(speed_in[np.isfinite(speed_in)]))
+        if len(speeds) >= SEVERAL:
+            found["speed limit"] = self._speed_limit(float(speeds[-SEVERAL]))
         moving = (np.abs(speed_in) > MOVING * train.speed) & np.isfinite(speed_out)
         if moving.any():
             found["speeds"] = self._speeds(float(np.median(speed_out[moving] / speed_in[moving])))
         speed = np.where(np.isfinite(speed_in), speed_in, speed_out / train.ratio)
         loaded = self._loaded(rows.time, speed, input_torque, output_torque)
-        if loaded.any():
+        if loaded.sum() >= FEWEST:
             ratio = float(np.median(output_torque[loaded] / input_torque[loaded]))
             size = float(np.median(np.abs(input_torque[loaded])))
             found["torques"] = self._torques(ratio, size)
             found["torque limit"] = self._torque_limit(size)
         usable = (np.abs(speed) > MOVING * train.speed) & np.isfinite(input_torque + output_torque)
-        if usable.any():
+        if usable.sum() >= FEWEST:
             line = self._loss(speed[usable], input_torque[usable], output_torque[usable])
             if line or loaded.any():  # without load, a loss of nearly zero shows no sign
                 found["loss"] = line

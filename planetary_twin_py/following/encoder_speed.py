@@ -23,6 +23,7 @@ LEAST = 1.0  # turns of the input in a span that is compared
 LONGEST = 60.0  # [s] of a span; a train that turns less meanwhile is at rest
 SPANS = 3  # whose median counts, because turns may be lost
 NEAR = 0.02  # relative deviation within which two speeds agree
+OFFSET = 0.05  # [s] by which the clocks of encoders and readings may differ
 GAP = 1.0  # [s] between two speeds above which a span is not compared
 
 
@@ -76,7 +77,7 @@ class EncoderSpeed:
                 del self._points[1]  # the span becomes longer
                 continue
             self._points.popleft()
-            if abs(measured) >= 2.0 * math.pi * LEAST:
+            if abs(measured) >= 2.0 * math.pi * LEAST and _is_steady(course, begin[0], end[0]):
                 self._ratios.append((end[1] - begin[1]) / measured)
             if len(self._ratios) == SPANS:
                 speed = float(np.median(np.abs(course.speed)))
@@ -87,7 +88,8 @@ class EncoderSpeed:
         if len(self._ratios) < SPANS:
             yield (
                 "encoders: their counts per turn and their sample rate are not checked: this needs "
-                f"a measured speed in {SPANS} spans of a turn and at least {EVERY:g} s"
+                f"a nearly constant measured speed in {SPANS} spans of a turn and at least "
+                f"{EVERY:g} s"
             )
 
     def _check(self, ratio: float, speed: float) -> None:
@@ -108,6 +110,14 @@ class EncoderSpeed:
             f"{1.0 / (self.period * abs(ratio)):.6g} Hz instead of {1.0 / self.period:.6g} Hz, or "
             "the unit of the speed is wrong"
         )
+
+
+def _is_steady(course: Turning, begin: float, end: float) -> bool:
+    """Whether the speed changes so slowly that an `OFFSET` hardly matters."""
+    inside = (course.time > begin) & (course.time < end)
+    first, second = (float(half.mean()) for half in np.array_split(course.speed[inside], 2))
+    rate = (second - first) / (0.5 * (end - begin))  # [rad/s^2]
+    return abs(rate) * OFFSET <= 0.5 * NEAR * abs(0.5 * (first + second))
 
 
 def _turned(course: Turning, begin: float, end: float) -> float:

@@ -186,6 +186,19 @@ def test_good_readings_with_gaps_contradict_nothing():
     assert not fleet.faults
 
 
+def test_a_single_row_with_impossible_readings_is_no_fault_and_has_no_temperature():
+    fleet, played = Fleet(paper(), 4), Played(4, 2)
+    for time in range(1, 301):
+        row = played.row(float(time))
+        if time == 100:
+            row["oil_temperature"][0], row["oil_temperature"][1] = 0.0, 900.0
+            row["input_speed"][2] = 1e4
+        fleet.add(float(time), row)
+    fleet.finish()
+    assert not fleet.faults
+    assert np.isfinite(fleet.estimate("friction_level").value).all()
+
+
 def test_a_step_that_is_found_while_a_reading_is_missing_has_its_share():
     """The share is that of the same step without the gap, within the scatter of the torque."""
     whole = followed(Played(20, 2), 2400, 1200)

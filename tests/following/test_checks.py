@@ -66,6 +66,16 @@ def test_a_loss_within_the_errors_of_the_sensors_is_accepted(duty, seed):
     Follower(paper()).add(Readings(time, columns))
 
 
+def test_a_run_up_that_begins_in_the_last_row_contradicts_nothing():
+    time = np.arange(1, 3006) / 100.0
+    follower, torque = Follower(paper()), np.where(time > 30.0, 63.0, 0.0)
+    speed = torque / follower._balance.train.inertia * np.maximum(time - 30.0, 0.0)
+    columns = {"input_torque": torque, "output_torque": np.zeros(len(time)), "input_speed": speed}
+    follower.add(Readings(time, columns))
+    follower.finish()
+    assert not [line for line in follower.estimate().remarks if "contradict" in line]
+
+
 def test_a_coasting_train_is_no_reversed_one():
     speed = np.linspace(104.7, 60.0, 700)  # the motor brakes and the load gives its inertia
     follower = Follower(paper())

@@ -12,7 +12,9 @@ TRAIN = followed_train(paper())
 SLOW = 2_000.0  # [Hz]
 
 
-def followed(stated=COUNTS, rate=SLOW, speed=lambda time: TRAIN.speed, sign=1, cuts=9, lost=None):
+def followed(
+    stated=COUNTS, rate=SLOW, speed=lambda time: TRAIN.speed, sign=1, cuts=9, lost=None, late=0.0
+):
     """A follower of readings and of encoders with COUNTS per turn at 2 kHz, for 8 s."""
     time = np.arange(0.0, 8.0, 1.0 / SLOW)
     omega = np.broadcast_to(speed(time), time.shape)
@@ -29,7 +31,7 @@ def followed(stated=COUNTS, rate=SLOW, speed=lambda time: TRAIN.speed, sign=1, c
         "input_speed": omega[20::20],
     }
     for rows in np.array_split(np.arange(len(read)), cuts):
-        follower.add(Readings(read[rows], {name: v[rows] for name, v in columns.items()}))
+        follower.add(Readings(read[rows] + late, {name: v[rows] for name, v in columns.items()}))
     for rows in np.array_split(np.arange(len(time)), cuts):
         follower.add(EncoderSamples(rows, counts[rows].astype(np.int64)))
     follower.finish()
@@ -45,6 +47,11 @@ def wandering(time):
 def test_encoders_that_turn_with_the_measured_speed_pass(speed, cuts):
     remarks = followed(speed=speed, cuts=cuts).remarks
     assert not any("not checked" in line for line in remarks)
+
+
+@pytest.mark.parametrize("duration", [3.0, 6.0])
+def test_clocks_that_differ_during_a_run_up_are_no_wrong_encoder(duration):
+    followed(late=0.05, speed=lambda time: TRAIN.speed * np.minimum((time + 0.1) / duration, 1.0))
 
 
 def test_a_lost_turn_is_no_wrong_encoder():

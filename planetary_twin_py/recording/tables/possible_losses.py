@@ -54,7 +54,8 @@ def impossible_loss(columns: Mapping[str, Array], scene: Scene) -> ImpossibleLos
         if (row := _exceeding(-loss / np.abs(power))) is not None:
             return ImpossibleLoss(
                 row,
-                f"power_loss = {loss[row]:.6g} W: must not be negative on average; is a sign wrong?",
+                f"power_loss = {loss[row]:.6g} W: must not be negative on average; is a sign "
+                "wrong?",
             )
     efficiency = columns.get("efficiency", np.empty(0))
     if (row := _exceeding(-efficiency)) is not None:

@@ -250,7 +250,8 @@ POWER = 63.0 * 1000.0 * np.pi / 30.0  # [W]
     [
         ({"power_loss": [*[75.0] * 5, 8000.0, 75.0, 75.0]},
          f"row 6: power_loss = 8000 W: must be below the input power, {POWER:.6g} W"),
-        ({"power_loss": np.full(8, -75.0)}, "row 1: power_loss = -75 W: must not be negative on average"),
+        ({"power_loss": np.full(8, -75.0)},
+         "row 1: power_loss = -75 W: must not be negative on average"),
         ({"efficiency": [0.99, 0.99, -0.2, *[0.99] * 5]},
          "row 3: efficiency = -0.2: must be at least 0"),
         ({"efficiency": np.full(8, 98.9)}, "must be efficiency [%]"),
@@ -272,13 +273,13 @@ def test_losses_that_noise_makes_negative_are_accepted(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("loss", "efficiency"),
+    ("loss", "efficiency", "points"),
     [
-        ([52.7, 51.9, 52.4], [-0.0126, 0.008, 0.002]),  # output without load, power 52.3 W
-        ([-0.02], [1.0003]),  # one row at an operating point
+        ([52.7, 51.9, 52.4], [-0.0126, 0.008, 0.002], [1, 1, 1]),  # no load at the output
+        ([-0.02, 0.03], [1.0003, 0.99], [1, 2]),  # one row at each operating point
     ],
 )
-def test_losses_within_the_errors_of_the_sensors_are_accepted(tmp_path, loss, efficiency):
+def test_losses_within_the_errors_of_the_sensors_are_accepted(tmp_path, loss, efficiency, points):
     columns = {
         "time": np.arange(1, len(loss) + 1) / 10.0,
         "input_torque": np.full(len(loss), 0.5),
@@ -286,6 +287,7 @@ def test_losses_within_the_errors_of_the_sensors_are_accepted(tmp_path, loss, ef
         "input_power": np.full(len(loss), 52.3),
         "power_loss": np.array(loss),
         "efficiency": np.array(efficiency),
+        "operating_point": np.array(points),
     }
     assert bring_in(tmp_path, columns).exit_code == 0
 
