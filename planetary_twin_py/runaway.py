@@ -75,8 +75,8 @@ def displacement_limit(scene: Scene) -> Limit:
         "m",
         names,
         np.full(len(names), module),
-        "a module, beyond which teeth may not mesh; reduce the torque, offsets (errors.*_offset) or "
-        "clearances, or increase the stiffness of the bearings (supports.*.bearing)",
+        "a module, beyond which teeth may not mesh; reduce the torque, clearances or offsets "
+        "(errors.*_offset), or increase the stiffness of the bearings (supports.*.bearing)",
     )
 
 
