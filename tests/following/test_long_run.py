@@ -61,16 +61,13 @@ def test_the_state_of_a_steady_run_does_not_grow():
     follower = Follower(SCENE, Sensors(learning=8), EncoderFormat((N, N), 1.0 / RATE))
     chance = np.random.default_rng(0)
     followed(follower, 0, FULL, chance)
-    cycle = 21  # [s] after which the samples that wait are as many as before
-    sizes, periods = [], follower.hunting_periods
-    for number in range(5):
-        begin = FULL + cycle * number
-        followed(follower, begin, begin + cycle, chance)
-        sizes.append(held(follower))
-    assert follower.hunting_periods - periods == pytest.approx(5 * cycle / HUNTING, abs=2)
+    cycle = 105  # [s] after which as many samples and rows wait as before
+    before, periods = held(follower), follower.hunting_periods
+    followed(follower, FULL, FULL + cycle, chance)
+    assert follower.hunting_periods - periods == pytest.approx(cycle / HUNTING, abs=2)
     assert not follower.estimate().events
     # One number for each of the hunting periods would add 1000; a sample more or less has 32.
-    assert max(sizes) - min(sizes) < 200, sizes
+    assert abs(held(follower) - before) < 200
 
 
 def test_the_watch_of_a_clock_does_not_grow():

@@ -5,6 +5,7 @@ A repeated message has the same publish time, sequence number and content, but a
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -21,10 +22,13 @@ class Repeats:
     def __init__(self) -> None:
         self._seen: set[tuple[str, int, int, int]] = set()
         self._latched: dict[int, str] = {}
+        self.counts = Counter[str]()
+        """Repeated messages in the current file, by topic."""
 
     def next_file(self) -> None:
         """Start the next file, whose channel numbers are independent."""
         self._latched = {}
+        self.counts.clear()
 
     def repeated(self, record: Any) -> bool:
         """Whether a record is a message that has occurred before."""
@@ -32,7 +36,10 @@ class Repeats:
             if _latched(record):
                 self._latched[record.id] = record.topic
         elif isinstance(record, Message) and record.channel_id in self._latched:
-            return self.known(self._latched[record.channel_id], record)
+            topic = self._latched[record.channel_id]
+            if self.known(topic, record):
+                self.counts[topic] += 1
+                return True
         return False
 
     def is_latched(self, channel: int) -> bool:

@@ -44,8 +44,6 @@ class TopicInfo:
     be read; None without an account."""
     before: int = 0
     """Lost messages that were published before the first received one."""
-    accounted: int = 0
-    """Messages recorded, by the recorder's account."""
     first: int = 0
     last: int = 0
     longest_gap: int = 0
@@ -140,7 +138,6 @@ def read_info(*paths: Path) -> Info:
             collected.read(file)
         else:
             collected = attempt
-    collected.count_damaged()
     collected.warn_of_missing()
     info = collected.info
     counts = {name: topic.recorded for name, topic in info.topics.items()}
@@ -178,9 +175,11 @@ class _Collector:
                 accounts.append(record.metadata)
             if decoded := decoder.read(record):
                 self._add_message(*decoded)
+        counts = Counter(self._repeats.counts)
         for name, log_times in times.items():
             self.info.topics[name].add(log_times)
-        self._add_losses(file, accounts)
+            counts[name] += len(log_times)
+        self._add_losses(file, accounts, counts)
 
     def look_up(self, file: Path, index: Index) -> None:
         """Add the contents of a file from its index and the few messages that are needed."""
@@ -210,7 +209,10 @@ class _Collector:
         for _, topic, message in sorted(changes, key=lambda change: change[0]):
             self._add_message(topic, message)
         accounts = [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
-        self._add_losses(file, accounts)
+        counts = {
+            channel.topic: len(index.times[number]) for number, channel in index.channels.items()
+        }
+        self._add_losses(file, accounts, counts)
 
     def _new(self, index: Index, channel: int) -> NDArray[np.intp]:
         """Indices of the messages of a channel that are not in the previous files."""
@@ -227,12 +229,6 @@ class _Collector:
             self._missing[topic] += _missing_between(self._states[topic], state)
         self._states[topic] = state
 
-    def count_damaged(self) -> None:
-        """Count messages as lost that were recorded, by the account, but cannot be read."""
-        for topic in self.info.topics.values():
-            if topic.lost is not None:
-                topic.lost += max(topic.accounted - topic.recorded, 0)
-
     def warn_of_missing(self) -> None:
         """Warn of missing states if the recording contains no account of losses."""
         for topic, missing in self._missing.items():
@@ -244,9 +240,16 @@ class _Collector:
                     "recording contains no count of losses"
                 )
 
-    def _add_losses(self, file: Path, accounts: Sequence[Mapping[str, str]]) -> None:
-        """Add the losses of a file, which may list topics without messages."""
+    def _add_losses(
+        self, file: Path, accounts: Sequence[Mapping[str, str]], counts: Mapping[str, int]
+    ) -> None:
+        """Add the losses of a file, which may list topics without messages.
+
+        Messages are lost, too, that were recorded by the account and are not among the `counts` of
+        those that can be read, by topic.
+        """
         wrong: list[str] = []
+        unread = Counter[str]()
         for account in accounts:
             try:
                 name, lost, missed, recorded = recorded_losses(account)
@@ -256,7 +259,11 @@ class _Collector:
             if topic := self.info.topics.get(name):
                 topic.lost = (topic.lost or 0) + lost
                 topic.before += lost - missed
-                topic.accounted += recorded
+                unread[name] += recorded
+        unread.subtract({name: counts.get(name, 0) for name in unread})
+        for name, count in (+unread).items():
+            topic = self.info.topics[name]
+            topic.lost = (topic.lost or 0) + count
         if wrong:
             which = "an account" if len(wrong) == 1 else f"{len(wrong)} accounts"
             first = "" if len(wrong) == 1 else "the first: "
