@@ -230,6 +230,7 @@ class VibrationGrowth:
     def _earliest_start(self, key: tuple[int, int], mean: Array, sd: Array, now: float) -> float:
         """Earliest time at which a pattern may have grown [s]."""
         amounts = np.array([period.found[key] for period in self._recent]) - mean[key]
+        amounts = np.where(np.isnan(amounts), 0.0, amounts)  # of a constant channel
         first = self._recent[onset_of(amounts, float(sd[key])).first].begin
         # A step later than half of a hunting period belongs to the next one.
         return first - 0.5 * (now - self._recent[-1].begin)

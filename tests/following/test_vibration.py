@@ -14,7 +14,12 @@ from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.following.turning import Turning
 from planetary_twin_py.following.vibration import VibrationFollower, VibrationSamples
-from planetary_twin_py.following.vibration_growth import VibrationGrowth
+from planetary_twin_py.following.vibration_growth import (
+    JudgedPeriod,
+    LearnedBaseline,
+    VibrationGrowth,
+)
+from planetary_twin_py.following.vibration_lines import PatternAmplitudes
 
 RATE = 4_000.0  # [Hz]
 TRAIN = followed_train(paper())
@@ -240,6 +245,18 @@ def test_a_constant_channel_is_named_as_not_judged(constant):
     names = ", ".join(sorted(np.array(NAMES)[np.atleast_1d(constant)]))
     assert any(f"a channel is constant: {names}, and not judged" in line for line in state.remarks)
     assert not state.judged["vibration"]
+
+
+def test_a_channel_that_was_constant_shows_a_later_fault_with_its_time():
+    chance = np.random.default_rng(0)
+    lines = PatternAmplitudes(TRAIN).patterns
+    growth, patterns = VibrationGrowth(("housing",), lines, 8), len(lines)
+    cell, floor = LearnedBaseline(63.0, 100.0, 10.0), np.zeros((1, patterns))
+    for number in range(24):
+        found = 1.0 + 0.01 * chance.standard_normal((1, patterns)) + (number >= 18)
+        found[:] = np.nan if 10 <= number < 16 else found
+        growth.add(JudgedPeriod(float(number), found, floor, 63.0, 100.0), cell, number + 1.0)
+    assert {17.0 <= event.since <= 18.5 for event in growth.events} == {True}
 
 
 def test_the_other_channel_shows_the_fault_beside_a_constant_one():
