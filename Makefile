@@ -16,7 +16,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-features test-all test-exhaustive test-model test-nodes test-cosimulation test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
+.PHONY: setup run test test-features test-all test-exhaustive test-release test-model test-nodes test-cosimulation test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 
@@ -33,7 +33,7 @@ test:
 	@$(MAKE) --no-print-directory test-features
 
 test-features: setup
-	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
+	$(PYTEST) -m "not exhaustive and not release" --ignore=tests/ros/test_soak.py $(ARGS)
 
 # What CI runs beyond `make test`: documentation that is executed, searches by chance, every further
 # case, and minutes of running live.
@@ -44,13 +44,17 @@ test-all:
 	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),200)
 
 test-exhaustive: setup
-	$(PYTEST) --numprocesses=3 -m exhaustive $(ARGS)  # which compile and compute, and wait little
+	$(PYTEST) --numprocesses=3 -m "exhaustive and not release" $(ARGS)  # they wait little
+
+# Minutes of processor time for one test: before a release, and after a change of what it guards.
+test-release: setup
+	$(PYTEST) --numprocesses=3 -m release $(ARGS)
 
 test-model: setup
-	$(PYTEST) -m "not exhaustive" --ignore=tests/ros $(ARGS)
+	$(PYTEST) -m "not exhaustive and not release" --ignore=tests/ros $(ARGS)
 
 test-nodes: setup
-	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py tests/ros $(ARGS)
+	$(PYTEST) -m "not exhaustive and not release" --ignore=tests/ros/test_soak.py tests/ros $(ARGS)
 
 # The core with checks of addresses, bounds and undefined behaviour, which end a test.
 sanitize: setup
@@ -63,7 +67,7 @@ test-cosimulation: setup
 	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) tests/fmu tests/examples $(ARGS)
 
 test-fast: setup
-	$(PYTEST) -m "not slow and not exhaustive" $(ARGS)
+	$(PYTEST) -m "not slow and not exhaustive and not release" $(ARGS)
 
 soak: setup
 	SOAK_DURATION=$(or $(DURATION),3600) $(BIN)/pytest -q -s -p no:cacheprovider tests/ros/test_soak.py

@@ -1,4 +1,4 @@
-"""Cases of a test for `make test`, and those that only `make test-all` runs."""
+"""Cases of a test for one tier, and those that only a longer one runs: see CONTRIBUTING.md."""
 
 from __future__ import annotations
 
@@ -8,13 +8,18 @@ from typing import Any
 import pytest
 
 
-def first(count: int, cases: Iterable[Any]) -> list[Any]:
-    """All `cases` for `parametrize`, of which only the first `count` belong to `make test`."""
-    chosen, others = (cases := [*cases])[:count], cases[count:]
-    return chosen + [pytest.param(case, marks=pytest.mark.exhaustive) for case in others]
+def first(
+    count: int, cases: Iterable[Any], others: pytest.MarkDecorator = pytest.mark.exhaustive
+) -> list[Any]:
+    """All `cases` for `parametrize`, of which all but the first `count` have the mark `others`."""
+    return first_rows(count, [(case,) for case in cases], others)
 
 
-def first_rows(count: int, cases: Iterable[Any]) -> list[Any]:
+def first_rows(
+    count: int, cases: Iterable[Any], others: pytest.MarkDecorator = pytest.mark.exhaustive
+) -> list[Any]:
     """As `first`, for cases of several arguments each."""
-    chosen, others = (cases := [*cases])[:count], cases[count:]
-    return chosen + [pytest.param(*case, marks=pytest.mark.exhaustive) for case in others]
+    return [
+        pytest.param(*case, marks=() if number < count else others)
+        for number, case in enumerate(cases)
+    ]

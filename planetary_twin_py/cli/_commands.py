@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections.abc import Callable, Iterator, Mapping
-from functools import partial
+from functools import cache, partial
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
@@ -57,14 +57,7 @@ class Commands(Mapping[str, Any]):
     """Installed commands: those of this package, and those of entry points."""
 
     def __init__(self) -> None:
-        package = importlib.import_module(__package__)
-        own = {
-            _command_name(module.name): partial(_own, module.name)
-            for module in pkgutil.iter_modules(package.__path__)
-            if not module.name.startswith("_")
-        }
-        added = {entry.name: partial(_added, entry) for entry in entry_points(group=GROUP)}
-        self._loaders: dict[str, Callable[[], Any]] = dict(sorted((own | added).items()))
+        self._loaders = _loaders()
 
     def __getitem__(self, name: str) -> Any:
         return self._loaders[name]()
@@ -74,6 +67,19 @@ class Commands(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(self._loaders)
+
+
+@cache
+def _loaders() -> dict[str, Callable[[], Any]]:
+    """Function that loads each command, once in a process."""
+    package = importlib.import_module(__package__)
+    own = {
+        _command_name(module.name): cache(partial(_own, module.name))
+        for module in pkgutil.iter_modules(package.__path__)
+        if not module.name.startswith("_")
+    }
+    added = {entry.name: cache(partial(_added, entry)) for entry in entry_points(group=GROUP)}
+    return dict(sorted((own | added).items()))
 
 
 def _command_name(module: str) -> str:

@@ -105,13 +105,13 @@ def _interpolate(
 ) -> Array:
     """Interpolate linearly in a cell; the table is (2, temperatures, speeds, torques)."""
     (k, m, n), (h, v, u) = place, share
-    values = np.zeros(len(u))
-    for a in (0, 1):
-        for b in (0, 1):
-            for c in (0, 1):
-                weight = (h if a else 1.0 - h) * (v if b else 1.0 - v) * (u if c else 1.0 - u)
-                values += weight * table[drives, k + a, m + b, n + c]
-    return values
+    _, temperatures, speeds, torques = table.shape
+    first = ((drives * temperatures + k) * speeds + m) * torques + n
+    steps = np.add.outer([0, speeds * torques], [[0, 1], [torques, torques + 1]])
+    corners = table.ravel()[first + steps[..., np.newaxis]]  # (2, 2, 2, n)
+    at_speeds = corners[0] + h * (corners[1] - corners[0])
+    at_torques = at_speeds[0] + v * (at_speeds[1] - at_speeds[0])
+    return np.asarray(at_torques[0] + u * (at_torques[1] - at_torques[0]))
 
 
 def loss_table(scene: Scene) -> LossTable:

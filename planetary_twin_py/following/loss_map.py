@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -56,8 +58,11 @@ class LossMap:
         speeds = np.minimum(train.speed * np.array(SPEEDS), train.speed_limit)
         heat = np.clip(train.oil_temperature + np.array(HEATING), COLDEST, HOTTEST)
         self._torques, self._speeds, self._heat = map(np.unique, (torques, speeds, heat))
-        self._logarithms = np.log(self._torques), np.log(self._speeds)
         self._tables: dict[tuple[bool, int], tuple[Array, Array]] = {}
+        # Plain numbers: a reading needs one point, for which arrays take ten times as long.
+        self._lists = [knots.tolist() for knots in self.knots]
+        self._logarithms = [np.log(knots).tolist() for knots in (self._torques, self._speeds)]
+        self._cells: dict[tuple[bool, int, int, int], list[float]] = {}
 
     def __call__(self, torque: float, speed: float, temperature: float) -> Loss:
         """Loss torques at an operating point.
@@ -73,17 +78,16 @@ class LossMap:
         Raises:
             RunawayError: a point of the table that is needed has no equilibrium.
         """
-        heat_index, heat_fraction = _interval_of(self._heat, temperature)
+        heat_index, heat_fraction = _interval_of(self._lists[2], temperature)
         drives = torque * speed >= 0.0
         cold = self._loss_at(drives, heat_index, torque, speed)
         if heat_fraction == 0.0:
             return cold
         warm = self._loss_at(drives, heat_index + 1, torque, speed)
         return Loss(
-            *(
-                at_cold + heat_fraction * (at_warm - at_cold)
-                for at_cold, at_warm in zip(cold, warm, strict=True)
-            )
+            cold.teeth + heat_fraction * (warm.teeth - cold.teeth),
+            cold.slope + heat_fraction * (warm.slope - cold.slope),
+            cold.rest + heat_fraction * (warm.rest - cold.rest),
         )
 
     @property
@@ -115,27 +119,35 @@ class LossMap:
         torque_size, speed_size = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
         speed_index, speed_fraction = _interval_of(self._logarithms[1], math.log(speed_size))
         torque_index, torque_fraction = _interval_of(self._logarithms[0], math.log(torque_size))
-        teeth, rest = self._table_part(
-            drives,
-            heat_index,
-            slice(speed_index, speed_index + 2),
-            slice(torque_index, torque_index + 2),
-        )
-        (a, b), (c, d) = teeth.tolist()
+        a, b, c, d, *rest = self._cell(drives, heat_index, speed_index, torque_index)
         low, high = a + speed_fraction * (c - a), b + speed_fraction * (d - b)
         coefficient = low + torque_fraction * (high - low)
-        log_slope = (high - low) / float(
+        log_slope = (high - low) / (
             self._logarithms[0][torque_index + 1] - self._logarithms[0][torque_index]
         )
-        (a, b), (c, d) = rest.tolist()
-        speed_fraction = _fraction(self._speeds, speed_index, speed_size)
+        a, b, c, d = rest
+        speed_fraction = _fraction(self._lists[1], speed_index, speed_size)
         low, high = a + speed_fraction * (c - a), b + speed_fraction * (d - b)
-        other_loss = low + _fraction(self._torques, torque_index, torque_size) * (high - low)
+        other_loss = low + _fraction(self._lists[0], torque_index, torque_size) * (high - low)
         return Loss(
             coefficient * torque_size,
             coefficient + (log_slope if 0.0 < torque_fraction < 1.0 else 0.0),
             other_loss,
         )
+
+    def _cell(
+        self, drives: bool, heat_index: int, speed_index: int, torque_index: int
+    ) -> list[float]:
+        """Corners of a cell, first of tooth friction, then of the rest; torque varies fastest."""
+        place = drives, heat_index, speed_index, torque_index
+        if place not in self._cells:
+            speeds, torques = (
+                slice(speed_index, speed_index + 2),
+                slice(torque_index, torque_index + 2),
+            )
+            teeth, rest = self._table_part(drives, heat_index, speeds, torques)
+            self._cells[place] = [*teeth.ravel().tolist(), *rest.ravel().tolist()]
+        return self._cells[place]
 
     def _table_part(
         self, drives: bool, heat_index: int, speeds: slice, torques: slice
@@ -181,15 +193,14 @@ class LossMap:
         return energy.friction / angle, (energy.bearing + energy.churning) / angle
 
 
-def _interval_of(knots: Array, value: float) -> tuple[int, float]:
+def _interval_of(knots: Sequence[float], value: float) -> tuple[int, float]:
     """Index of the interval of a value, and the fraction of that interval from 0 to 1."""
-    n = min(max(int(np.searchsorted(knots, value, "right")) - 1, 0), len(knots) - 2)
+    n = min(max(bisect_right(knots, value) - 1, 0), len(knots) - 2)
     return n, min(max(_fraction(knots, n, value), 0.0), 1.0)
 
 
-def _fraction(knots: Array, n: int, value: float) -> float:
-    low = float(knots[n])
-    return (value - low) / (float(knots[n + 1]) - low)
+def _fraction(knots: Sequence[float], n: int, value: float) -> float:
+    return (value - knots[n]) / (knots[n + 1] - knots[n])
 
 
 def loss_map(scene: Scene) -> LossMap:

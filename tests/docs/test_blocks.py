@@ -14,6 +14,7 @@ from docs.trial import TIMEOUT, changes_code, end, readers_environment, tried, t
 
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
+LONG = "docs/gallery.md", "docs/howto/fit.md"  # more than a minute of processor time
 
 pytestmark = pytest.mark.slow
 
@@ -46,7 +47,14 @@ def test_every_block_states_its_language_and_why_it_is_not_run(page):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=name(page), marks=pytest.mark.release if name(page) in LONG else ())
+        for page in PAGES
+        if not changes_code(page)
+    ],
+)
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
     shutil.copytree(ROOT / "tests" / "data", tmp_path / "tests" / "data")

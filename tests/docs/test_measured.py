@@ -24,7 +24,7 @@ def test_every_miss_and_every_doubt_has_a_reason():
         assert any(figure in remark.split("*: ")[0] for remark in remarks), figure
 
 
-@pytest.mark.exhaustive
+@pytest.mark.release
 def test_the_command_gives_the_same_verdicts(tmp_path):
     command = [sys.executable, "-m", "measured", tmp_path / "measured.md"]
     subprocess.run(command, cwd=ROOT / "benchmarks", check=True, timeout=1800)

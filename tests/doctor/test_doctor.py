@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from planetary_twin_py import _core
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.cli import _commands
 from planetary_twin_py.cli._commands import GROUP
 from planetary_twin_py.doctor import apart, core, disk, environment, packages, viewer
 from planetary_twin_py.doctor.finding import Finding
@@ -116,6 +117,7 @@ def test_a_command_that_cannot_be_loaded_affects_no_other(monkeypatch):
         raise ImportError("librcl.so: cannot open shared object file")
 
     monkeypatch.setattr(type(entry), "load", broken)
+    monkeypatch.setattr(_commands, "_loaders", _commands._loaders.__wrapped__)  # loaded here
     done = CliRunner().invoke(build_app(), ["run"])
     assert done.exit_code == 2
     assert "librcl.so" in done.output

@@ -208,7 +208,7 @@ def test_intervals_contain_the_true_value_with_other_laws(kind):
         assert inside[name] >= 0.9 * count - 1.0, (name, inside[name], count)
 
 
-@pytest.mark.exhaustive
+@pytest.mark.release
 def test_no_false_alarm_in_ten_minutes_of_each_duty():
     for number, kind in enumerate(DELAYS):
         _, follower = balance_of(kind, LAWS["with bearings"], 600.0, 40 + number)

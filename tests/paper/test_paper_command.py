@@ -12,7 +12,7 @@ def run(*arguments):
     return CliRunner().invoke(build_app(), ["paper", *map(str, arguments)])
 
 
-@pytest.mark.exhaustive
+@pytest.mark.release
 def test_the_command_writes_page_pictures_and_figures(tmp_path):
     page, machine = tmp_path / "new" / "side.md", tmp_path / "paper.json"
     result = run("--out", page, "--json", machine)

@@ -11,6 +11,7 @@ import math
 import numpy as np
 import pytest
 from planar.published_set import MESH, PIN, TORQUE, scene
+from tiers import first_rows
 
 from planetary_twin_py import simulate
 from planetary_twin_py.planar.load_sharing import load_sharing
@@ -23,9 +24,8 @@ RATIO = 1.0 + 70.0 / 30.0  # turns of the sun per turn of the carrier
 SPEED = 100.0  # [rad/s] of the sun
 TURN = 2.0 * math.pi * RATIO / SPEED  # [s]
 SAMPLES = 256
-OFFSETS = pytest.mark.parametrize(
-    ("member", "approach"), [("ring", E), ("carrier", 2.0 * math.cos(ANGLE) * E)]
-)
+BY_MEMBER = [("ring", E), ("carrier", 2.0 * math.cos(ANGLE) * E)]
+OFFSETS = pytest.mark.parametrize(("member", "approach"), BY_MEMBER)
 
 
 def turning(member, sun, dynamics, **changes):
@@ -72,7 +72,7 @@ def test_loads_and_float_are_those_of_statics(member, approach, sun):
 
 
 @pytest.mark.exhaustive
-@OFFSETS
+@pytest.mark.parametrize(("member", "approach"), first_rows(1, BY_MEMBER, pytest.mark.release))
 def test_a_vibrating_set_shares_the_load_so_in_the_mean_and_its_energy_balances(member, approach):
     run = one_turn(turning(member, HELD, "planar"), settling=0.05)
     first = orders(run.axes.load_share)[1]

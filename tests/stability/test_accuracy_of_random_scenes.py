@@ -29,7 +29,7 @@ def _benchmark():
     [
         (6, FEW),
         pytest.param(1, SOME, marks=pytest.mark.exhaustive),
-        *(pytest.param(seed, MANY, marks=pytest.mark.exhaustive) for seed in (2, 3, 4, 5)),
+        *(pytest.param(seed, MANY, marks=pytest.mark.release) for seed in (2, 3, 4, 5)),
     ],
 )
 def test_errors_keep_to_ten_tolerances_or_the_run_warns_and_every_ledger_closes(seed, count):

@@ -12,6 +12,7 @@ from integrators.test_reference import RATE, RATTLE, absolute
 from reference_model import COAST, DRIVE, OPEN, Reference
 from scipy.integrate import solve_ivp
 from stability.sound import PAPER
+from tiers import first
 
 from planetary_twin_py._core import DTE
 from planetary_twin_py.engine import Engine
@@ -78,7 +79,7 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("start", [0.03, 0.035, 0.038, 0.04])  # [s]
+@pytest.mark.parametrize("start", first(1, [0.04, 0.038, 0.035, 0.03], pytest.mark.release))  # [s]
 def test_dop853_is_off_by_a_thousand_tolerances_at_a_tight_tolerance_too(start):
     success, error = Rattle(start, 6e-3).peer("DOP853", 1e-4)
     assert success

@@ -16,7 +16,7 @@ sys.exit(len(columns))
 """
 
 
-@pytest.mark.exhaustive
+@pytest.mark.release
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_threads_that_read_a_table_never_abort_the_interpreter_at_its_end(tmp_path, suffix):
     path = tmp_path / f"table{suffix}"

@@ -45,7 +45,7 @@ def test_friction_alone_reaches_the_end_of_its_range_and_the_missing_drag_is_nam
     assert said[1].startswith(f"the model lacks a loss: {DRAG} = ")
 
 
-@pytest.mark.exhaustive
+@pytest.mark.release
 def test_with_a_load_independent_drag_friction_stays_within_its_range(rig):
     found = identify(rig, Search((FRICTION, DRAG), ("power_loss",)), begin=0.0, end=FITTED)
     assert found.estimate.at_bound == (False, False)
