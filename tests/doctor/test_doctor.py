@@ -8,8 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from planetary_twin_py import _core
-from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli import _commands
+from planetary_twin_py.cli import _commands, build_app
 from planetary_twin_py.cli._commands import GROUP
 from planetary_twin_py.doctor import apart, core, disk, environment, packages, viewer
 from planetary_twin_py.doctor.finding import Finding
