@@ -38,6 +38,8 @@ STATES = (
 )  # fmt: skip
 T, RATE, F, B, D, G, J, F_T, F_W = range(len(STATES))
 PARAMETERS = slice(F, None)
+OF_PARAMETERS = np.arange(F, len(STATES))
+IDENTITY = np.eye(len(STATES))
 WANDER = 0.025  # random walk of the torque per sqrt(s), over the torque of the scene
 RATE_WANDER = 0.24  # [1/s] random walk of its rate per sqrt(s), over the torque of the scene
 INERTIA = 0.1  # standard deviation over the inertia of the scene
@@ -283,11 +285,12 @@ class BalanceFilter:
         mean, sd = self.prior
         decay = np.exp(-step / self.memory.fall)
         self.x[PARAMETERS] = mean + decay * (self.x[PARAMETERS] - mean)
-        state_decay = np.concatenate([[1.0, 1.0], decay])
-        self.p *= np.outer(state_decay, state_decay)
+        state_decay = np.ones(len(STATES))
+        state_decay[PARAMETERS] = decay
+        self.p *= state_decay[:, np.newaxis] * state_decay
         stationary_sd = np.maximum(sd, np.abs(self.x[PARAMETERS] - mean) / USUAL)
         added_variance = (1.0 - decay**2) * stationary_sd**2 + self.memory.walk**2 * step
-        self.p[np.arange(F, len(STATES)), np.arange(F, len(STATES))] += added_variance
+        self.p[OF_PARAMETERS, OF_PARAMETERS] += added_variance
 
     def _reset_torque(self) -> None:
         self.x[RATE] = 0.0
@@ -331,6 +334,7 @@ class BalanceFilter:
         cross_covariance = self.p @ slope
         gain = cross_covariance / (float(slope @ cross_covariance) + noise)
         self.x = self.x + gain * innovation
-        reduction = np.eye(len(STATES)) - np.outer(gain, slope)
-        self.p = reduction @ self.p @ reduction.T + noise * np.outer(gain, gain)
+        column = gain[:, np.newaxis]
+        reduction = IDENTITY - column * slope
+        self.p = reduction @ self.p @ reduction.T + noise * (column * gain)
         self.p = 0.5 * (self.p + self.p.T)
