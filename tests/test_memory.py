@@ -55,6 +55,7 @@ def growth(warm: int, measured: int, windows: int) -> tuple[int, int, int]:
     return held, objects, repeated
 
 
+@pytest.mark.exhaustive
 def test_a_thousand_changes_leave_no_memory_in_use() -> None:
     held, objects, repeated = growth(warm=500, measured=1000, windows=0)
     assert repeated == 0

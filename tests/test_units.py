@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pint
 import pytest
+from tiers import first_rows
 
 from planetary_twin_py.units import _COMMON, UnitError, column_to_si, to_si
 
@@ -27,7 +28,7 @@ def test_a_number_with_a_unit_is_converted_to_si(written, unit, meant):
     assert to_si(written, unit) == pytest.approx(meant, rel=1e-12)
 
 
-@pytest.mark.parametrize(("given", "unit"), _COMMON, ids=lambda name: name)
+@pytest.mark.parametrize(("given", "unit"), first_rows(4, _COMMON), ids=lambda name: name)
 def test_frequent_units_have_the_bits_of_the_library_that_converts_the_others(given, unit):
     rng = np.random.default_rng(1)
     values = rng.normal(size=2000) * 10.0 ** rng.uniform(-9.0, 9.0, 2000)

@@ -18,6 +18,7 @@ def losses(monkeypatch):
     return importlib.import_module("measured.compact_losses")
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_the_packaged_scene_has_the_estimates_of_all_steady_runs(losses):
     points, base, slopes = losses.steady()

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from command_line import run, run_here
 from following.plants import played
+from tiers import first_rows
 
 from planetary_twin_py.interval_text import interval_text
 
@@ -75,6 +76,7 @@ def test_a_wrong_sign_or_unit_is_refused_in_one_line(tmp_path, steady, name, fac
     assert done.returncode == 2 and line in done.stderr and done.stderr.count("\n") == 1
 
 
+@pytest.mark.exhaustive
 def test_the_stated_factor_is_accepted(tmp_path, steady):
     wrong = steady | {"output_torque": -steady["output_torque"]}
     done = fit_of(tmp_path / "rig.csv", wrong, "--scale", "output_torque=-1")
@@ -83,10 +85,13 @@ def test_the_stated_factor_is_accepted(tmp_path, steady):
 
 @pytest.mark.parametrize(
     ("factors", "line"),
-    [
-        ({"input_torque": 1e-3, "output_torque": 1e-3}, "is the unit of both torques right?"),
-        ({"time": 1e3}, "a heading of a table with milliseconds must be time [ms]"),
-    ],
+    first_rows(
+        1,
+        [
+            ({"input_torque": 1e-3, "output_torque": 1e-3}, "is the unit of both torques right?"),
+            ({"time": 1e3}, "a heading of a table with milliseconds must be time [ms]"),
+        ],
+    ),
 )
 def test_a_unit_that_may_be_wrong_is_asked_for(tmp_path, steady, factors, line):
     wrong = {name: factors.get(name, 1.0) * values for name, values in steady.items()}

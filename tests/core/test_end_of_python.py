@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 # Threads that return from the core and ask for the interpreter's lock all the time.
 PROGRAM = """
 import threading, time
@@ -21,6 +23,7 @@ print("ends")
 PROCESSES = 6  # one alone may end at a favourable time
 
 
+@pytest.mark.exhaustive
 def test_threads_in_the_core_do_not_abort_a_process_that_ends():
     running = [
         subprocess.Popen(

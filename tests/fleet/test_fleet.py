@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from fleet.fleets import Played, paper
+from tiers import first
 
 from planetary_twin_py.fleet.cusums import Cusums, limit
 from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
@@ -135,8 +136,8 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("begin", [0, 60])
-@pytest.mark.parametrize("what", WRONG)
+@pytest.mark.parametrize("begin", first(1, [0, 60]))
+@pytest.mark.parametrize("what", first(3, WRONG))
 def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what, begin):
     factors, said = WRONG[what]
     played, good, fleet = Played(4, 9), Fleet(paper(), 4), Fleet(paper(), 4)
@@ -199,6 +200,7 @@ def test_a_single_row_with_impossible_readings_is_no_fault_and_has_no_temperatur
     assert np.isfinite(fleet.estimate("friction_level").value).all()
 
 
+@pytest.mark.exhaustive
 def test_a_step_that_is_found_while_a_reading_is_missing_has_its_share():
     """The share is that of the same step without the gap, within the scatter of the torque."""
     whole = followed(Played(20, 2), 2400, 1200)

@@ -25,7 +25,7 @@ def named(follower):
     return {one.name: one for one in follower.estimates()}
 
 
-@pytest.mark.parametrize("kind", DELAYS)
+@pytest.mark.parametrize("kind", first(1, DELAYS))
 def test_a_step_of_friction_by_five_percent_is_found(kind):
     _, follower = balance_of(
         kind, LAWS["with bearings"], 90.0, 3, ({"at": 60.0, "friction": 1.05},)
@@ -116,7 +116,7 @@ WRONG = {  # sensors far out of their stated accuracy, and a true cause
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", DELAYS)
+@pytest.mark.parametrize("kind", first(1, DELAYS))
 @pytest.mark.parametrize("wrong", first(2, WRONG))
 def test_a_sensor_that_is_wrong_from_the_start_is_one_finding_with_its_cause(kind, wrong):
     sensors, cause = WRONG[wrong]
@@ -276,6 +276,7 @@ def test_a_gearbox_at_standstill_and_a_scene_without_load_cause_no_question_abou
         assert not any("unit" in line for line in follower.remarks())
 
 
+@pytest.mark.exhaustive
 def test_stamps_in_a_wrong_unit_are_remarked():
     _, time, columns = played("varied", {}, 60.0, 1)
     for factor, remarked in ((1.0, False), (1e3, True)):

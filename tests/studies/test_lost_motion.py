@@ -72,6 +72,7 @@ def test_contacts_of_involute_teeth_are_as_stiff_as_at_the_torque_of_the_bench(t
     assert heavy > 1.1 * light
 
 
+@pytest.mark.exhaustive
 def test_the_command_says_what_is_rigid():
     options = ["lost-motion", "floating_sun", "--torque", "20 N m", "--set", "dynamics=torsional"]
     shown = " ".join(CliRunner().invoke(build_app(), options).output.split())

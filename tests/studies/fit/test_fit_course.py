@@ -119,6 +119,7 @@ def test_a_part_that_overlaps_is_refused(tmp_path):
         fit_course(path, SCENE, (DRAG,), span=(0.0, 15.0), hold_out=(10.0, 20.0))
 
 
+@pytest.mark.exhaustive
 def test_a_drag_that_starts_at_zero_is_found_as_from_another_start(tmp_path):
     scene = pt.load_scene("paper")
     true = scene.replace(**{DRAG: 0.03})
