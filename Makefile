@@ -46,9 +46,11 @@ test-all:
 test-exhaustive: setup
 	$(PYTEST) --numprocesses=3 -m "exhaustive and not release" $(ARGS)  # they wait little
 
-# Minutes of processor time for one test: before a release, and after a change of what it guards.
+# Minutes of processor time for one test, and longer searches by chance: before a release, and after
+# a change of what a test guards.
 test-release: setup
 	$(PYTEST) --numprocesses=3 -m release $(ARGS)
+	FUZZ_EXAMPLES=$(or $(FUZZ_EXAMPLES),1000) $(PYTEST) $(shell find tests -name 'test_fuzzed_*.py') $(ARGS)
 
 test-model: setup
 	$(PYTEST) -m "not exhaustive and not release" --ignore=tests/ros $(ARGS)
