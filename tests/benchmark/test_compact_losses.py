@@ -28,6 +28,7 @@ def test_the_packaged_scene_has_the_estimates_of_all_steady_runs(losses):
     assert scene.losses.sun_drag.coulomb == pytest.approx(found.values[1], rel=2e-3)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_the_twin_with_them_is_the_straight_line_through_the_readings(losses):
     points, base, _ = losses.steady()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from following.plants import COUNTS, RATE, paper
-from tiers import first
+from tiers import first, first_rows
 
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
@@ -63,12 +63,15 @@ def test_a_lost_turn_is_no_wrong_encoder():
 @pytest.mark.parametrize("cuts", first(1, [9, 1]))
 @pytest.mark.parametrize(
     ("wrong", "said"),
-    [
-        ({"stated": COUNTS // 4}, "1048576 and 1048576 instead of 262144 and 262144"),
-        ({"stated": 4 * COUNTS}, "1048576 and 1048576 instead of 4194304 and 4194304"),
-        ({"rate": 2.0 * SLOW}, "sample rate is 2000 Hz instead of 4000 Hz"),
-        ({"sign": -1}, "both encoders count backwards"),
-    ],
+    first_rows(
+        2,
+        [
+            ({"stated": COUNTS // 4}, "1048576 and 1048576 instead of 262144 and 262144"),
+            ({"sign": -1}, "both encoders count backwards"),
+            ({"stated": 4 * COUNTS}, "1048576 and 1048576 instead of 4194304 and 4194304"),
+            ({"rate": 2.0 * SLOW}, "sample rate is 2000 Hz instead of 4000 Hz"),
+        ],
+    ),
 )
 def test_encoders_that_do_not_are_refused_with_the_likely_values(wrong, said, cuts):
     with pytest.raises(InputError, match=said):

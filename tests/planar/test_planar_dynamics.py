@@ -45,7 +45,7 @@ def test_energy_balances_whatever_is_held_and_driven(flow):
 
 
 @pytest.mark.parametrize("flow", [FLOWS[3], FLOWS[4]], ids=flow_name)
-@pytest.mark.parametrize("slew", [500.0, -500.0])
+@pytest.mark.parametrize("slew", first(1, [500.0, -500.0]))
 def test_energy_balances_while_a_fast_carrier_with_displaced_planets_changes_its_speed(flow, slew):
     # The centrifugal force displaces planets by 0.2 mm, 1 % of their distance from the centre.
     scene = planar(flow, {"bearing": 1e8}).replace(

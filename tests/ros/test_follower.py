@@ -237,6 +237,7 @@ def measured(folder: Path) -> Iterator[Arrived]:
                 yield Arrived(channel.topic, schema.name, 1e-9 * message.log_time, found)
 
 
+@pytest.mark.exhaustive
 def test_the_command_gives_the_last_word_of_the_node(changing: Played) -> None:
     out = changing.place / "followed.json"
     given = ["--from", changing.recording, "--sensors", changing.place / "sensors.yaml"]

@@ -210,6 +210,7 @@ def test_ctrl_c_during_the_start_leaves_nothing_running(
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
+@pytest.mark.exhaustive
 def test_ctrl_c_before_the_first_state_leaves_no_recording(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:

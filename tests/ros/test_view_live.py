@@ -26,6 +26,7 @@ def _view(*options: str) -> subprocess.Popen[str]:
     )
 
 
+@pytest.mark.exhaustive
 def test_a_running_twin_is_drawn_and_its_absence_is_reported_in_one_line(
     user: Peer, points: list[OperatingPoint], tmp_path: Path
 ) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from stability.sound import PAPER, assert_closed, assert_finite
+from tiers import first
 
 import planetary_twin_py as pt
 
@@ -62,7 +63,7 @@ def test_the_same_with_friction_that_acts_where_flanks_touch(load, law):
 
 @pytest.mark.xfail(strict=True, reason="flanks chatter ever faster at the jump of the printed law")
 @pytest.mark.parametrize("torque", [0.3, pytest.param(1.0, marks=pytest.mark.exhaustive)])
-@pytest.mark.parametrize("speed", [0.0, 104.72])
+@pytest.mark.parametrize("speed", first(1, [0.0, 104.72]))
 def test_a_light_load_rests_at_the_jump_of_the_printed_force_law(torque, speed):
     """F jumps by k B where flanks meet: what is lighter than that jump has no place to rest."""
     scene = PAPER.replace(

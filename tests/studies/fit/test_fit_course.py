@@ -80,6 +80,7 @@ def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
     assert widths[1] > 3.0 * widths[0]
 
 
+@pytest.mark.exhaustive
 def test_an_estimate_at_the_end_of_its_range_is_remarked_upon(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "run-up")
     dragging = SCENE.replace(**{DRAG: 0.2, MOTOR: 3e-3})  # more than the whole loss
