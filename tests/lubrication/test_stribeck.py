@@ -66,6 +66,13 @@ def test_share_of_the_film(ratio, share):
     assert film_share(math.log(max(ratio, THINNEST))) == pytest.approx(share, abs=1e-3)
 
 
+def test_a_film_thinner_than_a_molecule_carries_less_in_proportion():
+    whole = film_share(math.log(0.1))
+    assert film_share(math.log(0.1), 1.0) == whole  # thicker
+    for part in (0.5, 1e-3, 1e-9):
+        assert film_share(math.log(0.1), math.log(part)) == pytest.approx(part * whole)
+
+
 # Scenes that do not name their laws get these: a shear-thinning film and load sharing.
 DEFAULT = load_scene("wind_turbine_stage")
 

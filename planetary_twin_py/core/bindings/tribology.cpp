@@ -76,7 +76,7 @@ void bind_laws(nb::module_& m) {
     m.def("printed_area_function", &printed_area_function<double>, "x"_a);
     m.def("printed_load_function", &printed_load_function<double>, "x"_a);
     m.def("boundary_shear", &boundary_shear<double>, "asperities"_a, "printed"_a, "lambda_ratio"_a);
-    m.def("film_share", &film_share<double>, "log_lambda"_a);
+    m.def("film_share", &film_share<double>, "log_lambda"_a, "log_thickness"_a = 0.0);
     m.def("rolling_resistance", &rolling_resistance<double>, "size"_a, "log_speed_group"_a,
           "log_material_group"_a, "log_load_group"_a);
     m.def("schlenk_coefficient", &schlenk_coefficient<double>, "log_factor"_a, "log_load"_a,

@@ -69,15 +69,15 @@ ALWAYS_INLINE Friction<Real> film_friction(const Oil& oil, const Contact<Real>& 
                                                contact.log_speed, log(contact.speed));
         return {Real{}, mu * contact.load, growth * contact.load / contact.speed};
     }
+    Real left = at_least(contact.log_film, LOG_THINNEST);
     // sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
     Real log_heat =
         0.25 * (contact.log_radius + contact.log_load) - 0.5 * (log_moving + oil.log_area);
     if constexpr (laws.traction == TractionLaw::EYRING) {
-        FilmShear<Real> film = film_shear(oil.shear_thinning, contact.load, contact.area,
-                                          contact.log_film, log_heat, contact.speed);
+        FilmShear<Real> film = film_shear(oil.shear_thinning, contact.load, contact.area, left,
+                                          log_heat, contact.speed);
         return {Real{}, film.friction, film.growth};
     }
-    Real left = at_least(contact.log_film, LOG_THINNEST);
     return {Real{}, viscous_friction(oil.traction, contact.load, contact.area, left, log_heat),
             Real{}};
 }
@@ -99,9 +99,9 @@ ALWAYS_INLINE Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>&
         return film;
     }
     constexpr bool AT_RATIO = laws.boundary == BoundaryLaw::SHARING_AT_RATIO;
-    Real log_lambda = log_film - oil.log_roughness;
-    if constexpr (AT_RATIO) log_lambda = Real(oil.log_lambda - Real{});
-    Real share = film_share(log_lambda);
+    Real log_lambda = log_film - oil.log_roughness, log_thickness = log_film - LOG_THINNEST;
+    if constexpr (AT_RATIO) log_lambda = Real{} + oil.log_lambda, log_thickness = Real{};
+    Real share = film_share(log_lambda, log_thickness);
     return {(1.0 - share) * oil.boundary_coefficient * contact.load, share * film.viscous,
             share * film.growth};
 }
