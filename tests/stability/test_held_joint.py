@@ -1,4 +1,4 @@
-"""A loaded joint that friction holds comes to rest, in steps as long as those of a joint at rest."""
+"""A loaded joint that friction holds comes to rest, and steps are as long as without load."""
 
 from pathlib import Path
 
