@@ -64,7 +64,8 @@ def balance_of_run(energy: Energy) -> Balance:
     Args:
         energy: its ledger.
     """
-    turnover = sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
+    passing = sum(map(abs, energy.machines)) + 2.0 * energy.both_ways
+    turnover = passing + abs(energy.kinetic) + abs(energy.elastic)
     return Balance(energy.residual, energy.loss, turnover, energy.stored)
 
 

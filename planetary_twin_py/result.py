@@ -45,6 +45,8 @@ class Energy:
     """Kinetic and elastic energy at the end [J]."""
     weight: float = 0.0
     """Work of the weight on displaced axes as they are turned with the carrier [J]."""
+    both_ways: float = 0.0
+    """Work that machines have both put in and taken out, as their power changed direction [J]."""
 
     @property
     def input(self) -> float:
@@ -58,8 +60,8 @@ class Energy:
 
     @property
     def driving_work(self) -> float:
-        """Work of the driving machines [J]."""
-        return sum(max(work, 0.0) for work in self.machines)
+        """Work that machines have put in while they drove [J]."""
+        return sum(max(work, 0.0) for work in self.machines) + self.both_ways
 
     @property
     def put_in(self) -> float:
@@ -179,7 +181,10 @@ class Result:
 
     @property
     def efficiency(self) -> float:
-        """1 - loss/driving work over `duration`; NaN if no machine drives, as at standstill."""
+        """1 - loss/driving work over `duration`; NaN if no machine drives, as at standstill.
+
+        Work counts where it is put in, at any shaft, so a reversal of the power does not cancel it.
+        """
         if not self.energy.driven:
             return float("nan")
         return 1.0 - self.energy.loss / self.energy.driving_work

@@ -103,6 +103,7 @@ def simulate(
     driven.advance(settling, passed + 1, sample_rate, 0)
     engine.pop_mesh_sums(settling)
     books, turned = engine.books(settling), _turned(engine, settling)
+    work = driven.work.copy()
     axes = None
     if scene.moving_axes:
         samples, axes = read_axes(driven, scene, (settling, until), sample_rate)
@@ -113,7 +114,7 @@ def simulate(
         times=np.arange(passed + 1, end + 1) / sample_rate,
         mean_speed=(_turned(engine, until) - turned) / duration,
         sums=engine.pop_mesh_sums(until),
-        energy=_energy(engine, books, engine.books(until)),
+        energy=_energy(engine, books, engine.books(until), driven.work - work),
         duration=duration,
         simulated=until,
         wall=time.perf_counter() - begin,
@@ -245,7 +246,8 @@ def _mesh_efficiency(sums: MeshSums) -> tuple[float, float]:
     return float(sun), float(ring)
 
 
-def _energy(engine: Run, begin: EnergyBooks, end: EnergyBooks) -> Energy:
+def _energy(engine: Run, begin: EnergyBooks, end: EnergyBooks, work: np.ndarray) -> Energy:
+    """Ledger between two times; `work` is that put in and taken out by each machine between."""
     ledger, kinetic, elastic = end.since(begin)
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
@@ -258,4 +260,5 @@ def _energy(engine: Run, begin: EnergyBooks, end: EnergyBooks) -> Energy:
         stiffness_work=float(ledger[STIFFNESS_WORK]),
         weight=float(ledger[WEIGHT]),
         stored=end.kinetic + end.elastic,
+        both_ways=float(work.min(axis=0).sum()),
     )

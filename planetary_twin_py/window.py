@@ -163,8 +163,11 @@ class Window:
 
     @property
     def efficiency(self) -> float:
-        """1 - power_loss/power of the driving machines; NaN if no machine drives, as at
-        standstill."""
+        """1 - power_loss/power of the driving machines; NaN if no machine drives, as at standstill.
+
+        A machine drives if its mean power over the window does: divide a window in which power
+        changes direction.
+        """
         driving = float(np.maximum(self.machine_power, 0.0).sum())
         least = ROUNDING * self.stored_energy / (self.end - self.start)
         return 1.0 - self.power_loss / driving if driving > least else math.nan

@@ -88,15 +88,18 @@ def explain(
 def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     from rich.table import Table
 
+    from ..scene.summary import power_enters_at_output
     from ..units import rpm
 
     point = scene.operating_point
     inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
+    reverse = power_enters_at_output(scene)
     speed = " and ".join(f"{speed / rpm(1.0):.6g} rpm" for speed in inputs)
     figures = (  # one line each, because a caption may be folded between a value and its unit
         f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz",
         f"input speed {speed}",
         f"input torque {figure(point.input_torque, 'N m')}",
+        *([f"power enters at the output, the {scene.drive.output.member}"] * reverse),
     )
     table = Table(
         "",

@@ -101,8 +101,10 @@ def simulate(
         if name in _SOURCES and not _has_several(train):
             continue
         label, unit = _TRAIN[name]
-        note = f" ({losses_in_words(loaded)})" if name == "efficiency" else ""
-        console.print(f"{label:38} {figure(value, unit, digits=6)}{note}", markup=False)
+        shown_value = figure(value, unit, digits=6)
+        if name == "efficiency":
+            shown_value = _efficiency(value, losses_in_words(loaded))
+        console.print(f"{label:38} {shown_value}", markup=False)
     if train["mean_mesh_force_N"] < 0.0:
         console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))
@@ -153,6 +155,12 @@ _TRAIN = {
     "real_time_factor": ("real-time factor", "-"),
 }
 _SOURCES = ("tooth_friction_W", "bearing_loss_W", "churning_loss_W")  # of the power loss
+
+
+def _efficiency(value: float, losses: str) -> str:
+    """Text of an efficiency and of the `losses` that it contains."""
+    shown_value = figure(value, "-", digits=6)
+    return f"{shown_value if value == value else 'undefined: no machine puts power in'} ({losses})"
 
 
 def _has_several(train: dict[str, float]) -> bool:

@@ -29,6 +29,17 @@ def gears(scene: Scene) -> Iterator[str]:
     yield "differential" if gearset.held == "none" else f"{gearset.held} fixed"
 
 
+def power_enters_at_output(scene: Scene) -> bool:
+    """Whether the signs of torque and speed make the output drive.
+
+    Not where there are two inputs, or torque or motion are given at a port.
+    """
+    point, drive = scene.operating_point, scene.drive
+    if drive.second_input is not None or drive.ports.given:
+        return False
+    return point.input_torque * point.input_speed < 0.0
+
+
 def operating_point(scene: Scene) -> Iterator[str]:
     """Set-points of a scene, each with its unit."""
     point = scene.operating_point
@@ -36,5 +47,7 @@ def operating_point(scene: Scene) -> Iterator[str]:
     if scene.drive.second_input is not None:
         yield f"second input speed {customary(point.second_input_speed, 'rad/s')}"
     yield f"input torque {figure(point.input_torque, 'N m')}"
+    if power_enters_at_output(scene):
+        yield f"power enters at the output, the {scene.drive.output.member}"
     yield f"backlash {customary(point.backlash, 'm')}"
     yield f"oil {customary(point.oil_temperature, 'K')}"

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.scene.summary import operating_point
 from planetary_twin_py.studies.fit.parameter import read_parameters
 from planetary_twin_py.units import to_si
 
@@ -191,3 +192,20 @@ def test_a_lambda_ratio_that_the_scene_computes_is_reported_to_have_no_effect_as
 @pytest.mark.parametrize("given", [SHORT, [*SHORT[:2], *COMPUTED]])
 def test_a_field_with_an_effect_or_not_given_is_not_reported(given):
     assert "no effect" not in invoke("paper", *given).stderr
+
+
+def test_an_efficiency_without_driving_machine_is_undefined_with_the_reason():
+    found = invoke("paper", "--duration", "0.02", "--set", "input_speed=0 rpm")
+    assert re.search(r"^efficiency +undefined: no machine puts power in", found.stdout, re.M)
+
+
+@pytest.mark.parametrize(
+    ("torque", "speed", "enters"),
+    [(63.0, 1000.0, False), (-63.0, 1000.0, True), (63.0, -1000.0, True), (-63.0, -1000.0, False)],
+)
+def test_the_operating_point_names_the_output_where_power_enters_there(torque, speed, enters):
+    scene = pt.load_scene("paper").replace(input_torque=torque, input_speed=pt.rpm(speed))
+    line = "power enters at the output, the ring"
+    assert (line in operating_point(scene)) == enters
+    machines = pt.simulate(scene, 0.02).energy.machines
+    assert (machines[1] > 0.0) == enters

@@ -90,3 +90,22 @@ def test_the_ledger_closes_where_flanks_part_under_steep_straight_lines():
     run = pt.simulate(scene, 0.05, 2e4, tolerance=1e-6, commands=commands)
     assert run.stats.flank_events > 50
     assert abs(run.energy.residual) < 1e-6 * turnover(run.energy)
+
+
+def test_efficiency_counts_the_work_put_in_before_and_after_a_reversal():
+    """From what every step shows of the ports, at steps far shorter than their vibration."""
+    scene, dt = driven("torque", "motion", **{"drive.interpolation": "linear"}), 1e-4
+    time, torque = np.array([0.0, 0.15, 0.25, 0.4]), np.array([63.0, 63.0, -63.0, -63.0])
+    twin, put_in = pt.Twin(scene, tolerance=1e-4), 0.0
+    for end in dt * np.arange(1, 4001):
+        shown = twin.step(dt, input_torque=float(np.interp(end, time, torque)))
+        powers = (
+            shown.input_torque * shown.input_speed,
+            shown.output_torque * shown.output_speed,
+        )
+        put_in += dt * sum(max(power, 0.0) for power in powers)
+    run = pt.simulate(scene, 0.4, commands=pt.Commands(time, input_torque=torque))
+    energy = run.energy
+    assert energy.both_ways > 0.9 * put_in  # without these, no work would be left
+    assert energy.driving_work == pytest.approx(put_in, rel=0.01)
+    assert run.efficiency == pytest.approx(1.0 - energy.friction / put_in, abs=2e-4)

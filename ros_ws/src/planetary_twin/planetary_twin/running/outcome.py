@@ -43,7 +43,7 @@ class Outcome:
     topics: Mapping[str, Tally]
     duration: float  # [s] simulated
     power_loss: float  # [W] mean; NaN without a state
-    efficiency: float  # [-] over the whole run; NaN without input energy
+    efficiency: float  # [-] over the whole run; NaN if no machine drives
     real_time_factor: float
     overruns: int
     tolerance: float  # in force at the end
@@ -96,25 +96,38 @@ def read_outcome(
     """
     info = read_info(*folders)
     states = [state for file in info.files for state in _states(file)]
-    loss, power, span = (
-        np.array([getattr(state, name) for state in states])
-        for name in ("power_loss", "input_power", "interval")
+    loss, span = (
+        np.array([getattr(state, name) for state in states]) for name in ("power_loss", "interval")
     )
-    energy = float(np.sum(power * span))
+    lost = float(np.sum(loss * span))
+    put_in = float(np.sum([driving_power(state) * state.interval for state in states]))
     rates = [state.sample_rate for state in states] or [float("nan")]
     return Outcome(
         files=info.files,
         stopped=stopped,
         topics={name: _tally(topic, published.get(name)) for name, topic in info.topics.items()},
         duration=float(span.sum()),
-        power_loss=float(np.sum(loss * span) / span.sum()) if states else float("nan"),
-        efficiency=1.0 - float(np.sum(loss * span)) / energy if energy > 0 else float("nan"),
+        power_loss=lost / float(span.sum()) if states else float("nan"),
+        efficiency=1.0 - lost / put_in if put_in > 0.0 else float("nan"),
         real_time_factor=float(figures.get("real_time_factor_mean", "nan")),
         overruns=int(figures.get("overruns", 0)),
         tolerance=float(figures.get("tolerance", "nan")),
         tolerance_choice=figures.get("tolerance_choice", "unknown"),
         sample_rates=(min(rates), max(rates)),
     )
+
+
+def driving_power(state: GearboxState) -> float:
+    """Return the power of the machines that drive in the interval of `state` [W].
+
+    Each machine's power has the direction of its mean over the interval. 0 where none drives but
+    for rounding errors, which `state` shows by its efficiency.
+    """
+    if not np.isfinite(state.efficiency):
+        return 0.0
+    second = np.nan_to_num(state.second_input_torque * state.second_input_speed)
+    powers = state.input_power - second, second, -state.output_power
+    return float(np.maximum(powers, 0.0).sum())
 
 
 def _states(file: Path) -> Iterator[GearboxState]:
@@ -148,7 +161,7 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
         "tolerance": f"{outcome.tolerance:g}, {outcome.tolerance_choice}",
         "waveform": _waveform(*outcome.sample_rates),
         "mean power loss": f"{outcome.power_loss:.2f} W",
-        "efficiency": f"{outcome.efficiency:.3%}",
+        "efficiency": _efficiency(outcome.efficiency),
         "recording": _places(outcome.files),
         "view it": f"planetary-twin view {outcome.files[0].parent}",
     }
@@ -161,6 +174,10 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
     console.print()
     for name, value in rows.items():
         console.print(f"{name:17} {value}", highlight=False, soft_wrap=True)
+
+
+def _efficiency(value: float) -> str:
+    return f"{value:.3%}" if np.isfinite(value) else "undefined: no machine puts power in"
 
 
 def _places(files: Sequence[Path]) -> str:
