@@ -37,8 +37,8 @@ def load_sharing(
     """Compute how the planets of SCENE share the static load.
 
     Errors of pins, planets and gears (errors, mesh.runout) make planets carry unequal loads;
-    members without a bearing (supports) float and even them out. Friction, inertia and faults are
-    left out.
+    members without a bearing (supports) float and even them out. Friction, inertia at changing
+    speeds and faults are left out.
 
     Example: planetary-twin load-sharing floating_sun --picture sharing.png
     """
@@ -84,9 +84,8 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     table = Table(
         title=f"{shown(scene.name)}: static load sharing, {len(found.turns)} positions",
         caption="Share: torque of a planet over the mean of all planets. Largest forces: on drive "
-        "flanks and coast flanks of the sun mesh, on the pin"
-        + ", on an element of a rolling bearing"
-        * rolling,
+        "flanks and coast flanks of the sun mesh, on the pin (with the centrifugal force of the "
+        "planet)" + ", on an element of a rolling bearing" * rolling,
     )
     for heading in (
         "planet", "share, mean", "smallest", "largest", "drive flank", "coast flank", "pin"

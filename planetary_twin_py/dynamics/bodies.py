@@ -11,7 +11,7 @@ import numpy as np
 
 from .._core import AXES, Report
 from ..gearset.kinematics import speeds_per_input
-from ..scene import Scene
+from ..scene import OperatingPoint, Scene
 from ..scene.drive import Machine
 from .planet_groups import axes_stand, planet_groups
 
@@ -100,6 +100,13 @@ def rigid_ratios(scene: Scene) -> dict[str, Ratios]:
     axes = speeds_per_input(gearset.tooth_numbers, members, gearset.held)
     ratios = {kind: tuple(axis[kind] for axis in axes) for kind in axes[0]}
     return ratios | {name: ratios[machine.member] for name, machine in machines(scene).items()}
+
+
+def carrier_speed(scene: Scene, point: OperatingPoint) -> float:
+    """Speed of the carrier [rad/s] at an operating point."""
+    speeds = (point.input_speed, point.second_input_speed)
+    ratios = rigid_ratios(scene)["carrier"]
+    return sum(float(ratio) * speed for ratio, speed in zip(ratios, speeds, strict=False))
 
 
 def body_names(scene: Scene) -> BodyNames:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..scene import OperatingPoint, Scene, SceneError
-from .bodies import rigid_ratios
+from .bodies import carrier_speed
 
 
 def check_planet_bearings(scene: Scene, point: OperatingPoint) -> None:
@@ -24,9 +24,7 @@ def check_planet_bearings(scene: Scene, point: OperatingPoint) -> None:
         return
     planet, stiffness = scene.supports.planet, scene.supports.planet.bearing
     factors = [scene.errors.of_planet(i).pin_stiffness for i in range(scene.gearset.planets)]
-    speeds = (point.input_speed, point.second_input_speed)
-    ratios = rigid_ratios(scene)["carrier"]
-    carrier = sum(float(ratio) * speed for ratio, speed in zip(ratios, speeds, strict=False))
+    carrier = carrier_speed(scene, point)
     softening = planet.mass * carrier**2
     if stiffness == 0.0 or min(factors) * stiffness > softening:
         return

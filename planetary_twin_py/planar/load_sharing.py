@@ -1,9 +1,10 @@
 """Static load sharing of the planets at several positions.
 
 Meshes have their stiffness at each position, on both flanks of a tooth if both touch; bearings have
-stiffness and clearance. Friction, inertia and faults of teeth are omitted. With all teeth in
-contact and equal stiffnesses, the shares are those of Singh 2005 and Ligata, Kahraman and Singh
-2008, on epicyclic load sharing.
+stiffness and clearance. The carrier turns at the speed of the operating point, so bodies have their
+centrifugal forces. Friction, inertia at changing speeds and faults of teeth are omitted. With all
+teeth in contact and equal stiffnesses, the shares are those of Singh 2005 and Ligata, Kahraman and
+Singh 2008, on epicyclic load sharing.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from ..gearset.kinematics import mesh_cycles_per_turn
 from ..runaway import displacement_limit
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
+from .centrifugal import centrifugal
 from .errors import Displacements, displacements
 from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
 from .statics import Equilibrium, Springs, eccentricities, equilibrium
@@ -83,10 +85,11 @@ class LoadSharing(NamedTuple):
 def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     """Static load sharing among the planets.
 
-    Bearings are those of `scene.supports`; without these, all axes are held. Speeds have no effect.
+    Bearings are those of `scene.supports`; without these, all axes are held. Speeds have no effect
+    but for the centrifugal forces on a turning carrier.
 
     Args:
-        scene: scene with torque and backlash in its operating point.
+        scene: scene with torque, backlash and speeds in its operating point.
         turns: turns of the first motor, (P,); default: a mesh cycle, or with runout and offsets the
             number of cycles until their angles repeat, at most 2000.
 
@@ -108,16 +111,18 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     rows = planar_rows(scene.gearset.planet_angles, *angles)
     errors = displacements(scene, rows, turns)
     basis = _free_coordinates(scene, rows)
-    springs = _springs(scene, rows, errors, turns, basis)
+    inertia = centrifugal(scene, rows)
+    springs = _springs(scene, rows, errors, turns, basis, inertia.softening)
     weight = weight_forces(scene, rows, turns)
-    force = (_input_force(scene, rows) + weight) @ basis
+    force = (_input_force(scene, rows) + weight + inertia.force) @ basis
     driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
     closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
     solution = equilibrium(springs, force, closed)
     if scene.supports is not None:
         _check_displacements(scene, eccentricities(springs, solution.displacement))
     elements = _element_loads(scene, springs, solution)
-    return _assemble_result(scene, rows, turns, errors, basis, solution, weight, elements)
+    on_bodies = weight + inertia.on(solution.displacement @ basis.T)
+    return _assemble_result(scene, rows, turns, errors, basis, solution, on_bodies, elements)
 
 
 def _check_displacements(scene: Scene, displaced: np.ndarray) -> None:
@@ -175,7 +180,12 @@ def _input_force(scene: Scene, rows: PlanarRows) -> np.ndarray:
 
 
 def _springs(
-    scene: Scene, rows: PlanarRows, errors: Displacements, turns: np.ndarray, basis: np.ndarray
+    scene: Scene,
+    rows: PlanarRows,
+    errors: Displacements,
+    turns: np.ndarray,
+    basis: np.ndarray,
+    softening: np.ndarray,
 ) -> Springs:
     flanks = np.vstack([rows.flanks(side) for side in SIDES])
     displaced = errors.toothing
@@ -188,7 +198,7 @@ def _springs(
     stiffness = np.concatenate([_stiffness(scene, turns, side) for side in SIDES], axis=1)
     bearing, radial, clearance, centre = _bearings(scene, rows, errors)
     return Springs(
-        np.zeros((basis.shape[1],) * 2),
+        basis.T @ softening @ basis,
         flanks @ basis,
         stiffness,
         gap - displaced @ flanks.T,
@@ -309,7 +319,7 @@ def _assemble_result(
     errors: Displacements,
     basis: np.ndarray,
     solution: Equilibrium,
-    weight: np.ndarray,
+    on_bodies: np.ndarray,
     elements: np.ndarray,
 ) -> LoadSharing:
     planets, count = scene.gearset.planets, len(turns)
@@ -317,8 +327,7 @@ def _assemble_result(
     sun_mesh = forces[:, 0, :planets] - forces[:, 1, :planets]
     moved = (solution.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
     flanks = np.vstack([rows.flanks(side) for side in SIDES])
-    # Forces of the meshes on each coordinate, and weight.
-    on_bodies = weight - solution.contact_force @ flanks
+    on_bodies = on_bodies - solution.contact_force @ flanks
     pins = on_bodies[:, 3 * len(CENTRAL) :].reshape(count, planets, 3)[:, :, :2]
     bearing = on_bodies[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)[:, :, :2]
     on_carrier = -np.einsum("pid,idn->pn", pins, rows.pin)

@@ -1,10 +1,12 @@
 """Static equilibrium of unilateral springs, and of bearings with clearance or rolling elements.
 
-The elastic energy of a linear structure, of flanks that can only push and of bearings with radial
-clearance or rolling elements is convex, so an equilibrium is a minimum of the potential energy.
-Newton's method with a line search finds it (Nocedal and Wright 2006, Numerical Optimization,
-algorithm 3.2). The energy is piecewise smooth; a step is exact once the set of touching flanks is
-that of the solution and no bearing rolls. All positions are solved together.
+The elastic energy of flanks that can only push and of bearings with radial clearance or rolling
+elements is convex, so an equilibrium is a minimum of the potential energy. Newton's method with a
+line search finds it (Nocedal and Wright 2006, Numerical Optimization, algorithm 3.2). The energy is
+piecewise smooth; a step is exact once the set of touching flanks is that of the solution and no
+bearing rolls. The energy of centrifugal forces is concave: where Newton's step does not decrease
+the whole energy, it is replaced by its tangent, an upper bound (Yuille and Rangarajan 2003, Neural
+Comput. 15, 915). All positions are solved together.
 """
 
 from __future__ import annotations
@@ -27,8 +29,8 @@ SMALLEST = 1e-300
 class Springs(NamedTuple):
     """Springs over n coordinates, at P positions."""
 
-    linear: np.ndarray
-    """Stiffness matrix of springs that push and pull [N/m], (n, n)."""
+    softening: np.ndarray
+    """Increase of the external force per displacement, positive semidefinite [N/m], (n, n)."""
     contact: np.ndarray
     """Row of each pair of flanks, their approach per displacement, (flanks, n)."""
     contact_stiffness: np.ndarray
@@ -91,7 +93,7 @@ def _guess(springs: Springs, force: np.ndarray, closed: np.ndarray) -> np.ndarra
     rhs = force + (stiffness * springs.gap) @ springs.contact
     per_bearing = springs.bearing_stiffness[:, None, None] * springs.bearing
     rhs = rhs + np.einsum("pbd,bdn->pn", springs.offset, per_bearing)
-    matrix = springs.linear + np.einsum("bdn,bdm->nm", per_bearing, springs.bearing)
+    matrix = np.einsum("bdn,bdm->nm", per_bearing, springs.bearing)
     matrix = matrix + np.einsum("pf,fn,fm->pnm", stiffness, springs.contact, springs.contact)
     return _solve(matrix, rhs)
 
@@ -139,7 +141,7 @@ def eccentricities(springs: Springs, q: np.ndarray) -> np.ndarray:
 
 
 def _gradient(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
-    forces = q @ springs.linear + _contact_forces(springs, q) @ springs.contact
+    forces = _contact_forces(springs, q) @ springs.contact - q @ springs.softening
     forces = forces + np.einsum("pbd,bdn->pn", _bearing_forces(springs, q), springs.bearing)
     return np.asarray(forces - force)
 
@@ -147,7 +149,7 @@ def _gradient(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
 def _energy(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
     approach = np.maximum(q @ springs.contact.T - springs.gap, 0.0)
     size = np.linalg.norm(eccentricities(springs, q), axis=-1)
-    total = 0.5 * np.einsum("pn,nm,pm->p", q, springs.linear, q) - np.sum(force * q, axis=1)
+    total = -0.5 * np.einsum("pn,nm,pm->p", q, springs.softening, q) - np.sum(force * q, axis=1)
     total += 0.5 * np.sum(springs.contact_stiffness * approach**2, axis=1)
     return np.asarray(total + _pressed(springs, size)[0].sum(axis=1))
 
@@ -155,7 +157,7 @@ def _energy(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
 def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
     """Stiffness matrix of all contacts [N/m], (P, n, n)."""
     touching = springs.contact_stiffness * (q @ springs.contact.T > springs.gap)
-    matrix = springs.linear + np.einsum("pf,fn,fm->pnm", touching, springs.contact, springs.contact)
+    matrix = np.einsum("pf,fn,fm->pnm", touching, springs.contact, springs.contact)
     eccentricity = eccentricities(springs, q)
     size = np.linalg.norm(eccentricity, axis=-1)
     unit = eccentricity / np.maximum(size, SMALLEST)[..., None]
@@ -173,13 +175,21 @@ def _line_search(
     springs: Springs, force: np.ndarray, q: np.ndarray, gradient: np.ndarray
 ) -> np.ndarray:
     """A Newton step at each position, shortened until the energy decreases."""
-    step = _solve(_tangent(springs, q), -gradient)
-    slope = np.sum(gradient * step, axis=1)
-    before = _energy(springs, force, q)
-    part = np.ones(len(q))
-    for _ in range(MOST_HALVINGS):
+    tangent, before = _tangent(springs, q), _energy(springs, force, q)
+
+    def is_high(step: np.ndarray, part: np.ndarray) -> np.ndarray:
+        """Whether the energy decreases too little, or the step leads upwards."""
+        slope = np.sum(gradient * step, axis=1)
         after = _energy(springs, force, q + part[:, None] * step)
-        high = after > before + DECREASE * part * slope + 1e-15 * np.abs(before)
+        allowed = before + DECREASE * part * slope + 1e-15 * np.abs(before)
+        return np.asarray((after > allowed) | (slope > 0.0))
+
+    part = np.ones(len(q))
+    step = _solve(tangent - springs.softening, -gradient)
+    uphill = is_high(step, part)
+    step[uphill] = _solve(tangent[uphill], -gradient[uphill])
+    for _ in range(MOST_HALVINGS):
+        high = is_high(step, part)
         if not high.any():
             break
         part = np.where(high, 0.5 * part, part)

@@ -23,6 +23,16 @@ SIX = {"gearset.teeth": {"sun": 60, "planet": 24, "ring": 108}, "gearset.module"
 BASE_RADIUS = 0.5 * 30 * 0.8e-3 * math.cos(ANGLE)
 
 
+def centrifugal_stiffness(given):
+    """m Omega^2 of a planet [N/m], by the speeds of Willis' equation."""
+    teeth, speed = given.gearset.teeth, given.operating_point.input_speed
+    member, held = given.drive.input.member, given.gearset.held
+    size = {"sun": teeth.sun, "ring": teeth.ring, "carrier": teeth.sun + teeth.ring}
+    if held == "carrier":
+        return 0.0
+    return given.supports.planet.mass * (speed * size[member] / size["carrier"]) ** 2
+
+
 def mean_force(planets):
     return TORQUE / (planets * BASE_RADIUS)
 
@@ -223,18 +233,23 @@ def test_held_axes_are_those_of_very_stiff_bearings():
 def test_torques_of_sun_ring_and_carrier_add_up_to_nothing(member):
     held = {"sun": "ring", "ring": "carrier", "carrier": "sun"}[member]
     out = ({"sun", "ring", "carrier"} - {member, held}).pop()
-    given = scene(4, {"pin_tangential": [-2e-5, 0, 1e-5, 0]}, 1e7,
-                  **{"gearset.held": held, "drive.input.member": member,
-                     "drive.output.member": out})  # fmt: skip
-    found = load_sharing(given)
-    gears = given.gearset.geometry
-    net = found.mesh_force[:, 0] - found.mesh_force[:, 1]
-    sun = net[:, :4].sum(axis=1) * gears.sun.base_radius
-    ring = net[:, 4:].sum(axis=1) * gears.ring.base_radius
-    carrier = found.planet_bearing[:, :, 1].sum(axis=1) * gears.centre_distance
-    torque = {"sun": sun, "ring": ring, "carrier": -carrier}
-    assert np.abs(sun + ring - carrier) == pytest.approx(0.0, abs=1e-7 * TORQUE)
-    assert torque[member] == pytest.approx(TORQUE, rel=1e-7)
+    pins = [-2e-5, 0.0, 1e-5, 0.0]
+    turning = scene(4, {"pin_tangential": pins}, 1e7,
+                    **{"gearset.held": held, "drive.input.member": member,
+                       "drive.output.member": out})  # fmt: skip
+    for given in (turning, turning.replace(input_speed=0.0)):
+        found = load_sharing(given)
+        gears = given.gearset.geometry
+        net = found.mesh_force[:, 0] - found.mesh_force[:, 1]
+        sun = net[:, :4].sum(axis=1) * gears.sun.base_radius
+        ring = net[:, 4:].sum(axis=1) * gears.ring.base_radius
+        # The centrifugal force of a planet points away from the axis, wherever its pin yields to.
+        across = found.planet_bearing[:, :, 1]
+        outwards = centrifugal_stiffness(given) * (np.array(pins) + across / PIN)
+        carrier = (across - outwards).sum(axis=1) * gears.centre_distance
+        torque = {"sun": sun, "ring": ring, "carrier": -carrier}
+        assert np.abs(sun + ring - carrier) == pytest.approx(0.0, abs=1e-7 * TORQUE)
+        assert torque[member] == pytest.approx(TORQUE, rel=1e-7)
     # Bearings carry what the meshes push all bodies by, which together is nothing.
     assert found.bearing.sum(axis=1) == pytest.approx(0.0, abs=1e-5)
 

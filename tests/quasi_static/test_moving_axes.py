@@ -157,3 +157,54 @@ def test_a_planet_is_displaced_from_its_nominal_place_without_the_error_of_its_p
     of_carrier = axes.displacement[:, carrier] @ across
     bent = axes.bearing_force[:, planet, 1] / scene.supports.planet.bearing
     assert axes.displacement[:, planet, 1] - error - of_carrier == pytest.approx(bent, abs=1e-11)
+
+
+FAST = {"input_speed": 1500.0, "drive.speed_limit": 2000.0, **CONSTANT, **STILL}
+ROLLERS = {"mass": 0.177, "rolling": {"rollers": 14, "length": 0.02}}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"errors": {"pin_tangential": [2e-5, 0.0, 0.0], "pin_radial": [0.0, 3e-5, 0.0]}},
+        {"supports.planet": ROLLERS | {"clearance": 1e-5}},
+        {"supports.planet.clearance": 1e-5, "supports.sun.bearing": 0.0},
+    ],
+    ids=["equal planets", "errors", "rollers with clearance", "clearance and floating sun"],
+)
+@pytest.mark.parametrize("flow", [FLOWS[2], FLOWS[5]], ids=flow_name)
+def test_static_pin_loads_at_speed_have_the_centrifugal_forces_of_a_frictionless_run(flow, changes):
+    # Where the carrier turns, damping acts on displacements in the housing.
+    undamped = {f"supports.{body}.damping": 0.0 for body in ("sun", "ring", "carrier")}
+    given = planar(flow, **FAST).replace(**changes, **undamped)
+    run = simulate(given, 0.002, tolerance=1e-7)
+    turns = run.time[::10] * given.operating_point.input_speed / (2.0 * math.pi)
+    found = load_sharing(given, turns)
+    static = np.concatenate([found.bearing, found.planet_bearing], axis=1)
+    largest = np.abs(static).max()
+    assert run.axes.bearing_force[::10] == pytest.approx(static, abs=2e-6 * largest)
+    slow = load_sharing(given.replace(input_speed=1.0), turns)
+    outwards = found.planet_bearing[:, :, 0] - slow.planet_bearing[:, :, 0]
+    carrier = run.speed[0, run.bodies.index("carrier")]
+    arm = given.gearset.geometry.centre_distance
+    assert outwards == pytest.approx(0.177 * carrier**2 * arm, rel=0.02)
+
+
+def test_held_axes_put_the_centrifugal_force_of_the_planets_on_their_pins():
+    given = planar(FLOWS[2], **FAST).replace(dynamics="quasi_static", supports=None)
+    still = load_sharing(given.replace(input_speed=0.0)).planet_bearing
+    carrier = 1500.0 * 30 / 100  # [rad/s]
+    force = 0.177 * carrier**2 * given.gearset.geometry.centre_distance
+    fast = load_sharing(given).planet_bearing
+    assert fast[:, :, 0] - still[:, :, 0] == pytest.approx(force, rel=1e-9)
+    assert fast[:, :, 1] == pytest.approx(still[:, :, 1])
+
+
+def test_a_carrier_and_a_sun_loose_in_their_clearances_have_an_equilibrium_at_speed():
+    """Both are pressed outwards, so their places in the middle of the clearance are unstable."""
+    loose = {f"supports.{body}.clearance": 1e-5 for body in ("sun", "carrier", "planet")}
+    given = planar(FLOWS[2], **FAST).replace(**loose)
+    found = load_sharing(given)
+    assert np.isfinite(found.bearing).all()
+    assert np.abs(found.planet_bearing[:, :, 0]).min() > 0.9 * 0.177 * 450.0**2 * 0.02
