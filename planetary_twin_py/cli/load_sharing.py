@@ -152,6 +152,12 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
         )
     if scene.faults:
         lines.append("warning: faults: are left out, teeth are healthy here")
+    if scene.tilting_axes:
+        lines.append(
+            f"warning: dynamics = {scene.dynamics}: these statics are planar, without the axial "
+            "motion and tilting of axes (supports.*.axial, tilting), which change shares and bearing "
+            "forces; simulate with dynamics = quasi_static_spatial"
+        )
     if scene.mesh.backlash == "regulatory_factor":
         lines.append("warning: mesh.backlash = regulatory_factor: forces grow from no deflection")
     return lines

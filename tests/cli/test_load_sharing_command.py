@@ -88,3 +88,9 @@ def test_invalid_input_ends_in_one_line(change, words):
     result = invoke("floating_sun", "--set", change)
     assert result.exit_code == 2
     assert words in result.output.strip().splitlines()[-1]
+
+
+@pytest.mark.parametrize("dynamics", ["planar", "spatial", "quasi_static_spatial"])
+def test_statics_of_a_scene_whose_axes_tilt_are_said_to_be_planar(dynamics):
+    said = " ".join(invoke("helical_stage", "--set", f"dynamics={dynamics}").output.split())
+    assert ("these statics are planar" in said) == (dynamics != "planar")
