@@ -155,8 +155,8 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
     if scene.tilting_axes:
         lines.append(
             f"warning: dynamics = {scene.dynamics}: these statics are planar, without the axial "
-            "motion and tilting of axes (supports.*.axial, tilting), which change shares and bearing "
-            "forces; simulate with dynamics = quasi_static_spatial"
+            "motion and tilting of axes (supports.*.axial, tilting), which change shares and "
+            "bearing forces; simulate with dynamics = quasi_static_spatial"
         )
     if scene.mesh.backlash == "regulatory_factor":
         lines.append("warning: mesh.backlash = regulatory_factor: forces grow from no deflection")
