@@ -109,12 +109,13 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     for side in ("sun-planet", "planet-ring"):
         table.add_column(side, justify="right")
     driven = meshes.sun_planet.driver is not None
+    missing = "out of range" if driven else "none: no power"
     for (label, unit), *values in zip(
         _MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True
     ):
         table.add_row(
             label if driven else _UNDRIVEN.get(label, label),
-            *(_text(value, unit) for value in values),
+            *(_text(value, unit, missing) for value in values),
         )
     return table
 
@@ -137,13 +138,14 @@ _MESH_ROWS = (
     ("static mesh force", "N"),
     ("axial part of the same", "N"),
     ("Hertz pressure at the pitch point, one pair carries the static force", "Pa"),
-    ("tooth loss factor H_v", ""),
+    ("tooth loss factor H_v, equal loads of the pairs in contact", ""),
+    ("the same with the loads of the pairs in this model", ""),
     ("backlash on the line of action", "m"),
     ("friction coefficient, mean over the path of contact", ""),
     ("the same with eyring", ""),
     ("the same with evans_johnson", ""),
     ("the same with schlenk", ""),
-    ("tooth loss of all planets: friction coefficient, H_v and power", "W"),
+    ("tooth loss of all planets: friction coefficient, last H_v and power", "W"),
     ("shear number of the film, above 1 shear-thinning", ""),
     ("film laws within their range", ""),
 )
@@ -154,11 +156,11 @@ _UNDRIVEN = {
 }
 
 
-def _text(value: Any, unit: str) -> str:
+def _text(value: Any, unit: str, missing: str) -> str:
     if isinstance(value, tuple):
-        return "/".join(_text(part, unit) for part in value)
+        return "/".join(_text(part, unit, missing) for part in value)
     if value is None:
-        return "none: no power" if unit == "name" else "out of range"
+        return missing
     return figure(value, unit) if isinstance(value, float) else str(value)
 
 

@@ -32,7 +32,7 @@ class TypicalPair(NamedTuple):
 
 
 def friction_figures(
-    scene: Scene, kind: int, loaded: tuple[float, float], frequency: float, loss_factor: float
+    scene: Scene, kind: int, loaded: tuple[float, float], frequency: float
 ) -> dict[str, Any]:
     """Mean friction over the path of contact at the operating point of `scene`, and its film.
 
@@ -42,13 +42,13 @@ def friction_figures(
         loaded: force of the mesh [N], negative on the coast flanks, and the largest Hertz pressure
             of one pair at the pitch point under this force [Pa].
         frequency: mesh frequency [Hz].
-        loss_factor: H_v [-].
 
     Returns:
         The friction fields of `MeshFigures`, by name.
     """
     mesh, (force, peak) = scene.gearset.geometry.meshes[kind], loaded
-    contacts = contacts_of(scene, kind, force, frequency, loss_factor)
+    contacts = contacts_of(scene, kind, force, frequency)
+    loss_factor = contacts.loss_factor if force else None
     mu = mean_coefficient(build_oil(scene, scene.operating_point), contacts)
     by_law = {
         law: mean_coefficient(oil_with(scene, law), contacts)
@@ -64,7 +64,8 @@ def friction_figures(
         "friction_eyring": by_law["eyring"],
         "friction_evans_johnson": by_law["evans_johnson"] if plateau else None,
         "friction_schlenk": by_law["schlenk"],
-        "tooth_loss": mu * loss_factor * power if scene.lubrication.friction else 0.0,
+        "loaded_loss_factor": loss_factor,
+        "tooth_loss": mu * (loss_factor or 0.0) * power if scene.lubrication.friction else 0.0,
         "shear_number": shear,
         "film_laws_in_range": ("eyring", "evans_johnson") if plateau else ("eyring",),
     }

@@ -1,4 +1,4 @@
-"""Mean friction coefficient of a mesh: its tooth loss is coefficient times H_v times power.
+"""Mean friction coefficient of a mesh: loss over sliding speed times normal load of all pairs.
 
 The friction of all tooth pairs is added up over a mesh cycle, each at its place on the path of
 contact with its own load, sliding speed and radii of curvature, without vibration.
@@ -27,11 +27,20 @@ class Contacts(NamedTuple):
     """The loaded tooth pairs of a mesh at every position of a mesh cycle."""
 
     motion: list[Motion]  # arguments of `tooth_contact`, with the load of a pair along all its face
-    weight: list[float]  # factors on their friction: their parts of the loss over power and H_v
+    weight: list[float]  # factors on their friction: their parts of the loss over the power
+
+    @property
+    def loss_factor(self) -> float:
+        """H_v [-] with these loads of the pairs; NaN without force.
+
+        It is the loss over the power with a friction coefficient of 1.
+        """
+        parts = zip(self.motion, self.weight, strict=True)
+        return sum(weight * motion[-1] for motion, weight in parts) if self.weight else math.nan
 
 
 def mean_coefficient(oil: Oil, contacts: Contacts) -> float:
-    """Mean friction coefficient [-] of a mesh, without rolling resistance.
+    """Mean friction coefficient [-] of a mesh, without rolling resistance; 0 without force.
 
     Args:
         oil: constants of the friction laws.
@@ -41,7 +50,7 @@ def mean_coefficient(oil: Oil, contacts: Contacts) -> float:
     for motion, weight in zip(*contacts, strict=True):
         _, boundary, viscous, *_ = tooth_contact(oil, motion)
         mean += weight * (boundary + viscous)
-    return mean
+    return mean / contacts.loss_factor if mean else 0.0
 
 
 def oil_with(scene: Scene, traction: str) -> Oil:
@@ -54,9 +63,7 @@ def oil_with(scene: Scene, traction: str) -> Oil:
     return build_oil(scene.replace(**{"lubrication.traction": traction}), scene.operating_point)
 
 
-def contacts_of(
-    scene: Scene, kind: int, force: float, frequency: float, loss_factor: float
-) -> Contacts:
+def contacts_of(scene: Scene, kind: int, force: float, frequency: float) -> Contacts:
     """Tooth pairs of a mesh with healthy teeth over a mesh cycle.
 
     Args:
@@ -64,7 +71,6 @@ def contacts_of(
         kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
         force: of the mesh [N], negative on the coast flanks; without force there are no pairs.
         frequency: mesh frequency [Hz].
-        loss_factor: H_v [-].
 
     Returns:
         The loaded pairs.
@@ -87,6 +93,6 @@ def contacts_of(
         (float(r1), float(r2), external, *spin, float(line))
         for r1, r2, line in zip(rho1, rho2, load / face, strict=True)
     ]
-    power = POSITIONS * abs(force) * loss_factor * math.cos(gearset.base_helix)
+    power = POSITIONS * abs(force) * math.cos(gearset.base_helix)
     slip = slip_per_position(first, second, mesh.internal) * np.abs(position)
     return Contacts(motion, (face * slip / power).tolist())

@@ -45,13 +45,16 @@ class MeshFigures(NamedTuple):
         float  # largest Hertz pressure at the pitch point, static force on one pair [Pa]
     )
     # H_v (Ohlendorf 1958): relative loss = H_v times mean friction coefficient [-].
-    loss_factor: float
+    loss_factor: float  # pairs in contact share the load equally
+    loaded_loss_factor: float | None  # with the loads of the pairs in the model; None: no force
     backlash: float  # total, along the line of action [m]
     friction: float  # mean coefficient by the laws of the scene, static force [-]
     friction_eyring: float  # the same with this law of viscous friction [-]
     friction_evans_johnson: float | None  # None outside the range of this law
     friction_schlenk: float  # regression of measured gear losses, includes boundary friction
-    tooth_loss: float  # H_v times mean coefficient times power of all meshes of the kind [W]
+    tooth_loss: (
+        float  # H_v of the loads times mean coefficient times power of all meshes of the kind [W]
+    )
     shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
     film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
 
@@ -112,9 +115,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             pitch_pressure=pressure[kind],
             loss_factor=loss_factors[kind],
             backlash=2.0 * float(load.half_backlash),
-            **friction_figures(
-                scene, kind, (sun_force, pressure[kind]), frequency, loss_factors[kind]
-            ),
+            **friction_figures(scene, kind, (sun_force, pressure[kind]), frequency),
         )
         for kind, (first, second) in enumerate(GEARS)
     )

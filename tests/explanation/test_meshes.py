@@ -213,7 +213,7 @@ def test_tooth_loss_is_that_of_a_run(name, traction):
     for mesh, of_kind in zip(found[1:], (loss[:planets], loss[planets:]), strict=True):
         assert mesh.tooth_loss == pytest.approx(of_kind.sum(), rel=0.065)
         power = planets * mesh.static_force * found.mesh_frequency * base_pitch(scene)
-        assert mesh.tooth_loss == pytest.approx(mesh.friction * mesh.loss_factor * power)
+        assert mesh.tooth_loss == pytest.approx(mesh.friction * mesh.loaded_loss_factor * power)
 
 
 @BOTH
@@ -225,11 +225,50 @@ def base_pitch(scene):
     return math.pi * scene.gearset.module * math.cos(scene.gearset.pressure_angle)
 
 
+SEVEN = {"lubrication.traction": "table", "lubrication.friction_table": {"coefficient": [0.07]}}
+
+
 @BOTH
-def test_mean_friction_of_a_constant_coefficient_is_this_coefficient(kind):
-    """H_v assumes that pairs share the load equally, as they do with a given stiffness."""
-    table = {"lubrication.traction": "table", "lubrication.friction_table": {"coefficient": [0.07]}}
-    assert of(kind, **table, **{"mesh.ramp": 0.0}).friction == pytest.approx(0.07, rel=0.01)
+@pytest.mark.parametrize("name", ["paper", "helical_stage", "wind_turbine_stage"])
+def test_mean_friction_of_a_constant_coefficient_is_this_coefficient(kind, name):
+    """Whatever loads the pairs have: entering teeth carry less, ends of contact lines more."""
+    assert of(kind, pt.load_scene(name), **SEVEN).friction == pytest.approx(0.07, rel=1e-8)
+
+
+@BOTH
+def test_loads_that_pairs_share_equally_have_the_loss_factor_of_equal_loads(kind):
+    """As they do with a given stiffness if teeth enter at once."""
+    found = of(kind, **{"mesh.ramp": 0.0})
+    assert found.loaded_loss_factor == pytest.approx(found.loss_factor, rel=0.01)
+
+
+@BOTH
+def test_loss_factor_of_the_loads_is_that_of_evenly_loaded_lines_of_contact(kind):
+    """Mean sliding over all lines of contact of helical teeth, by numbers; integer overlap ratio.
+
+    With an overlap ratio of 1, the length of all lines is constant, so each part of the path of
+    contact is loaded equally over time: the mean of |position| over the path, times the slip.
+    """
+    stage = pt.load_scene("helical_stage").replace(**{"mesh.ramp": 0.0})
+    gearset = stage.gearset
+    pitch = gearset.geometry.meshes[0].base_pitch
+    even = stage.replace(**{
+        "gearset.face_width": pitch / math.tan(gearset.base_helix),
+        "mesh.stiffness": "given", "mesh.double_pair_ratio": 2.0,
+        "mesh.sun_planet_stiffness": 3e8, "mesh.planet_ring_stiffness": 3e8,
+    })  # fmt: skip
+    found = of(kind, even)
+    first, second = found.teeth
+    sign = 1.0 if kind == "sun_planet" else -1.0
+    mean = 0.5 * (found.approach**2 + found.recess**2) / (found.approach + found.recess)
+    slip = 2.0 * math.pi * (1.0 / first + sign / second)
+    cosine = math.cos(gearset.base_helix)
+    assert found.loaded_loss_factor == pytest.approx(slip * mean / cosine, rel=0.01)
+
+
+@BOTH
+def test_a_mesh_without_force_has_no_loads_for_a_loss_factor(kind):
+    assert of(kind, input_torque=0.0).loaded_loss_factor is None
 
 
 @BOTH
