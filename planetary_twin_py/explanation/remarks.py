@@ -10,6 +10,7 @@ from ..result import Result
 from ..scene import Scene
 from ..studies.clipping import clipping_of_run
 from ..studies.measures import clipped_friction
+from .deflection import deflection_of_run
 from .pressure import pressure_of_run
 from .turning import turning_warnings
 
@@ -32,7 +33,8 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
             "wrong sign, and count the loss twice: friction drives the gears, and power loss and "
             "efficiency are those of no gearbox"
         )
-    if line := pressure_of_run(scene, run):
-        yield line
+    for look in (deflection_of_run, pressure_of_run):
+        if line := look(scene, run):
+            yield line
     if line := clipping_of_run(clipped_friction(scene, run)):
         yield line

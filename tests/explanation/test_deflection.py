@@ -1,0 +1,59 @@
+"""Teeth that yield beyond linear elasticity are reported, by runs and studies."""
+
+import pytest
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.explanation.deflection import deflection_of_run, deflection_of_scene
+
+PAPER = pt.load_scene("paper")
+
+
+def yielding(modules, **changes):
+    """The paper's teeth with a constant stiffness of the sun meshes that yields by this."""
+    gears, module = PAPER.gearset.geometry, PAPER.gearset.module
+    force = PAPER.operating_point.input_torque / (3 * gears.sun.base_radius)
+    stiffness = force / (modules * module)
+    return PAPER.replace(**{
+        "mesh.stiffness": "given", "mesh.double_pair_ratio": 1.0, "mesh.ramp": 0.0,
+        "mesh.sun_planet_stiffness": stiffness, "mesh.planet_ring_stiffness": 2.0 * stiffness,
+    } | changes)  # fmt: skip
+
+
+@pytest.mark.parametrize("modules", [0.095, 0.105])
+def test_a_tenth_of_the_module_is_the_limit_of_scenes(modules):
+    line = deflection_of_scene(yielding(modules))
+    assert (line is not None) == (modules > 0.1)
+    if line:
+        assert "sun-planet meshes, 0.1 modules" in line and "mesh.stiffness = given" in line
+
+
+@pytest.mark.parametrize("modules", [0.09, 0.12])
+def test_a_tenth_of_the_module_is_the_limit_of_runs(modules):
+    scene = yielding(modules, dynamics="quasi_static")
+    assert (deflection_of_run(scene, pt.simulate(scene, 0.004)) is None) == (modules < 0.1)
+
+
+def test_motion_within_the_backlash_is_no_deflection():
+    scene = PAPER.replace(backlash=4e-4, input_torque=1.0, dynamics="quasi_static")
+    run = pt.simulate(scene, 0.004)
+    assert abs(run.dte).max() > 0.1 * scene.gearset.module
+    assert deflection_of_run(scene, run) is None
+
+
+@pytest.mark.parametrize("name", pt.packaged_scenes())
+def test_packaged_scenes_are_within_the_limit(name):
+    assert deflection_of_scene(pt.load_scene(name)) is None
+
+
+def test_a_modulus_of_megapascals_for_gigapascals_is_reported_by_simulate_and_sweep(tmp_path):
+    soft = ["--set", "mesh.stiffness=involute", "--set", "lubrication.youngs_modulus=206 MPa"]
+    for command in (
+        ["simulate", "paper", "--duration", "0.004", "--set", "input_torque=20 N m"],
+        ["sweep", "paper", "--input-torque", "10Nm,20Nm", "--duration", "0.004",
+         "--settling", "0", "--out", str(tmp_path / "a.csv")],
+    ):  # fmt: skip
+        done = CliRunner().invoke(build_app(), [*command, *soft])
+        assert done.stderr.count("warning: deflection of the teeth = ") == 1, done.output
+        assert "lubrication.youngs_modulus" in done.stderr
