@@ -56,7 +56,8 @@ def simulate(
     """Simulate SCENE and print the results.
 
     The integrator computes means, rms and peaks over --duration, so they do not depend on
-    --sample-rate. A recording (.mcap, folder) also contains the time of --settling.
+    --sample-rate. A recording (.mcap, folder) also contains the time of --settling. The operating
+    point is constant: `resimulate` makes a step or a reversal in such a recording.
 
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
