@@ -34,11 +34,18 @@ def deflection_of_scene(scene: Scene) -> str | None:
     """Warn if the static force of the meshes bends teeth beyond linear elasticity.
 
     Args:
-        scene: the scene.
+        scene: the scene; teeth that are impossible are reported by its run.
 
     Returns:
         A sentence, or None.
     """
+    try:
+        return _static_warning(scene)
+    except ValueError:
+        return None
+
+
+def _static_warning(scene: Scene) -> str | None:
     return _warning(scene, [abs(mesh_force(scene, scene.operating_point.input_torque))] * 2)
 
 
