@@ -39,7 +39,8 @@ class DrivenRun:
         """Work that each machine has put in, and that it has taken out [J], (2, machines)."""
         linear = scene.drive.interpolation == "linear"
         self._pending = deque(() if commands is None else actions(commands, linear))
-        if not self._pending:
+        self._commanded = bool(self._pending)
+        if not self._commanded:
             return
         if not isinstance(run, DrivenEngine):
             raise SceneError(f"dynamics = {scene.dynamics!r}: does not allow commands")
@@ -96,8 +97,8 @@ class DrivenRun:
 
     def _spans(self, end: Fraction) -> Iterator[tuple[Fraction, None]]:
         """Ends of equal spans of at most `SPAN` until `end` [s], without the last."""
-        if not isinstance(self._run, DrivenEngine):
-            return  # a train without dynamics has no command that reverses it
+        if not self._commanded:
+            return  # nothing reverses the power of a machine
         begin = self._time
         count = math.ceil((end - begin) / SPAN)
         yield from ((begin + (end - begin) * n / count, None) for n in range(1, count))
