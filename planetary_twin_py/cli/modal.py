@@ -40,13 +40,14 @@ def modal(
     ] = None,
     set_: SetOption = None,
     input_speed: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="SPEED",
             help="Speed of the first motor for planar and spatial modes, in the frame of the "
-            "carrier, e.g. 1000rpm.",
+            "carrier, e.g. 1000rpm; a second motor has that of SCENE.",
+            show_default="nothing turns",
         ),
-    ] = "0 rpm",
+    ] = None,
     campbell: Annotated[
         Path | None,
         typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.", callback=output_file),
@@ -76,9 +77,10 @@ def modal(
     limit = loaded.drive.speed_limit
     found = resonances(loaded, mean, springs, limit, input_speed=speed)
     console = console_beside(json_)
-    title = f"{shown(loaded.name)}, {model} model{_turning(speed)}"
-    console.print(_mode_table(title, single, mean, None if speed else springs))
-    _print_resonances(console, found, limit)
+    turning = _turning(loaded, speed)
+    title = f"{shown(loaded.name)}, {model} model{turning}"
+    console.print(_mode_table(title, single, mean, None if turning else springs))
+    _print_resonances(console, loaded, found)
     if line := _bearings_of_load(loaded, model):
         remark(f"warning: {line}")
     if campbell is not None:
@@ -88,13 +90,15 @@ def modal(
         with writing("--campbell", campbell):
             save(campbell_diagram(loaded, mean, found, limit), str(campbell))
     if json_ is not None:
-        speeds = {"input_speed": speed, "speed_limit": limit}
+        speeds = {"input_speed": speed or 0.0, "speed_limit": limit}
         resonant = {"resonances": [resonance._asdict() for resonance in found]}
         write_json(_frequencies(single, mean) | speeds | resonant, json_)
 
 
-def _speed(text: str, model: str) -> float:
+def _speed(text: str | None, model: str) -> float | None:
     """Speed of the first motor [rad/s] from an option."""
+    if text is None:
+        return None
     from ..modal.natural import MOVING_AXES
     from ..units import to_si
 
@@ -108,7 +112,7 @@ def _speed(text: str, model: str) -> float:
         raise ValueError(
             f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
         )
-    return speed
+    return speed if model in MOVING_AXES else None
 
 
 def _bearings_of_load(scene: Scene, model: str) -> str | None:
@@ -132,11 +136,21 @@ def _bearings_of_load(scene: Scene, model: str) -> str | None:
     )
 
 
-def _turning(speed: float) -> str:
-    """Part of a title that states the speed of the first motor [rad/s] unless it is 0."""
+def _turning(scene: Scene, speed: float | None) -> str:
+    """Part of a title that states the speeds [rad/s] of the motors unless nothing turns."""
+    if speed is None:
+        return ""
+    speeds = (speed, scene.operating_point.second_input_speed)[: len(scene.drive.inputs)]
+    if not any(speeds):
+        return ""
+    inputs = "inputs" if len(speeds) > 1 else "input"
+    return f", {inputs} at {' and '.join(map(_rpm, speeds))}, frame of the carrier"
+
+
+def _rpm(speed: float, digits: str = "g") -> str:
     from ..units import rpm
 
-    return f", input at {speed / rpm(1.0):g} rpm, frame of the carrier" if speed else ""
+    return f"{speed / rpm(1.0):{digits}} rpm"
 
 
 def _frequencies(single: NaturalModes, mean: NaturalModes) -> dict[str, Any]:
@@ -195,12 +209,12 @@ def _text(changes: dict[str, float]) -> str:
     return ", ".join(felt) or "-"
 
 
-def _print_resonances(console: Console, found: Sequence[Resonance], limit: float) -> None:
-    """Print the resonant speeds up to `limit` [rad/s], first those that the meshing excites."""
+def _print_resonances(console: Console, scene: Scene, found: Sequence[Resonance]) -> None:
+    """Print the resonant speeds, first those that the meshing excites."""
     from ..modal.excitation import EXCITED
 
     excited = [resonance for resonance in found if resonance.excitation == EXCITED]
-    console.print(_heading(limit), highlight=False)
+    console.print(_heading(scene), highlight=False)
     for resonance in excited:
         console.print(_line(resonance))
     if not excited:
@@ -219,22 +233,26 @@ _NOT_EXCITED = (
 )
 
 
-def _heading(limit: float) -> str:
+def _heading(scene: Scene) -> str:
     from ..modal.campbell import HARMONICS
-    from ..units import rpm
 
+    limit, second = scene.drive.speed_limit, scene.operating_point.second_input_speed
+    speeds = f"speeds up to {_rpm(limit, '.0f')} (drive.speed_limit)"
+    if second:
+        speeds = (
+            f"speeds of the first motor up to {_rpm(limit, '.0f')} (drive.speed_limit) in both "
+        )
+        speeds += f"senses, the second one at {_rpm(second)} (second_input_speed)"
     return (
         f"Resonances at mean mesh stiffness, harmonics 1 to {HARMONICS} of the mesh frequency, "
-        f"speeds up to {limit / rpm(1.0):.0f} rpm (drive.speed_limit):"
+        f"{speeds}:"
     )
 
 
 def _line(resonance: Resonance) -> str:
-    from ..units import rpm
-
     numbers = range(resonance.mode + 1, resonance.mode + 1 + resonance.multiplicity)
     modes = f"mode{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
     return (
-        f"{resonance.speed / rpm(1.0):10.1f} rpm: harmonic {resonance.harmonic} "
+        f"{_rpm(resonance.speed, '10.1f')}: harmonic {resonance.harmonic} "
         f"of the mesh frequency meets {modes} at {resonance.frequency:.1f} Hz"
     )

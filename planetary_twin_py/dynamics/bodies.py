@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from types import ModuleType
 from typing import NamedTuple
@@ -102,11 +103,17 @@ def rigid_ratios(scene: Scene) -> dict[str, Ratios]:
     return ratios | {name: ratios[machine.member] for name, machine in machines(scene).items()}
 
 
+def rigid_speeds(scene: Scene, inputs: Sequence[float]) -> dict[str, float]:
+    """Speed [rad/s] of every kind of body, for speeds [rad/s] of the motors; a missing one is 0."""
+    return {
+        kind: sum(float(ratio) * speed for ratio, speed in zip(ratios, inputs, strict=False))
+        for kind, ratios in rigid_ratios(scene).items()
+    }
+
+
 def carrier_speed(scene: Scene, point: OperatingPoint) -> float:
     """Speed of the carrier [rad/s] at an operating point."""
-    speeds = (point.input_speed, point.second_input_speed)
-    ratios = rigid_ratios(scene)["carrier"]
-    return sum(float(ratio) * speed for ratio, speed in zip(ratios, speeds, strict=False))
+    return rigid_speeds(scene, (point.input_speed, point.second_input_speed))["carrier"]
 
 
 def body_names(scene: Scene) -> BodyNames:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..dynamics.bodies import rigid_ratios
+from ..dynamics.bodies import rigid_speeds
 from ..planar.small_motion import radial_stiffness
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
@@ -45,7 +45,7 @@ def natural_modes(
     scene: Scene,
     model: str | None = None,
     stiffness: str = "single",
-    input_speed: float = 0.0,
+    input_speed: float | None = None,
 ) -> NaturalModes:
     """Natural modes of a scene without damping, at rest or turning at a constant speed.
 
@@ -59,9 +59,10 @@ def natural_modes(
             dynamics of the scene, see `model_of`.
         stiffness: stiffness of every mesh. "single": one tooth pair is in contact; "mean": mean
             over the mesh cycle, which gives the modes at which a simulation resonates.
-        input_speed: speed of the first motor [rad/s]. For the models planar and spatial, the
-            frequencies are those in the frame of the carrier, with gyroscopic and centripetal
-            terms (Lin and Parker 1999). It has no effect in the others.
+        input_speed: speed of the first motor [rad/s]; the second one of a differential has that of
+            the scene. For the models planar and spatial, the frequencies are those in the frame of
+            the carrier, with gyroscopic and centripetal terms (Lin and Parker 1999). It has no
+            effect in the others. None: nothing turns.
 
     Returns:
         Frequencies [Hz] (modes,), mass-normalised shapes [kg^-1/2] (coordinates, modes), and kinds
@@ -74,9 +75,11 @@ def natural_modes(
     """
     model = model_of(scene) if model is None else model
     springs = spring_model(scene, model, stiffness)
-    if input_speed == 0.0 or model not in MOVING_AXES:
+    if input_speed is None or model not in MOVING_AXES:
         return modes_of(springs)
-    speeds = {kind: input_speed * float(ratio[0]) for kind, ratio in rigid_ratios(scene).items()}
+    speeds = rigid_speeds(scene, (input_speed, scene.operating_point.second_input_speed))
+    if not any(speeds.values()):
+        return modes_of(springs)
     angles = scene.gearset.planet_angles
     return turning_modes(springs, turning_terms(springs, speeds["carrier"], speeds, angles))
 

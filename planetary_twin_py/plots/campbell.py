@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..modal.campbell import HARMONICS, Resonance, mesh_frequency_per_speed
+from ..modal.campbell import HARMONICS, MeshLine, Resonance, mesh_line
 from ..modal.excitation import EXCITED
 from ..modal.modes import NaturalModes
 from ..scene import Scene
@@ -27,15 +27,17 @@ def campbell_diagram(
     """Draw frequencies against the speed of the first motor.
 
     Args:
-        scene: gives the mesh frequency and the title.
+        scene: gives the mesh frequency, the speed of a second motor, and the title.
         modes: modes at mean mesh stiffness; modes of one kind have the same colour.
         found: crossings to mark, from `resonances`.
-        highest_speed: end of the speed axis [rad/s].
+        highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
         harmonics: number of mesh harmonics.
 
     Returns:
         The figure.
     """
+    line = mesh_line(scene)
+    ends = line.lowest_speed(highest_speed), highest_speed
     with applied():
         figure, (axes,) = panels(height=4.5)
         top = MARGIN * float(modes.frequencies.max())
@@ -43,11 +45,12 @@ def campbell_diagram(
         for kind in kinds:
             frequencies = modes.frequencies[[k == kind for k in modes.kinds]]
             axes.hlines(
-                frequencies, 0.0, highest_speed * RPM, label=kind, color=colour_of(kinds, kind)
+                frequencies, ends[0] * RPM, ends[1] * RPM, label=kind, color=colour_of(kinds, kind)
             )
-        ends = np.arange(1, harmonics + 1) * mesh_frequency_per_speed(scene) * highest_speed
-        axes.plot([0.0, highest_speed * RPM], [np.zeros(harmonics), ends], color=GREY, lw=0.8)
-        for h, place in enumerate(_label_places(ends / top), 1):
+        speeds = _corners(line, *ends)
+        numbers = np.arange(1, harmonics + 1)
+        axes.plot(speeds * RPM, np.outer(line.at(speeds), numbers), color=GREY, lw=0.8)
+        for h, place in _label_places(line, *ends, top, numbers):
             axes.annotate(
                 f"{h}",
                 place,
@@ -61,9 +64,9 @@ def campbell_diagram(
         if others := [r for r in found if r.excitation != EXCITED]:
             _mark(axes, others, "met, not excited", fill="white")
         axes.set(
-            xlim=(0.0, highest_speed * RPM),
+            xlim=[end * RPM for end in ends],
             ylim=(0.0, top),
-            xlabel="speed of the first motor [rpm]",
+            xlabel=_speed_label(scene),
             ylabel="frequency [Hz]",
             title=f"{scene.name}: natural frequencies at mean mesh stiffness\n",
         )
@@ -71,18 +74,45 @@ def campbell_diagram(
     return figure
 
 
-def _label_places(ends: np.ndarray) -> list[tuple[float, float]]:
-    """Where the lines of the harmonics leave the picture, apart by a label.
+def _corners(line: MeshLine, lowest: float, highest: float) -> np.ndarray:
+    """Speeds [rad/s] between which the mesh frequency is straight: both ends, and where it is 0."""
+    zero = line.speed(0.0)
+    return np.array([lowest, zero, highest] if lowest < zero < highest else [lowest, highest])
+
+
+def _speed_label(scene: Scene) -> str:
+    second = scene.operating_point.second_input_speed * RPM
+    beside = f" with the second one at {second:g} rpm" if second else ""
+    return f"speed of the first motor{beside} [rpm]"
+
+
+def _label_places(
+    line: MeshLine, lowest: float, highest: float, top: float, numbers: np.ndarray
+) -> list[tuple[int, tuple[float, float]]]:
+    """Where the lines of the harmonics leave the picture for the last time, apart by a label.
 
     Args:
-        ends: heights of the lines at the highest speed over that of the picture, ascending.
+        line: mesh frequency.
+        lowest: lowest speed of the picture [rad/s].
+        highest: highest speed of the picture [rad/s].
+        top: highest frequency of the picture [Hz].
+        numbers: numbers of the harmonics, ascending.
 
     Returns:
-        Places from left to right and bottom to top of the picture, 0 to 1.
+        Harmonics with places from left to right and bottom to top of the picture, 0 to 1; without
+        lines that are above the picture at all speeds.
     """
-    right = _apart(list(ends[ends <= 1.0]), LABEL_HEIGHT)
-    above = _apart([1.0 / end for end in ends[ends > 1.0]][::-1], LABEL_WIDTH)[::-1]
-    return [(1.0, y) for y in right] + [(x, 1.0) for x in above]
+    heights = numbers * line.at(np.array(highest)) / top
+    right = [int(h) for h in numbers[heights <= 1.0]]
+    left = {}  # speed at which a line rises through the upper edge
+    for h in numbers[heights > 1.0].tolist():
+        through = [speed for s in (-top, top) if lowest < (speed := line.speed(s / h)) < highest]
+        if through:
+            left[h] = (max(through) - lowest) / (highest - lowest)
+    above = _apart(list(left.values())[::-1], LABEL_WIDTH)[::-1]
+    beside = _apart(heights[heights <= 1.0].tolist(), LABEL_HEIGHT)
+    places = [(1.0, y) for y in beside] + [(x, 1.0) for x in above]
+    return list(zip([*right, *left], places, strict=True))
 
 
 def _apart(places: list[float], gap: float) -> list[float]:

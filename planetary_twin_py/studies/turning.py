@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..dynamics.bodies import rigid_ratios
+from ..dynamics.bodies import rigid_speeds
 from ..gearset.kinematics import mesh_frequency
 from ..planar.error_turns import WHOLE_TURN
 from ..quantities import ERROR_TURNS, SPEED_SHARE
@@ -31,14 +31,9 @@ def wanted_mesh_frequency(scene: Scene) -> float:
     Args:
         scene: the scene.
     """
-    teeth, ratios = scene.gearset.tooth_numbers, rigid_ratios(scene)
     point = scene.operating_point
-    inputs = point.input_speed, point.second_input_speed
-    sun, carrier = (
-        sum(float(ratio) * speed for ratio, speed in zip(ratios[member], inputs, strict=False))
-        for member in ("sun", "carrier")
-    )
-    return mesh_frequency(teeth, sun, carrier)
+    speeds = rigid_speeds(scene, (point.input_speed, point.second_input_speed))
+    return mesh_frequency(scene.gearset.tooth_numbers, speeds["sun"], speeds["carrier"])
 
 
 def speed_share(scene: Scene, found: float) -> float:

@@ -87,6 +87,14 @@ def test_speeds_are_listed_up_to_the_limit_of_the_drive_and_equal_frequencies_on
     assert "speeds up to 1200 rpm (drive.speed_limit): none" in slow
 
 
+def test_resonances_of_a_differential_are_those_at_the_speed_of_its_second_motor():
+    shown = " ".join(invoke("differential", "--set", "drive.speed_limit=20000rpm").output.split())
+    assert "the second one at -500 rpm (second_input_speed)" in shown
+    assert " 2784.2 rpm: harmonic 5 of the mesh frequency meets mode 3 at 8210.6 Hz" in shown
+    stood = invoke("differential", "--set", "second_input_speed=0rpm").output
+    assert "second" not in stood and " -" not in stood.split("Resonances")[1]
+
+
 def test_suppressed_modes_are_listed_apart_from_the_resonances():
     options = ("wind_turbine_stage", "--model", "planar")
     shown = " ".join(invoke(*options).output.split())

@@ -3,11 +3,13 @@
 import itertools
 import math
 
+import numpy as np
 import pytest
-from power_flows import FLOWS, scene_of
+from power_flows import DIFFERENTIALS, FLOWS, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py.modal.campbell import mesh_frequency_per_speed, resonances
+from planetary_twin_py.explanation.meshes import describe_meshes
+from planetary_twin_py.modal.campbell import mesh_frequency_per_speed, mesh_line, resonances
 from planetary_twin_py.modal.excitation import EXCITED
 from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.plots.campbell import campbell_diagram
@@ -45,6 +47,64 @@ def test_modes_of_one_frequency_are_met_once():
 def test_nothing_is_listed_beyond_the_highest_speed():
     scene = pt.load_scene("paper")
     assert resonances(scene, pt.natural_modes(scene), spring_model(scene), pt.rpm(1000)) == ()
+
+
+SECOND = pt.rpm(-400.0)
+
+
+def differential(**changes):
+    """The sun turns at the speed of the axis, the carrier at `SECOND`."""
+    return scene_of(DIFFERENTIALS[0], **{"second_input_speed": SECOND, **changes})
+
+
+def test_a_second_motor_shifts_the_resonant_speeds_by_its_own():
+    """f_m = Zs |ns - nc|, so speeds of the sun are those relative to the carrier, plus its own."""
+    scene, highest = differential(), pt.rpm(20_000)
+    modes = pt.natural_modes(scene)
+    found = resonances(scene, modes, spring_model(scene), highest, harmonics=2)
+    expected = [
+        sense * frequency / (30 * h) * 2 * math.pi + SECOND
+        for frequency in sorted(set(modes.frequencies[[2, 3, 5]]))
+        for h in (1, 2)
+        for sense in (-1, 1)
+    ]
+    within = sorted(speed for speed in expected if abs(speed) <= highest)
+    assert [r.speed for r in found] == pytest.approx(within)
+    assert min(within) < 0.0 < max(within)
+
+
+@pytest.mark.parametrize("speed", [pt.rpm(1500), pt.rpm(-1500)])
+def test_lines_of_a_differential_are_its_mesh_frequency_at_both_speeds(speed):
+    scene = differential(input_speed=speed)
+    found = describe_meshes(scene).mesh_frequency
+    assert mesh_line(scene).at(np.array(speed)) == pytest.approx(found)
+
+
+def test_a_resonance_past_a_second_motor_is_where_the_twin_meshes_at_that_frequency():
+    scene = differential(**{"drive.speed_limit": pt.rpm(20_000)})
+    modes, springs = pt.natural_modes(scene), spring_model(scene)
+    for resonance in resonances(scene, modes, springs, pt.rpm(12_000), harmonics=2):
+        run = pt.simulate(scene.replace(input_speed=resonance.speed), 0.02, tolerance=1e-3)
+        sun, carrier = (run.mean_speed[run.bodies.index(body)] for body in ("sun", "carrier"))
+        met = resonance.harmonic * 30 * abs(sun - carrier) / (2 * math.pi)
+        assert met == pytest.approx(resonance.frequency, rel=0.01)
+
+
+def test_marks_of_a_differential_are_on_its_lines_which_start_at_both_ends_of_the_speeds():
+    scene, highest = differential(), pt.rpm(20_000)
+    modes = pt.natural_modes(scene, stiffness="mean")
+    found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
+    figure = campbell_diagram(scene, modes, found, highest)
+    (axes,) = figure.axes
+    *rays, marks = axes.lines
+    assert len(rays) == 5 and len(marks.get_xdata()) == len(found) > 0
+    assert axes.get_xlim() == pytest.approx((-20_000, 20_000))
+    for resonance, x, y in zip(found, marks.get_xdata(), marks.get_ydata(), strict=True):
+        assert y == pytest.approx(np.interp(x, *rays[resonance.harmonic - 1].get_data()))
+    assert rays[0].get_ydata()[1] == 0.0 and rays[0].get_xdata()[1] == pytest.approx(-400)
+    figure.draw_without_rendering()
+    boxes = [label.get_window_extent() for label in axes.texts]
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
 
 
 def test_every_resonance_is_marked_where_a_harmonic_crosses_a_natural_frequency():

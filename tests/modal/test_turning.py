@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from planar.moving_scenes import planar
+from power_flows import DIFFERENTIALS
 from scipy.linalg import eigvals
 
 import planetary_twin_py as pt
@@ -148,3 +150,18 @@ def test_modes_of_a_scene_are_those_at_the_speed_of_its_carrier():
     assert np.abs(found.frequencies - still).max() > 1.0
     torsional = pt.natural_modes(scene, input_speed=speed).frequencies
     assert torsional == pytest.approx(pt.natural_modes(scene).frequencies)
+
+
+def test_the_second_motor_of_a_differential_turns_the_carrier():
+    scene = planar(DIFFERENTIALS[0], second_input_speed=pt.rpm(-2000.0))
+    first = pt.rpm(600.0)
+    found = pt.natural_modes(scene, "planar", input_speed=first).frequencies
+    model, sun, carrier = spring_model(scene, "planar"), first, pt.rpm(-2000.0)
+    ring = carrier - (sun - carrier) * 30 / 70
+    spins = {"sun": sun, "ring": ring, "carrier": carrier, "planet": carrier}
+    terms = turning_terms(model, carrier, spins, scene.gearset.planet_angles)
+    assert found == pytest.approx(turning_modes(model, terms).frequencies)
+    still = pt.natural_modes(scene, "planar")
+    assert np.abs(found - still.frequencies).max() > 5.0
+    stood = pt.natural_modes(scene.replace(second_input_speed=0.0), "planar", input_speed=first)
+    assert stood.frequencies == pytest.approx(still.frequencies)  # of the carrier at rest
