@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -81,8 +81,9 @@ def modal(
     title = f"{shown(loaded.name)}, {model} model{turning}"
     console.print(_mode_table(title, single, mean, None if turning else springs))
     _print_resonances(console, loaded, found)
-    if line := _bearings_of_load(loaded, model):
-        remark(f"warning: {line}")
+    for line in (_bearings_of_load(loaded, model), _planets_without_load(loaded, model)):
+        if line:
+            remark(f"warning: {line}")
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
@@ -134,6 +135,33 @@ def _bearings_of_load(scene: Scene, model: str) -> str | None:
         f"load at input_torque = {torque}, and has no stiffness without load: modes are those of "
         "vibration that is small compared with this load"
     )
+
+
+def _planets_without_load(scene: Scene, model: str) -> str | None:
+    """A remark on planets whose meshes are open in static equilibrium, if there are any."""
+    from ..modal.natural import carrying_planets
+
+    shares = dict(enumerate(carrying_planets(scene, model), 1))
+    never = [n for n, share in shares.items() if share == 0.0]
+    at_times = {n: share for n, share in shares.items() if 0.0 < share < 1.0}
+    parts = []
+    if never:
+        parts.append(f"{_planets(never)} without load, so without stiffness")
+    if at_times:
+        shown = ", ".join(f"{share:.2g}" for share in at_times.values())
+        parts.append(f"{_planets(at_times)} with load, so stiffness, for {shown} of the time")
+    if not parts:
+        return None
+    torque = figure(scene.operating_point.input_torque, "N m")
+    return (
+        f"in static equilibrium at input_torque = {torque} there are meshes of "
+        f"{', and of '.join(parts)} (see load-sharing): modes are those of vibration that neither "
+        "opens nor closes meshes"
+    )
+
+
+def _planets(numbers: Collection[int]) -> str:
+    return f"planet{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
 
 
 def _turning(scene: Scene, speed: float | None) -> str:
@@ -188,9 +216,11 @@ def _mode_table(
             f"changes below {LEAST_CHANGE:g} Hz are omitted"
         )
         slopes = frequency_sensitivities(springs)
-        stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
+        stiffness = {spring.kind: spring.stiffness / spring.factor for spring in springs.acting}
         for m, row in enumerate(rows):
-            row.append(_text({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in slopes}))
+            row.append(
+                _text({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in stiffness})
+            )
     if single.kinds != mean.kinds:
         table.caption = f"{table.caption}. Two kinds: that with one pair, then that with the mean"
     for row in rows:

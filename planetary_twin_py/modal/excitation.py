@@ -61,9 +61,9 @@ def _mesh_work(
     """
     work = largest = 0.0
     for kind, phases in zip(KINDS, scene_phases(scene), strict=True):
-        meshes = [spring for spring in springs.acting if spring.kind == kind]
+        meshes = [spring for spring in springs.springs if spring.kind == kind]
         turns = [float(harmonic * phase % 1) for phase in phases]
-        root = math.sqrt(meshes[0].stiffness)
+        root = math.sqrt(max(spring.stiffness for spring in meshes))
         pulls = np.array([s.stiffness / root for s in meshes]) * np.exp(
             2j * np.pi * np.array(turns)
         )

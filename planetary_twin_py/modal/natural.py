@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ..dynamics.bodies import rigid_speeds
+from ..planar.carrying import carrying
 from ..planar.small_motion import radial_stiffness
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
@@ -56,7 +57,8 @@ def natural_modes(
             "planar", Lin and Parker 1999; "spatial", six motions of every body. The last two
             require `scene.supports`, whose rolling bearings and bearings with clearance are
             linear about the static equilibrium at the torque of the scene. None: that of the
-            dynamics of the scene, see `model_of`.
+            dynamics of the scene, see `model_of`. But for "printed", meshes that carry no load in
+            static equilibrium have no stiffness, see `carrying_planets`.
         stiffness: stiffness of every mesh. "single": one tooth pair is in contact; "mean": mean
             over the mesh cycle, which gives the modes at which a simulation resonates.
         input_speed: speed of the first motor [rad/s]; the second one of a differential has that of
@@ -103,7 +105,7 @@ def spring_model(scene: Scene, model: str | None = None, stiffness: str = "singl
         raise ValueError(f"model = {model!r}: must be one of {', '.join(MODELS)}")
     mesh = mesh_stiffness(scene, stiffness)
     if model in ("torsional", "machines"):
-        return torsional_model(scene, mesh, model == "machines")
+        return torsional_model(scene, mesh, _mesh_factors(scene, model), model == "machines")
     if model == "printed":
         return printed_model(_printed_set(scene, mesh))
     if model == "planar":
@@ -111,6 +113,31 @@ def spring_model(scene: Scene, model: str | None = None, stiffness: str = "singl
     else:
         built = spatial_model(_spatial_set(scene, mesh))
     return built.holding(f"{scene.gearset.held}.u")
+
+
+def carrying_planets(scene: Scene, model: str) -> tuple[float, ...]:
+    """Part of the time in which each planet carries load in static equilibrium, as a model has it.
+
+    The stiffness of its meshes has this factor.
+
+    Args:
+        scene: the scene.
+        model: see `natural_modes`; all planets of "printed" carry.
+
+    Returns:
+        Shares, 0 to 1, (planets,).
+    """
+    if model == "printed":
+        return (1.0,) * scene.gearset.planets
+    if model in MOVING_AXES:
+        return carrying(scene)
+    return carrying(scene.model_copy(update={"dynamics": "torsional", "supports": None}))
+
+
+def _mesh_factors(scene: Scene, model: str) -> tuple[float, ...]:
+    """Factors of the planets on the stiffness of their meshes."""
+    shares = enumerate(carrying_planets(scene, model))
+    return tuple(scene.errors.of_planet(i).stiffness * share for i, share in shares)
 
 
 def _printed_set(scene: Scene, mesh: MeshStiffness) -> PrintedSet:
@@ -164,17 +191,14 @@ def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
         mesh.planet_ring,
         sun_planet.pressure_angle,
         planet_ring.pressure_angle,
-        *_factors(scene),
+        _mesh_factors(scene, "planar"),
+        _pin_factors(scene),
     )
 
 
-def _factors(scene: Scene) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Factors of the planets on the stiffness of meshes and of bearings."""
-    planets = [scene.errors.of_planet(i) for i in range(scene.gearset.planets)]
-    return (
-        tuple(planet.stiffness for planet in planets),
-        tuple(planet.pin_stiffness for planet in planets),
-    )
+def _pin_factors(scene: Scene) -> tuple[float, ...]:
+    """Factors of the planets on the stiffness of their bearings."""
+    return tuple(scene.errors.of_planet(i).pin_stiffness for i in range(scene.gearset.planets))
 
 
 def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
@@ -215,5 +239,6 @@ def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
         gearset.base_helix,
         planet_ring.pressure_angle,
         gearset.face_width,
-        *_factors(scene),
+        _mesh_factors(scene, "spatial"),
+        _pin_factors(scene),
     )

@@ -50,7 +50,7 @@ class PlanarSet:
     ring_angle: float
     """Transverse pressure angle of the planet-ring meshes [rad]."""
     mesh_factors: tuple[float, ...] = ()
-    """Factors on the stiffness of both meshes of each planet, (planets,); default: 1."""
+    """Factors on the stiffness of both meshes of each planet, 0 if open, (planets,); default: 1."""
     pin_factors: tuple[float, ...] = ()
     """Factors on the radial stiffness of each planet's bearing, (planets,); default: 1."""
 

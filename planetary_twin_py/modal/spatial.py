@@ -70,7 +70,7 @@ class SpatialSet:
     face_width: float = 0.0
     """Face width, along which each mesh resists tilting [m]; 0: at one point."""
     mesh_factors: tuple[float, ...] = ()
-    """Factors on the stiffness of both meshes of each planet, (planets,); default: 1."""
+    """Factors on the stiffness of both meshes of each planet, 0 if open, (planets,); default: 1."""
     pin_factors: tuple[float, ...] = ()
     """Factors on the radial stiffness of each planet's bearing, (planets,); default: 1."""
 

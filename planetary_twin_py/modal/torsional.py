@@ -6,6 +6,8 @@ the line of action (Kahraman 1994, with the carrier coupled to both meshes).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..dynamics.bodies import base_radii, build_bodies, machines
@@ -15,12 +17,15 @@ from .mesh_stiffness import MeshStiffness
 from .springs import Rows, Spring, SpringModel
 
 
-def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = False) -> SpringModel:
+def torsional_model(
+    scene: Scene, mesh: MeshStiffness, factors: Sequence[float], with_machines: bool = False
+) -> SpringModel:
     """Spring model of the gears and the carrier.
 
     Args:
         scene: gives inertias and couplings.
         mesh: stiffnesses of the meshes.
+        factors: factors on the stiffness of both meshes of each planet, (planets,).
         with_machines: whether to include motors and load with their couplings.
 
     Returns:
@@ -35,11 +40,10 @@ def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = Fal
     coordinates = tuple(f"{name}.u" for name in names)
     row, springs = Rows(coordinates), []
     carried = scene.gearset.geometry.carrier_ratio
-    for i in range(scene.gearset.planets):
+    for i, factor in enumerate(factors):
         planet = f"planet_{i + 1}.u"
         sun_row = row({"sun.u": 1.0, planet: 1.0, "carrier.u": -1.0})
         ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -carried})
-        factor = scene.errors.of_planet(i).stiffness
         springs += [Spring("sun_planet", factor * mesh.sun_planet, sun_row, factor)]
         springs += [Spring("planet_ring", factor * mesh.planet_ring, ring_row, factor)]
     if with_machines:

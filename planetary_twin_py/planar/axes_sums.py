@@ -7,7 +7,7 @@ resolves its natural modes; samples between those that the caller keeps only ent
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -202,16 +202,21 @@ def _fastest_mode(scene: Scene) -> float:
         return 0.0
     from ..modal.natural import natural_modes  # takes time to import
 
-    modes = natural_modes(_without_clearance(scene), model=scene.dynamics, stiffness="mean")
+    modes = natural_modes(_always_touching(scene), model=scene.dynamics, stiffness="mean")
     return float(modes.frequencies.max())
 
 
-def _without_clearance(scene: Scene) -> Scene:
-    """The scene with linear bearings that are always touched, as stiff as they become."""
-    return scene.replace(
-        **{
-            f"supports.{body}.clearance": 0.0
-            for body in (*CENTRAL, "planet")
-            if getattr(scene.supports, body).rolling is None
-        }
-    )
+def _always_touching(scene: Scene) -> Scene:
+    """The scene with linear bearings and flanks that always touch, as stiff as they become."""
+    clearances = {
+        f"supports.{body}.clearance": 0.0
+        for body in (*CENTRAL, "planet")
+        if getattr(scene.supports, body).rolling is None
+    }
+    factors = {name: getattr(scene.errors, name) for name in ("planet_stiffness", "pin_stiffness")}
+    flat: dict[str, Any] = {
+        "mesh.runout": {},
+        "mesh.sun_planet_error": {},
+        "mesh.planet_ring_error": {},
+    }
+    return scene.replace(**clearances, **flat, **{"errors": factors, "supports.gravity": 0.0})

@@ -11,6 +11,7 @@ from tiers import first
 from planetary_twin_py import natural_modes
 from planetary_twin_py._core import axes
 from planetary_twin_py.engine import Engine
+from planetary_twin_py.planar.carrying import carrying
 
 RATE = 200_000.0
 SOFT = {"coupling_stiffness": 1e-2, "coupling_damping": 0.0}  # leave the gears to themselves
@@ -99,6 +100,18 @@ def test_pins_with_clearance_swing_about_their_load_at_the_frequencies_of_the_pl
     found = np.sqrt(np.maximum(np.linalg.eigvals(-by_x / mass[:, None]).real, 0.0))
     found, wanted = np.sort(found) / (2.0 * math.pi), expected(scene)
     assert abs(wanted / tight - 1.0).max() > 0.1
+    assert found[-len(wanted) :] == pytest.approx(wanted, rel=1e-5)
+
+
+def test_a_planet_without_load_swings_on_its_pin_at_the_frequencies_of_the_planar_modes():
+    scene = ringing(FLOWS[0], 4, 100.0)
+    equal = expected(scene)
+    scene = scene.replace(**{"errors.pin_tangential": (2e-5, 0.0, 0.0, 0.0)})
+    assert carrying(scene) == (0.0, 1.0, 1.0, 1.0)
+    mass, by_x, _ = equations(scene)
+    found = np.sqrt(np.maximum(np.linalg.eigvals(-by_x / mass[:, None]).real, 0.0))
+    found, wanted = np.sort(found) / (2.0 * math.pi), expected(scene)
+    assert len(wanted) == len(equal) - 1  # the planet turns freely
     assert found[-len(wanted) :] == pytest.approx(wanted, rel=1e-5)
 
 
