@@ -53,12 +53,13 @@ def natural_modes(
     Args:
         scene: the scene.
         model: "torsional", gears and carrier as in a simulation (Kahraman 1994); "machines", the
-            same with motor and load; "printed", eqs. (32)-(38) of Salagianni et al. 2017;
-            "planar", Lin and Parker 1999; "spatial", six motions of every body. The last two
-            require `scene.supports`, whose rolling bearings and bearings with clearance are
-            linear about the static equilibrium at the torque of the scene. None: that of the
-            dynamics of the scene, see `model_of`. But for "printed", meshes that carry no load in
-            static equilibrium have no stiffness, see `carrying_planets`.
+            same with motor and load, where the end of a shaft whose motion is given is at rest;
+            "printed", eqs. (32)-(38) of Salagianni et al. 2017; "planar", Lin and Parker 1999;
+            "spatial", six motions of every body. The last two require `scene.supports`, whose
+            rolling bearings and bearings with clearance are linear about the static equilibrium at
+            the torque of the scene. None: that of the dynamics of the scene, see `model_of`. But
+            for "printed", meshes that carry no load in static equilibrium have no stiffness, see
+            `carrying_planets`.
         stiffness: stiffness of every mesh. "single": one tooth pair is in contact; "mean": mean
             over the mesh cycle, which gives the modes at which a simulation resonates.
         input_speed: speed of the first motor [rad/s]; the second one of a differential has that of

@@ -26,7 +26,8 @@ def torsional_model(
         scene: gives inertias and couplings.
         mesh: stiffnesses of the meshes.
         factors: factors on the stiffness of both meshes of each planet, (planets,).
-        with_machines: whether to include motors and load with their couplings.
+        with_machines: whether to include motors and load with their couplings. The end of a shaft
+            whose motion is given (port "motion") is at rest.
 
     Returns:
         Masses and springs.
@@ -34,9 +35,9 @@ def torsional_model(
     scene = held_axes(scene)
     bodies, machine_data = build_bodies(scene), machines(scene)
     ground = len(bodies.mass) - 1
-    names = [name for name, place in bodies.place.items() if place != ground]
-    if not with_machines:
-        names = [name for name in names if name not in machine_data]
+    moving = [name for name, machine in machine_data.items() if machine.port != "motion"]
+    still = set(machine_data) - set(moving if with_machines else ())
+    names = [name for name, place in bodies.place.items() if place != ground and name not in still]
     coordinates = tuple(f"{name}.u" for name in names)
     row, springs = Rows(coordinates), []
     carried = scene.gearset.geometry.carrier_ratio

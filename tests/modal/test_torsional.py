@@ -68,6 +68,56 @@ def test_machines_add_soft_modes_below_those_of_the_gearset():
     assert 20.0 < driven.frequencies[1] < 60.0
 
 
+def driven(port):
+    """Soft couplings on both sides of stiff and light gears."""
+    changes = {
+        "drive.input.port": port,
+        "drive.output.port": "torque",
+        "drive.input.coupling_damping": 0.0,
+        "drive.output.coupling_damping": 0.0,
+        "drive.output.inertia": 2.0,
+    }
+    return pt.load_scene("paper").replace(**changes)
+
+
+def test_the_end_of_a_shaft_whose_motion_is_given_is_at_rest():
+    """Load and gears on both couplings in series, seen from the load; no mode is rigid."""
+    scene = driven("motion")
+    modes = pt.natural_modes(scene, "machines")
+    turns = (70 / 30) ** 2  # (ns/nr)^2
+    load, motor = scene.drive.output, scene.drive.input
+    in_series = 1.0 / (1.0 / load.coupling_stiffness + 1.0 / (motor.coupling_stiffness * turns))
+    expected = math.sqrt(in_series / load.inertia) / (2 * math.pi)
+    assert "rigid" not in modes.kinds
+    assert modes.frequencies[0] == pytest.approx(expected, rel=0.01)
+    assert not any(name.startswith("motor") for name in modes.coordinates)
+
+
+def test_a_given_torque_leaves_the_inertia_of_its_port_in_the_train():
+    given, machine = (pt.natural_modes(driven(port), "machines") for port in ("torque", "machine"))
+    assert given.frequencies == pytest.approx(machine.frequencies, rel=1e-12)
+    assert given.kinds[0] == "rigid"
+
+
+@pytest.mark.parametrize("port", ["motion", "torque"])
+def test_a_twin_swings_at_the_lowest_frequency_of_its_ports(port):
+    scene = driven(port)
+    modes = pt.natural_modes(scene, "machines", "mean")
+    lowest = next(f for f in modes.frequencies if f > 0.0)
+    twin = pt.Twin(scene, tolerance=1e-3)
+    twist, step = [], 1.0 / (50.0 * lowest)
+    kick = {"motion": {"input_speed": 1.01}, "torque": {"output_torque": 1.1}}[port]
+    state = twin.port_states
+    changed = {name: factor * getattr(state, name) for name, factor in kick.items()}
+    for _ in range(500):
+        state = twin.step(step, **changed)
+        twist.append(state.output_angle * 70 / 30 + state.input_angle)
+    twist = np.array(twist) - np.polyval(np.polyfit(np.arange(500), twist, 1), np.arange(500))
+    spectrum = np.abs(np.fft.rfft(twist * np.hanning(500), 20_000))
+    found = np.fft.rfftfreq(20_000, step)[np.argmax(spectrum)]
+    assert found == pytest.approx(lowest, rel=0.02)
+
+
 def test_an_unknown_model_and_a_scene_without_supports_end_in_one_line():
     scene = pt.load_scene("paper")
     with pytest.raises(ValueError, match="model = 'flat': must be one of torsional"):
