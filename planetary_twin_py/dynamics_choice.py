@@ -12,11 +12,13 @@ import numpy as np
 
 from ._core import BEARING, CHURNING, FRICTION
 from .brief import brief_record
-from .dynamics.bodies import mesh_names, rigid_ratios
+from .dynamics.bodies import mesh_names
 from .dynamics.mesh_sums import in_order
-from .gearset.kinematics import mesh_cycles_per_turn
+from .dynamics.static_load import mesh_force
+from .engineering_units import percent
 from .run import start
 from .scene import Scene, SceneError
+from .studies.turning import wanted_mesh_frequency
 from .window import mesh_statistics
 
 AUTO = "auto"
@@ -28,6 +30,7 @@ TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.1, 2.0  # [s] limits of the measured time, and of the settling before it
 CYCLES = 20.0  # smallest number of measured mesh cycles, unless they take longer than LONGEST
 NEGLIGIBLE = 0.01  # share of the largest deflection or force below which errors are not relative
+NOTHING = 1e-6  # share of torque and speed that is none: less is what rounding leaves
 
 
 class Candidate(NamedTuple):
@@ -37,7 +40,8 @@ class Candidate(NamedTuple):
     refused: str = ""
     """Reason why the scene does not run with it; empty if it does."""
     errors: Mapping[str, float] = MappingProxyType({})
-    """Largest deviation of any mesh from the reference, relative to it, by `FIGURES`."""
+    """Largest deviation of any mesh from the reference, relative to it, by `FIGURES`; 0 where there
+    is nothing to compare: losses at standstill, places of teeth without load."""
     cost: float = float("nan")
     """Computing time per simulated second."""
 
@@ -50,7 +54,7 @@ class Candidate(NamedTuple):
     def largest(self) -> str:
         """The largest error and its quantity, as text; only if the scene runs."""
         worst = max(self.errors, key=lambda figure: self.errors[figure])
-        return f"{_share(self.error)} ({_plain(worst)})"
+        return f"{percent(self.error)} ({_plain(worst)})"
 
 
 @dataclass(frozen=True)
@@ -85,10 +89,10 @@ class DynamicsChoice:
 
     def _kept(self) -> str:
         if self.dynamics == self.reference:
-            return f"no simpler dynamics is within {_share(self.allowed)} of {self.reference}"
+            return f"no simpler dynamics is within {percent(self.allowed)} of {self.reference}"
         (own,) = (each for each in self.candidates if each.dynamics == self.dynamics)
         return (
-            f"it is the simplest dynamics within {_share(self.allowed)} of {self.reference}, with "
+            f"it is the simplest dynamics within {percent(self.allowed)} of {self.reference}, with "
             f"an error of {own.largest}"
         )
 
@@ -154,7 +158,7 @@ def choose_dynamics(scene: Scene) -> DynamicsChoice:
     reference = [dynamics for dynamics in tried if dynamics in runs][-1]
     exact = runs[reference][0]
     candidates = tuple(
-        Candidate(dynamics, errors=_errors(runs[dynamics][0], exact), cost=runs[dynamics][1])
+        Candidate(dynamics, errors=_errors(scene, runs[dynamics][0], exact), cost=runs[dynamics][1])
         if dynamics in runs
         else Candidate(dynamics, refused[dynamics])
         for dynamics in tried
@@ -186,24 +190,22 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
 
 def _duration(scene: Scene) -> float:
     """Measured time [s]."""
-    point, ratios = scene.operating_point, rigid_ratios(scene)
-    teeth = scene.gearset.tooth_numbers
-    speeds = (point.input_speed, point.second_input_speed)
-    frequency = abs(
-        sum(
-            float(mesh_cycles_per_turn(teeth, {name: ratio[k] for name, ratio in ratios.items()}))
-            * speed
-            for k, speed in zip(range(len(ratios["sun"])), speeds, strict=False)
-        )
-    ) / (2.0 * np.pi)
+    frequency = wanted_mesh_frequency(scene)
     return min(max(SHORTEST, CYCLES / frequency if frequency > 0.0 else SHORTEST), LONGEST)
 
 
-def _errors(found: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> dict[str, float]:
+def _errors(
+    scene: Scene, found: dict[str, np.ndarray], exact: dict[str, np.ndarray]
+) -> dict[str, float]:
     """Largest deviation of any mesh, relative to the largest value of any mesh."""
+    force, loss = _nothing(scene)
+    least = {"dte": 0.0, "mesh_force": force, "power_loss": loss}
+    if max(float(np.abs(run["mesh_force_mean"]).max()) for run in (found, exact)) < force:
+        least["dte"] = np.inf  # teeth without load are anywhere in the backlash
     errors = {}
     for name in FIGURES:
-        scale = float(np.abs(exact[name]).max())
+        (smallest,) = (value for family, value in least.items() if name.startswith(family))
+        scale = max(float(np.abs(exact[name]).max()), smallest)
         for family in ("dte", "mesh_force"):
             if name.startswith(family):
                 scale = max(scale, NEGLIGIBLE * float(exact[f"{family}_peak"].max()))
@@ -212,14 +214,18 @@ def _errors(found: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> dict[
     return errors
 
 
+def _nothing(scene: Scene) -> tuple[float, float]:
+    """Force of a mesh [N] and loss [W] below which there is none, at the point of a scene."""
+    point, drive = scene.operating_point, scene.drive
+    torque = abs(point.input_torque) + abs(point.torque_ripple) or drive.torque_limit
+    speeds = (abs(point.input_speed), abs(point.second_input_speed), NOTHING * drive.speed_limit)
+    return abs(mesh_force(scene, NOTHING * torque)), NOTHING * torque * max(speeds)
+
+
 def _point(scene: Scene) -> str:
     """Speed and torque of the operating point, as text."""
     point = scene.operating_point
     return f"{point.input_speed * 30.0 / np.pi:.6g} rpm and {point.input_torque:.6g} N m"
-
-
-def _share(error: float) -> str:
-    return f"{100.0 * error:.2g} %"
 
 
 def _plain(figure: str) -> str:

@@ -44,3 +44,16 @@ def figure(value: float, unit: str, digits: int = 4) -> str:
     if unit == "N/m":
         return f"{1e-6 * value:.{digits}g} N/um"
     return customary(value, unit, digits) or f"{value:.{digits}g} {unit}"
+
+
+def percent(share: float, digits: int = 2) -> str:
+    """Format a share in per cent, large ones without a power of ten.
+
+    Args:
+        share: the share, 1 for the whole.
+        digits: significant digits.
+
+    Returns:
+        Number and sign, e.g. "820 %".
+    """
+    return f"{float(f'{100.0 * share:.{digits}g}'):.12g} %"

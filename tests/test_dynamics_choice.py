@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.dynamics_choice import choose_dynamics
+from planetary_twin_py.engineering_units import percent
 from planetary_twin_py.explanation.measure import explain
 from planetary_twin_py.recording.runs.offline import Plan, record
 
@@ -106,4 +107,33 @@ def test_explain_compares_the_dynamics_of_a_scene():
     verdict = " ".join(printed.stdout.split())
     assert "Simplest dynamics within 2 % (dynamics_error): planar. Errors of the others:" in verdict
     simpler = next(each for each in found.dynamics.candidates if each.dynamics == "torsional")
-    assert f"torsional {100.0 * simpler.error:.2g} %" in verdict
+    assert f"torsional {percent(simpler.error)}" in verdict
+
+
+@pytest.mark.parametrize("torque", [63.0, 0.0])
+def test_what_rounding_leaves_at_standstill_is_no_error(torque):
+    """Rigid gears at rest have no vibration and no losses."""
+    scene = pt.load_scene("paper").replace(input_speed=0.0, input_torque=torque, dynamics="auto")
+    choice = choose_dynamics(scene)
+    assert choice.dynamics == "quasi_static"
+    assert by_name(choice)["quasi_static"].error < 1e-4
+
+
+def test_places_of_teeth_without_load_are_no_error():
+    scene = pt.load_scene("paper").replace(input_torque=0.0, dynamics="auto")
+    assert by_name(choose_dynamics(scene))["quasi_static"].errors["dte_mean"] == 0.0
+
+
+def test_small_losses_of_slow_gears_are_compared():
+    """At a thousandth of its speed `paper` loses some mW."""
+    choice = choose_dynamics(pt.load_scene("paper").replace(input_speed=pt.rpm(1.0)))
+    one, other = (
+        pt.simulate(
+            pt.load_scene("paper").replace(input_speed=pt.rpm(1.0), dynamics=dynamics),
+            2.0,
+            settling=2.0,
+        ).mean_power_loss
+        for dynamics in ("quasi_static", "torsional")
+    )
+    expected = abs(one / other - 1.0)
+    assert by_name(choice)["quasi_static"].errors["power_loss"] == pytest.approx(expected, rel=0.05)

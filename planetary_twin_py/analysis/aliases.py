@@ -12,6 +12,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..engineering_units import percent
+
 EDGE = 0.8  # of half the sample rate: lines above it are about as high as those beyond
 NEGLIGIBLE = 0.01  # of the highest line: height of aliases up to which the rate is sufficient
 ZONES = 4  # halves of the sample rate up to which harmonics are considered
@@ -103,6 +105,6 @@ def alias_remark(
     return (
         f"the sample rate of {sample_rate:g} Hz is too low for this signal: components above "
         f"{0.5 * sample_rate:g} Hz{first} appear as aliases, and lines of up to about "
-        f"{100.0 * share:.2g} % of the highest may be aliases; record at "
+        f"{percent(share)} of the highest may be aliases; record at "
         f"{recommended_rate(sample_rate, highest_mode):.3g} Hz or more"
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from ..engineering_units import percent
 from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
@@ -87,7 +88,7 @@ def _print(console: Console, found: Identified) -> None:
     for one in found.predictions:
         console.print(
             f"held out: {one.name} at {len(one.measured)} operating points: rms error "
-            f"{100.0 * one.rms:.3g} %, {100.0 * one.inside:.3g} % within their "
+            f"{percent(one.rms, 3)}, {100.0 * one.inside:.3g} % within their "
             f"{100.0 * found.confidence:g} % intervals",
             highlight=False,
         )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
+from ..engineering_units import percent
 from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
@@ -73,7 +74,8 @@ def _lines(state: Following) -> Iterator[str]:
     for tooth in state.teeth:
         loss = tooth.loss
         size = (
-            f"as a crack {100 * loss.low:.2g} to {100 * loss.high:.2g} % of stiffness lost"
+            f"as a crack {percent(loss.low).removesuffix(' %')} to {percent(loss.high)} of "
+            "stiffness lost"
             if loss.status == "ESTIMATED"
             else f"its size follows from {loss.remedy}"
         )

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..engineering_units import percent
 from ..interval_text import plus_minus
 from ..scene import Scene
 from .balance_filter import (
@@ -262,7 +263,7 @@ class BalanceFollower:
         evidence = f"{plus_minus(size.value, CONFIDENT * size.sd, '+')} N m"
         for reference, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
             if abs(size.value) < MANY * reference:
-                evidence += f", {_percent(size.value / reference)} of {name}"
+                evidence += f", {percent(size.value / reference, 3)} of {name}"
         since = float(times[step_size.first]) - 0.5 * self.period
         from_start = offset + step_size.first == 0 and len(self._recent) < RECENT
         description = "readings do not fit the scene" if from_start else "loss torque stepped"
@@ -404,11 +405,6 @@ def _uncertainty(balance_filter: BalanceFilter, state: int) -> float:
     if state == F:  # the loss of the scene is as uncertain as the torque
         sd = math.hypot(sd, float(balance_filter.x[F] * balance_filter.x[G]))
     return sd
-
-
-def _percent(share: float) -> str:
-    """A share in per cent with three digits, not as a power of ten."""
-    return f"{float(f'{100.0 * share:.3g}'):.12g} %"
 
 
 def _possible_causes(

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..engineering_units import percent
 from .sensors import Sensors, torque_gain, torque_zero
 from .train import FollowedTrain
 
@@ -146,7 +147,7 @@ class Contradictions:
             "has a wrong zero"
         )
         if abs(loss) < abs(torque):
-            line += f" or a gain that is wrong by {abs(100.0 * loss / torque):.2g} % at least"
+            line += f" or a gain that is wrong by {percent(abs(loss / torque))} at least"
         return line
 
     def _speeds(self, ratio: float) -> str:

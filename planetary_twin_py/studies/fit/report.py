@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...engineering_units import percent
 from ...interval_text import interval_text
 from ...plots.fit import course_figure, points_figure
 from ...plots.style import applied, save
@@ -81,7 +82,7 @@ def report_of_points(found: Identified) -> Report:
     ]
     facts += [
         f"Held out: {prediction.name} at {len(prediction.measured)} operating points, rms error "
-        f"{100.0 * prediction.rms:.3g} %, {100.0 * prediction.inside:.3g} % within their intervals."
+        f"{percent(prediction.rms, 3)}, {100.0 * prediction.inside:.3g} % within their intervals."
         for prediction in found.predictions
     ]
     figures = []
