@@ -11,17 +11,18 @@ from ..result import Result
 from ..scene import Scene
 from ..studies.turning import (
     ADVICE,
+    MANY,
+    PARTIAL,
     STANDSTILL,
     WHOLE,
     off_speed,
+    part_counts,
     speed_share,
     wanted_mesh_frequency,
 )
 
-MANY = 10.0  # mesh cycles from which on a part of one hardly changes means
 SHORT = 0.1  # [s]
 LONG = 10.0  # [s]
-EXACT = 0.02  # part of a mesh cycle that may be missing from a whole number of them
 
 
 def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
@@ -42,12 +43,15 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
         return
     speeds = dict(zip(run.bodies, run.mean_speed.tolist(), strict=True))
     frequency = mesh_frequency(scene.gearset.tooth_numbers, speeds["sun"], speeds["carrier"])
+    share = speed_share(scene, frequency)
     if frequency * run.duration < WHOLE:
-        yield (
+        line = (
             f"the run covers {frequency * run.duration:.2g} of a mesh cycle: means depend on where "
-            f"the teeth are; a mesh cycle takes {1.0 / wanted:.3g} s"
+            f"the teeth are; a mesh cycle takes {1.0 / wanted:.3g} s at the operating point"
         )
-    elif off_speed(share := speed_share(scene, frequency)):
+        turned = f", and the gears turn at {share:.3g} times its speed on average, because {ADVICE}"
+        yield line + turned if off_speed(share) else line
+    elif off_speed(share):
         yield (
             f"the gears turn at {share:.3g} of the speed of the operating point on average, "
             f"because {ADVICE}"
@@ -56,9 +60,8 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
         whole = math.ceil(cycles)
         fewer = f"{whole / wanted:.5g} s ({whole} cycles), or " if whole < MANY else ""
         yield (
-            f"duration = {run.duration:g} s is {cycles:.3g} mesh cycles: means of losses, forces "
-            "and DTE depend on where the teeth are, unless the number of cycles is whole or above "
-            f"{MANY:g}; use {fewer}{MANY / wanted:.4g} s and more"
+            f"duration = {run.duration:g} s is {cycles:.3g} mesh cycles: {PARTIAL}; use "
+            f"{fewer}{MANY / wanted:.4g} s and more"
         )
     if run.axes is not None:
         cycles, carrier = frequency * run.duration, abs(speeds["carrier"]) * run.duration
@@ -92,12 +95,3 @@ def duration_for_means(scene: Scene) -> float:
     if frequency < 1.0 / LONG or not part_counts(cycles):
         return SHORT
     return math.ceil(cycles) / frequency
-
-
-def part_counts(cycles: float) -> bool:
-    """Whether means depend on where the teeth are: few mesh cycles, not a whole number.
-
-    Args:
-        cycles: number of mesh cycles of a run.
-    """
-    return cycles < MANY and abs(cycles - round(cycles)) > EXACT

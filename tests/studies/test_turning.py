@@ -7,6 +7,7 @@ import pytest
 from studies.small import PAPER
 
 import planetary_twin_py as pt
+from planetary_twin_py.explanation.turning import turning_warnings
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
@@ -25,11 +26,25 @@ def test_points_with_less_than_a_mesh_cycle_are_reported_and_standstill_is_not()
     """500 Hz at 1000 rpm."""
     (line,) = turning_of_study(of_speeds(0.004))
     assert line.startswith("1 of 3 points cover less than a mesh cycle, down to 0.1")
-    assert list(turning_of_study(of_speeds(0.03))) == []
+    assert list(turning_of_study(of_speeds(0.04))) == []
+
+
+@pytest.mark.parametrize("duration", [0.03, 0.0294])
+def test_points_with_a_few_mesh_cycles_and_a_part_of_one_are_reported_as_a_run_of_them_is(duration):
+    """50 Hz at 100 rpm: 1.5 cycles; 15 at 1000 rpm are enough."""
+    (line,) = turning_of_study(of_speeds(duration))
+    few = f"{50.0 * duration:.3g}"
+    assert line.startswith(f"1 of 3 points cover few mesh cycles and a part of one, down to {few}")
+    assert "use --duration 0.2s and more" in line
+    slow = PAPER.replace(input_speed=pt.rpm(100.0))
+    (of_run,) = turning_warnings(slow, pt.simulate(slow, duration))
+    reason = "means of losses, forces and DTE depend on where the teeth are, unless the number"
+    assert reason in line and reason in of_run
+    assert list(turning_of_study(of_speeds(0.2))) == []
 
 
 def test_points_at_another_speed_than_asked_for_are_reported_with_the_worst():
-    table = of_speeds(0.03)
+    table = of_speeds(0.3)
     place = table.column_names.index("speed_share")
     shares = table["speed_share"].to_pylist()
     assert math.isnan(shares[0]) and shares[1:] == pytest.approx([1.0, 1.0], abs=0.05)
