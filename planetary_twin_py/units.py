@@ -179,6 +179,9 @@ def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[
 
 def _instead(given: str, unit: str) -> str:
     """Advice for the wrong unit `given`, to append to an error message; may be empty."""
+    for name, target in _COMMON:
+        if target == unit and name.casefold() == given.casefold():
+            return f"; write {name}"
     for source, target, advice in _INSTEAD:
         if _compatible(given, source) and _compatible(unit, target):
             return f"; {advice}"

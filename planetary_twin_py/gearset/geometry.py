@@ -106,10 +106,13 @@ def on_involute(
     Raises:
         ValueError: the tip passes the start of the involute.
     """
-    if reach >= _tangent(teeth / 2, angle, working):
+    longest = _tangent(teeth / 2, angle, working)
+    if reach >= longest:
         raise ValueError(
-            f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below its base circle, "
-            "where there is no involute: increase the number of teeth or reduce the addendum"
+            f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below the base circle of "
+            f"the {flank}, where there is no involute: they reach {reach:.3f} module from the "
+            f"pitch point along the line of action, must be below {longest:.3f}; increase the number "
+            "of teeth, gearset.pressure_angle or gearset.profile_shift, or reduce gearset.addendum"
         )
     return reach
 

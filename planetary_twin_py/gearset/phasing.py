@@ -16,6 +16,7 @@ from .clearance import Size, are_clear
 from .kinematics import Teeth
 
 ASSEMBLY_TOLERANCE = 1e-6  # of the spacing between two assembly positions
+ROUNDED = 1e-2  # of this spacing: a smaller error may come from rounding
 
 
 def least_mesh_angle(teeth: Teeth) -> float:
@@ -67,8 +68,15 @@ def check_assembly(
             advice = "at the nearest possible angles, planets touch each other"
         raise ValueError(
             f"planets at {_degrees(angles, step)} cannot be assembled with "
-            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {advice}"
+            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {advice}{_digits(max(misses), step)}"
         )
+
+
+def _digits(miss: float, step: float) -> str:
+    """Advice for angles that miss positions at each `step` [rad] as rounded ones do, or empty."""
+    if miss > ROUNDED:
+        return ""
+    return f": write as many digits, the tolerance is {ASSEMBLY_TOLERANCE * step:.1g} rad"
 
 
 def _degrees(angles: Sequence[float], step: float) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,6 +15,7 @@ from ..quantities import (
     Quantity,
     side_title,
 )
+from ..scene.names import did_you_mean
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -84,12 +84,14 @@ def find(known: dict[str, Column], name: str, role: str) -> Column:
         role: name of the argument, for the error message.
 
     Raises:
-        ValueError: there is no such column; the message has similar names.
+        ValueError: there is no such column; the message has all names, and similar ones.
     """
     if name in known:
         return known[name]
-    near = get_close_matches(name, known, n=4, cutoff=0.5) or list(known)
-    raise ValueError(f"{role} = {name!r}: no such column; the table has {', '.join(near)}")
+    raise ValueError(
+        f"{role} = {name!r}: no such column; the table has {', '.join(known)}"
+        f"{did_you_mean(name, known)}"
+    )
 
 
 def _column(table: pa.Table, field: pa.Field) -> Column:

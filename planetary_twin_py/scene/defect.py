@@ -110,9 +110,21 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
         yield from reason.splitlines()
     elif isinstance(defect["input"], dict):
         yield from (f"{place.name}: {line}" for line in reason.splitlines())
+    elif defect["type"] in ("too_long", "too_short") and place.field is not None:
+        yield f"{place.name}: has {len(defect['input'])} entries: {_lengths(place.field)}"
     else:
         allowed = None if _is_of_units(defect) else _allowed(place.field, defect["input"])
-        yield f"{place.name} = {defect['input']!r}: {allowed or reason}"
+        empty = "; the field is empty" if defect["input"] is None else ""
+        yield f"{place.name} = {defect['input']!r}: {allowed or reason}{empty}"
+
+
+def _lengths(field: FieldInfo) -> str:
+    """Description of the lengths that a list may have."""
+    least, most = (
+        [getattr(item, name) for item in field.metadata if hasattr(item, name)]
+        for name in ("min_length", "max_length")
+    )
+    return "must have " + " to ".join(str(length) for length in (*least, *most))
 
 
 def _is_of_units(defect: ErrorDetails) -> bool:

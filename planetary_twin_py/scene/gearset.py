@@ -22,6 +22,8 @@ from .quantity import Section, quantity
 # Context of a validation that leaves out whether the fields fit together.
 FIELDS_ALONE = "fields alone"
 
+IN_RADIANS = "; an angle without a unit is in rad"
+
 Member = Literal["sun", "ring", "carrier"]
 Held = Literal["sun", "ring", "carrier", "none"]
 
@@ -229,10 +231,11 @@ class Gearset(Section):
             size = self._size()
         except ValueError:  # listed by `_teeth`
             return
-        touching = list(_error(lambda: check_clearance(size, angles)))
-        yield from touching
-        if not touching:
-            yield from _error(lambda: check_assembly(teeth, angles, self.addendum, size))
+        errors = list(_error(lambda: check_clearance(size, angles)))
+        if not errors:
+            errors = list(_error(lambda: check_assembly(teeth, angles, self.addendum, size)))
+        turns = max(map(abs, angles)) > 2.0 * math.pi  # as degrees without their unit are
+        yield from (f"{line}{IN_RADIANS if turns else ''}" for line in errors)
 
     @property
     def _standard(self) -> bool:

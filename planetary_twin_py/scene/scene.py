@@ -93,11 +93,12 @@ class Scene(Section):
     def _machines(self) -> Iterator[str]:
         """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
         held = self.gearset.held
+        default = "" if "held" in self.gearset.model_fields_set else f" (default: {held})"
         for side in ("input", "second_input", "output"):
             machine = getattr(self.drive, side)
             if machine is not None and machine.member == held:
                 yield (
-                    f"drive.{side}.member = {held!r}: is fixed by gearset.held, so "
+                    f"drive.{side}.member = {held!r}: is fixed by gearset.held{default}, so "
                     f"drive.{side}.member must be {' or '.join(self._free_members())}"
                 )
         if (self.drive.second_input is None) != (held != "none"):

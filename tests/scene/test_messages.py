@@ -1,0 +1,94 @@
+"""Messages about values that are mistyped name what is meant."""
+
+import math
+
+import pytest
+import yaml
+
+import planetary_twin_py as pt
+from planetary_twin_py.gearset.geometry import planet_ring_path
+from planetary_twin_py.gearset.kinematics import Teeth
+from planetary_twin_py.plots.quantity import find
+
+PAPER = pt.load_scene("paper")
+
+
+def refused(**changes):
+    with pytest.raises(pt.SceneError) as error:
+        PAPER.replace(**changes)
+    return str(error.value)
+
+
+def parsed(change):
+    """The message about a scene file, changed by a function."""
+    data = PAPER.model_dump(mode="json")
+    change(data)
+    with pytest.raises(pt.SceneError) as error:
+        pt.parse_scene(yaml.safe_dump(data))
+    return str(error.value)
+
+
+@pytest.mark.parametrize("planets", [1, 8])
+def test_a_wrong_number_of_planets_is_refused_with_the_numbers_that_are_possible(planets):
+    angles = tuple(2.0 * math.pi * n / planets for n in range(planets))
+    line = refused(**{"gearset.planet_angles": angles})
+    assert line == f"gearset.planet_angles: has {planets} entries: must have 2 to 7"
+
+
+def test_the_range_of_a_quantity_in_a_list_is_still_that_of_its_entries():
+    assert "must be" in refused(**{"gearset.planet_angles": (0.0, math.inf)})
+
+
+def test_an_empty_field_is_said_to_be_empty():
+    line = parsed(lambda data: data["gearset"].update(module=None))
+    assert line.startswith("gearset.module = None: must be a number within 0 and 0.2 m")
+    assert line.endswith("the field is empty")
+
+
+@pytest.mark.parametrize("unit, meant", [("RPM", "rpm"), ("Rpm", "rpm")])
+def test_a_unit_in_other_letters_is_refused_with_the_right_ones(unit, meant):
+    line = refused(input_speed=f"1500 {unit}")
+    assert (
+        line == f"input_speed = '1500 {unit}': [{unit}] cannot be converted to rad/s; write {meant}"
+    )
+
+
+def test_a_machine_on_the_member_that_is_fixed_by_default_is_refused_with_this_default():
+    def loaded_carrier(data):
+        data["gearset"].pop("held")
+        data["drive"]["output"]["member"] = "carrier"
+
+    assert "is fixed by gearset.held (default: carrier), so" in parsed(loaded_carrier)
+    given = refused(**{"drive.output.member": "carrier"})
+    assert "is fixed by gearset.held, so" in given
+
+
+def test_the_refusal_of_tips_below_a_base_circle_names_its_gear_and_the_limit():
+    """Line of action from the pitch point to the base circle of the planet: z/2 sin(alpha)."""
+    with pytest.raises(ValueError) as error:
+        planet_ring_path(Teeth(36, 18, 72), math.radians(20.0), 1.0)
+    line = str(error.value)
+    assert line.startswith("gearset.teeth.planet = 18: tips of the ring reach below")
+    assert "base circle of the planet" in line
+    assert f"must be below {9.0 * math.sin(math.radians(20.0)):.3f}" in line
+    assert "gearset.profile_shift" in line and "gearset.pressure_angle" in line
+
+
+@pytest.mark.parametrize("angles", [(0, 180, 300), (0, 180)])
+def test_degrees_without_their_unit_are_refused_with_the_unit_of_numbers(angles):
+    assert "an angle without a unit is in rad" in refused(**{"gearset.planet_angles": angles})
+
+
+def test_rounded_angles_are_refused_with_the_tolerance_and_the_digits_that_pass():
+    """Planets fit at each 1/100 turn."""
+    angles = (0.0, math.radians(115.2), math.radians(244.79))
+    line = refused(**{"gearset.planet_angles": angles})
+    assert "nearest: 0, 115.2, 244.8 deg: write as many digits, the tolerance is 6e-08 rad" in line
+
+
+def test_an_unknown_column_is_refused_with_all_columns_and_the_one_that_is_meant():
+    known = dict.fromkeys(("efficiency", "power_loss", "mesh_frequency"))
+    with pytest.raises(ValueError, match="no such column; the table has") as error:
+        find(known, "efficency", "--y")
+    assert all(name in str(error.value) for name in known)
+    assert str(error.value).endswith("did you mean efficiency?")
