@@ -111,8 +111,9 @@ def on_involute(
         raise ValueError(
             f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below the base circle of "
             f"the {flank}, where there is no involute: they reach {reach:.3f} module from the "
-            f"pitch point along the line of action, must be below {longest:.3f}; increase the number "
-            "of teeth, gearset.pressure_angle or gearset.profile_shift, or reduce gearset.addendum"
+            f"pitch point along the line of action, must be below {longest:.3f}; increase the "
+            "number of teeth, gearset.pressure_angle or gearset.profile_shift, or reduce "
+            "gearset.addendum"
         )
     return reach
 
