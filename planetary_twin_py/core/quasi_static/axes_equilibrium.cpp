@@ -295,8 +295,8 @@ void solve_equilibrium(const Model& model, double tolerance, Equilibrium& run,
     }
     throw std::invalid_argument(
         "dynamics: no static equilibrium is found, bearings or meshes cannot balance the load; "
-        "soften the entry of teeth (mesh.ramp), load the train more, or choose dynamics = "
-        "'planar'");
+        "give planets bearings against displacement and tilting (supports.planet), soften the "
+        "entry of teeth (mesh.ramp), load the train more, or choose dynamics = 'planar'");
 }
 
 }  // namespace gearbox
