@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 from ..scene import Scene
@@ -10,7 +11,7 @@ from .aliases import aliased_harmonic
 from .distinct_lines import DISTINCT, over_noise
 from .mesh_spectrum import MeshSpectrum
 from .shaft_lines import ShaftLine, ShaftLines, shaft_text
-from .sidebands import RESOLVED, Sideband, Sidebands, sideband_text
+from .sidebands import Sideband, Sidebands, sideband_text
 from .spectrum import Line
 
 EXACT = 0.5  # [bins] largest distance of a line from the alias of a harmonic of unknown height
@@ -68,33 +69,40 @@ class LineNames:
         ratios = over_noise(found.axis, found.amplitude, lines, found.error)
         return [self._named(line, ratio) for line, ratio in zip(lines, ratios, strict=True)]
 
+    @cached_property
+    def _sidebands(self) -> Sidebands:
+        """Those of the gears; none if the gears are unknown."""
+        return Sidebands({}, 0) if self.scene is None else Sidebands.of(self.scene)
+
+    @cached_property
+    def _shafts(self) -> ShaftLines:
+        """Those of the gears; none if the gears are unknown."""
+        return ShaftLines({}) if self.scene is None else ShaftLines.of(self.scene)
+
     def unresolved(self) -> dict[str, float]:
         """Distance on the axis of the sidebands of each member that are too close to be named."""
-        if self.scene is None or self.spectrum.mesh is None:
+        mesh = self.spectrum.mesh
+        if mesh is None:
             return {}
-        spacing = Sidebands.of(self.scene).spacing
-        apart = {member: each * self.spectrum.mesh for member, each in spacing.items()}
-        least = RESOLVED * float(self.spectrum.axis[1])
-        return {member: each for member, each in apart.items() if each < least}
+        spacing = self._sidebands.spacing
+        separate = self._sidebands.resolved(float(self.spectrum.axis[1]) / mesh).spacing
+        return {name: mesh * each for name, each in spacing.items() if name not in separate}
 
     def _named(self, line: Line, ratio: float) -> NamedLine:
         found = self.spectrum
         orders = found.in_mesh_orders(line.place)
         if ratio < DISTINCT or orders is None or found.mesh is None:
             return NamedLine(line, ratio, None, None, [], [], self.filtered)
-        harmonic = found.harmonic(line.place)
-        sidebands, shafts = self._beside(orders) if harmonic is None else ([], [])
+        harmonic, resolution = found.harmonic(line.place), float(found.axis[1]) / found.mesh
+        shafts = [] if harmonic else self._shafts.at(orders, resolution)
+        sidebands = [] if harmonic else self._sidebands.at(orders, resolution)
+        separate = self._sidebands.resolved(resolution).spacing
+        named = harmonic or shafts or any(one.member in separate for one in sidebands)
         alias = found.alias(line)
         if self.filtered:
-            near, named = EXACT * float(found.axis[1]), harmonic or sidebands or shafts
+            near = EXACT * float(found.axis[1])
             place = line.place, found.mesh, found.sample_rate
             alias = None if named else aliased_harmonic(*place, near)
+        if not named and alias is None:
+            sidebands = []  # of a member whose sidebands are nearly everywhere
         return NamedLine(line, ratio, harmonic, alias, sidebands, shafts, self.filtered)
-
-    def _beside(self, orders: float) -> tuple[list[Sideband], list[ShaftLine]]:
-        """What coincides with a line that is no mesh harmonic."""
-        if self.scene is None or self.spectrum.mesh is None:
-            return [], []
-        resolution = float(self.spectrum.axis[1]) / self.spectrum.mesh
-        sidebands = Sidebands.of(self.scene).at(orders, resolution)
-        return sidebands, ShaftLines.of(self.scene).at(orders, resolution)

@@ -9,7 +9,7 @@ its sidebands are apart by the speed of the carrier.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import NamedTuple, Self
 
@@ -58,21 +58,28 @@ class Sidebands:
             found["carrier"] = abs(float(carrier / (teeth.sun * (sun - carrier))))
         return cls(found, max(MOST, scene.gearset.planets))
 
+    def resolved(self, resolution: float) -> Self:
+        """Those of the members whose sidebands a spectrum separates from each other.
+
+        Args:
+            resolution: of the spectrum [mesh orders].
+        """
+        least = RESOLVED * resolution
+        return replace(self, spacing={m: each for m, each in self.spacing.items() if each >= least})
+
     def at(self, orders: float, resolution: float) -> list[Sideband]:
         """Sidebands that coincide with a line, those of the lowest number first.
 
         Args:
             orders: place of the line [mesh orders].
-            resolution: of the spectrum [mesh orders]; members whose sidebands are closer than
-                `RESOLVED` times that have none.
+            resolution: of the spectrum [mesh orders].
         """
         found = []
         for harmonic in {int(orders), int(orders) + 1} - {0}:
             for member, distance in self.spacing.items():
                 number = round((orders - harmonic) / distance)
                 away = abs(harmonic + number * distance - orders)
-                resolved = distance >= RESOLVED * resolution
-                if resolved and away <= resolution and 0 < abs(number) <= self.most:
+                if away <= resolution and 0 < abs(number) <= self.most:
                     found.append(Sideband(harmonic, member, number))
         return sorted(found, key=lambda one: (abs(one.number), one.harmonic))
 

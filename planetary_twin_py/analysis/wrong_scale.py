@@ -174,7 +174,8 @@ def _fit(
         for line, order in orders.items()
         if 1 <= round(order) <= most and abs(order - round(order)) <= near
     }
-    beside = {line: sidebands.at(order, near) for line, order in orders.items()}
+    separate = sidebands.resolved(near)
+    beside = {line: separate.at(order, near) for line, order in orders.items()}
     every = {sideband for found in beside.values() for sideband in found}
     pair = any(
         abs(one.number) in first and one._replace(number=-one.number) in every for one in every

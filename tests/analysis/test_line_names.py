@@ -146,3 +146,38 @@ def test_weak_lines_have_no_names_where_drifting_stamps_are_interpolated(drift, 
     signal = sensor_signal(Sensor("a", "g", time, tones, None), PAPER).within(None, None)
     found = LineNames(frequency_spectrum_of(signal, 30), PAPER, True).named(12)
     assert [bool(line.text) for line in found].count(True) == names
+
+
+PASSING = 3.0 * 31.0 / 126.0  # planets per turn of the sun: three, and the speeds of Willis (1841)
+
+
+def rig(samples, duration):
+    """Named lines of 31, 31 and 95 teeth at 1500 rpm, whose planet passing is near a sun turn."""
+    gears = {
+        "teeth": {"sun": 31, "planet": 31, "ring": 95},
+        "module": 1e-3,
+        "profile_shift": {"sun": 0.26, "planet": 0.25, "ring": -0.2},
+        "centre_distance": 31.5e-3,
+        "planet_angles": [0.0, 2.0 * math.pi / 3.0, 4.0 * math.pi / 3.0],
+        "held": "ring",
+    }
+    changes = {f"gearset.{name}": value for name, value in gears.items()}
+    changes |= {"drive.output.member": "carrier", "input_speed": pt.rpm(1500.0)}
+    scene = PAPER.replace(**changes)
+    time = np.arange(0.0, duration, 1.0 / RATE)
+    turns = 25.0 * time
+    signal = samples(turns, turns * 95.0 / 126.0) + noise(len(time), sigma=0.01)
+    angle = 2.0 * np.pi * 95.0 / 126.0 * turns  # of the sun relative to the carrier
+    found = frequency_spectrum_of(Signal(signal, time, angle, None), 31)
+    return LineNames(found, scene, True).named(12)
+
+
+@pytest.mark.parametrize("duration", [0.4, 0.5, 0.6, 2.0])
+def test_a_sideband_of_planet_passing_is_named_where_the_record_does_not_separate_it(duration):
+    def passing(turns, relative):
+        return np.sin(62.0 * np.pi * relative) * (1.0 + 0.2 * np.cos(2.0 * np.pi * PASSING * turns))
+
+    named = [line for line in rig(passing, duration) if line.text and line.harmonic is None]
+    assert len(named) == 2
+    for line in named:
+        assert {"ring", "carrier"} <= {one.member for one in line.sidebands}
