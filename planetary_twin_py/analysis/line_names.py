@@ -10,8 +10,9 @@ from ..scene import Scene
 from .aliases import aliased_harmonic
 from .distinct_lines import DISTINCT, over_noise
 from .mesh_spectrum import MeshSpectrum
+from .overlaps import Overlap, overlap
 from .shaft_lines import ShaftLine, ShaftLines, shaft_text
-from .sidebands import Sideband, Sidebands, sideband_text
+from .sidebands import RESOLVED, Sideband, Sidebands, sideband_text
 from .spectrum import Line
 
 EXACT = 0.5  # [bins] largest distance of a line from the alias of a harmonic of unknown height
@@ -34,6 +35,8 @@ class NamedLine(NamedTuple):
     """Rotations of the members."""
     filtered: bool
     """Whether a filter may have removed aliases."""
+    overlap: Overlap | None = None
+    """The closest line that the record does not separate from those in the name."""
 
     @property
     def text(self) -> str:
@@ -105,4 +108,15 @@ class LineNames:
             alias = None if named else aliased_harmonic(*place, near)
         if not named and alias is None:
             sidebands = []  # of a member whose sidebands are nearly everywhere
-        return NamedLine(line, ratio, harmonic, alias, sidebands, shafts, self.filtered)
+        beside = overlap(
+            [*shafts, *sidebands], self._near(orders, resolution), RESOLVED * resolution
+        )
+        return NamedLine(line, ratio, harmonic, alias, sidebands, shafts, self.filtered, beside)
+
+    def _near(self, orders: float, resolution: float) -> dict[Sideband | ShaftLine, float]:
+        """Places [mesh orders] of what may overlap a line, or another that coincides with it."""
+        within = (RESOLVED + 1.0) * resolution
+        sidebands, shafts = self._sidebands.at(orders, within), self._shafts.near(orders, within)
+        places: dict[Sideband | ShaftLine, float] = {}
+        places |= {one: self._shafts.place(one) for one in shafts}
+        return places | {one: self._sidebands.place(one) for one in sidebands}

@@ -59,13 +59,28 @@ class ShaftLines:
             orders: place of the line [mesh orders].
             resolution: of the spectrum [mesh orders].
         """
-        if orders < RESOLVED * resolution:
-            return []
+        return [] if orders < RESOLVED * resolution else self.near(orders, resolution)
+
+    def place(self, line: ShaftLine) -> float:
+        """Place of a rotation [mesh orders].
+
+        Args:
+            line: of a member of `orders`.
+        """
+        return line.multiple * self.orders[line.member]
+
+    def near(self, orders: float, within: float) -> list[ShaftLine]:
+        """Rotations up to a distance from a line, the lowest multiples first.
+
+        Args:
+            orders: place of the line [mesh orders].
+            within: the distance [mesh orders].
+        """
         found = [
             ShaftLine(member, multiple)
             for member, turn in self.orders.items()
             for multiple in range(1, MULTIPLES + 1)
-            if abs(orders - multiple * turn) <= resolution
+            if abs(orders - multiple * turn) <= within
         ]
         return sorted(found, key=lambda one: one.multiple)
 

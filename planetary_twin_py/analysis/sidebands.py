@@ -67,12 +67,20 @@ class Sidebands:
         least = RESOLVED * resolution
         return replace(self, spacing={m: each for m, each in self.spacing.items() if each >= least})
 
+    def place(self, sideband: Sideband) -> float:
+        """Place of a sideband [mesh orders].
+
+        Args:
+            sideband: of a member of `spacing`.
+        """
+        return sideband.harmonic + sideband.number * self.spacing[sideband.member]
+
     def at(self, orders: float, resolution: float) -> list[Sideband]:
         """Sidebands that coincide with a line, those of the lowest number first.
 
         Args:
             orders: place of the line [mesh orders].
-            resolution: of the spectrum [mesh orders].
+            resolution: largest distance of a sideband from the line [mesh orders].
         """
         found = []
         for harmonic in {int(orders), int(orders) + 1} - {0}:

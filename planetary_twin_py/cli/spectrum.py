@@ -23,6 +23,7 @@ from ..terminal.unit_options import HERTZ, SECONDS
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..analysis.line_names import NamedLine
     from ..analysis.mesh_spectrum import MeshSpectrum
     from ..analysis.signals import Signal
     from ..scene import Scene
@@ -306,11 +307,19 @@ def _figures(asked: Options, signal: Signal, found: MeshSpectrum) -> dict[str, A
                 "alias_of_harmonic": named.alias,
                 "sidebands": [band._asdict() for band in named.sidebands],
                 "shafts": [shaft._asdict() for shaft in named.shafts],
+                "overlap": _overlap(found, named),
                 "name": named.text,
             }
             for named in names.named(LINES)
         ],
     }
+
+
+def _overlap(found: MeshSpectrum, named: NamedLine) -> dict[str, Any] | None:
+    """The closest line that overlaps a named one, with its distance on the axis."""
+    if named.overlap is None or found.mesh is None:
+        return None
+    return named.overlap._asdict() | {"apart": found.mesh * named.overlap.apart}
 
 
 def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None:
@@ -332,7 +341,8 @@ def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None
         )
     console.print(table)
     unit = "orders" if axis == "order" else "Hz"
-    for line in (*_uncertain(figures, axis), *_unnamed(figures, unit)):
+    sentences = (_uncertain(figures, axis), _overlapping(figures, unit), _unnamed(figures, unit))
+    for line in chain(*sentences):
         console.print(line, highlight=False, soft_wrap=True)
     console.print(
         f"{subject.quantity}{f' of {subject.mesh}' if subject.mesh else ''}, "
@@ -365,10 +375,30 @@ def _uncertain(figures: dict[str, Any], axis: str) -> Iterator[str]:
         )
 
 
+def _overlapping(figures: dict[str, Any], unit: str) -> Iterator[str]:
+    """A sentence if a line may hide another, with the length of record that separates them."""
+    pairs = [line["overlap"] for line in figures["lines"] if line["overlap"] is not None]
+    if pairs:
+        closest = min(pairs, key=lambda pair: float(pair["apart"]))
+        yield (
+            f"{len(pairs)} of these lines may be the sum of two, with an uncertain amplitude: "
+            f"{closest['named']} overlaps {closest['other']}, {closest['apart']:.4g} {unit} away; "
+            f"separating them needs {_length(closest['apart'], unit)}"
+        )
+
+
+def _length(apart: float, unit: str) -> str:
+    """Resolution that separates lines, and the length of signal that has it."""
+    from ..analysis.sidebands import RESOLVED
+
+    finest = apart / RESOLVED
+    length = f"{1.0 / finest:.3g} {'s' if unit == 'Hz' else 'turns'}"
+    return f"a resolution of {finest:.3g} {unit}, {length} of signal"
+
+
 def _unnamed(figures: dict[str, Any], unit: str) -> Iterator[str]:
     """Sentences that say which lines have no name, and why."""
     from ..analysis.distinct_lines import DISTINCT
-    from ..analysis.sidebands import RESOLVED
 
     weak = [line for line in figures["lines"] if line["over_noise"] < DISTINCT]
     if any(line["mesh_orders"] is not None for line in weak):
@@ -378,11 +408,9 @@ def _unnamed(figures: dict[str, Any], unit: str) -> Iterator[str]:
             "interpolated samples"
         )
     for member, apart in figures["unresolved_sidebands"].items():
-        finest = apart / RESOLVED
         yield (
-            f"sidebands of the {member} are {apart:.4g} {unit} apart and not named: they need a "
-            f"resolution of {finest:.3g} {unit}, {1.0 / finest:.3g} "
-            f"{'s' if unit == 'Hz' else 'turns'} of signal"
+            f"sidebands of the {member} are {apart:.4g} {unit} apart and not named: they need "
+            f"{_length(apart, unit)}"
         )
 
 

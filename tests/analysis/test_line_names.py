@@ -181,3 +181,31 @@ def test_a_sideband_of_planet_passing_is_named_where_the_record_does_not_separat
     assert len(named) == 2
     for line in named:
         assert {"ring", "carrier"} <= {one.member for one in line.sidebands}
+
+
+@pytest.mark.parametrize(("duration", "separate"), [(2.0, False), (9.5, False), (10.5, True)])
+def test_a_sideband_beside_another_is_stated_until_the_record_is_four_bins_longer(
+    duration, separate
+):
+    """Planet passing at 3*25*31/126 Hz, and turns of the sun at 25*95/126 Hz."""
+
+    def both(turns, relative):
+        sidebands = 0.2 * np.cos(2.0 * np.pi * PASSING * turns) + 0.1 * np.cos(
+            2.0 * np.pi * relative
+        )
+        return np.sin(62.0 * np.pi * relative) * (1.0 + sidebands)
+
+    lines = [line for line in rig(both, duration) if line.sidebands]
+    mesh = 25.0 * 95.0 / 126.0 * 31.0
+    found = [line.overlap for line in lines if line.overlap]
+    assert [mesh * one.apart for one in found] == pytest.approx([25.0 * 2.0 / 126.0] * len(found))
+    assert len(lines) >= 2 and len(found) == (0 if separate else len(lines))
+    for one in found:
+        members = "sun or planet", "ring or carrier"
+        assert all(any(name in text for text in one[:2]) for name in members)
+
+
+def test_rotations_closer_than_four_bins_are_stated():
+    """A planet turns -25*31/126*64/31 = -12.70 Hz, close to twice the carrier at 12.30 Hz."""
+    lines = rig(lambda turns, _: np.sin(2.0 * np.pi * turns * 64.0 / 126.0), 2.0)
+    assert lines[0].overlap[:2] == ("1x planet", "2x carrier")

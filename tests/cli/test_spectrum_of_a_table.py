@@ -434,6 +434,14 @@ def test_a_short_record_says_which_sidebands_it_does_not_separate_and_what_lengt
     assert "of the ring" not in written(tmp_path / "a.csv", meshing(30)).stderr
 
 
+def test_the_record_that_separates_overlapping_sidebands_is_stated(tmp_path):
+    """A turn of the sun, and two of the ring with 70 teeth: 1/30 and 2/70 of the mesh frequency."""
+    shown = written(tmp_path / "a.csv", meshing(30)).stderr
+    apart = MESH * (1.0 / 30.0 - 2.0 / 70.0)
+    assert f"2 of harmonic 1: ring, {apart:.4g} Hz away; separating them needs" in shown
+    assert f"needs a resolution of {apart / 4.0:.3g} Hz, {4.0 / apart:.3g} s of signal" in shown
+
+
 def test_lines_within_the_noise_are_not_named_and_counted(tmp_path):
     noise = np.random.default_rng(1).standard_normal(int(RATE))
     done = written(tmp_path / "a.csv", noise)
