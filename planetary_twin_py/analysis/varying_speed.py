@@ -11,8 +11,10 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 from scipy.signal import get_window
 
+from ..recording.tables.sensor import SpeedColumn
 from .even_steps import PHASE
 from .mesh_spectrum import MeshSpectrum
 from .signals import MEAN, Array, Signal
@@ -29,6 +31,26 @@ def exact_order(angle: Array) -> float:
     line = np.polynomial.Polynomial.fit(number, angle, 1, w=np.sqrt(window))
     ahead = math.sqrt(np.average((angle - line(number)) ** 2, weights=window))
     return PHASE / ahead if ahead > 0.0 else math.inf
+
+
+def unused_speed_remarks(column: SpeedColumn, rate: float, highest: float) -> Iterator[str]:
+    """A line if a speed that is not used varies so much that the highest line is too low.
+
+    Args:
+        column: measured speed at the samples of the signal.
+        rate: sample rate [Hz].
+        highest: frequency of the highest of the listed lines [Hz].
+    """
+    turned = cumulative_trapezoid(column.values, dx=1.0 / rate, initial=0)
+    mean = abs(float(turned[-1])) * rate / (len(turned) - 1)
+    frequency = exact_order(turned) * mean / math.tau  # in any unit of the speed
+    if highest > frequency:
+        low, high = float(column.values.min()), float(column.values.max())
+        yield (
+            f"the column {column.heading!r} varies from {low:.6g} to {high:.6g}: lines above "
+            f"{frequency:.3g} Hz that follow it are more than 1 % too low, and spread; use "
+            f"--speed {column.name} --order if it is the speed of the input shaft"
+        )
 
 
 def speed_remarks(signal: Signal, spectrum: MeshSpectrum, count: int) -> Iterator[str]:

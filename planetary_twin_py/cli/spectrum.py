@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from ..analysis.line_names import NamedLine
     from ..analysis.mesh_spectrum import MeshSpectrum
     from ..analysis.signals import Signal
+    from ..recording.tables.sensor import SpeedColumn
     from ..scene import Scene
 
 LINES = 12
@@ -130,7 +131,11 @@ def spectrum(**given: Any) -> None:
     except (ValueError, OSError) as error:
         fail(error)
     speed = _constant_speed if asked.order else _varying_speed
-    remarks = (speed(asked, signal, found), _aliases(asked, signal, found))
+    remarks = (
+        speed(asked, signal, found),
+        _unused_speed(asked, signal, found, subject.unused_speed),
+        _aliases(asked, signal, found),
+    )
     for line in (*signal.remarks, *chain(*remarks), *_wrong_scale(asked, signal, found)):
         remark(line)
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
@@ -174,6 +179,8 @@ class _Subject(NamedTuple):
     """None for a sensor."""
     quantity: str
     unit: str
+    unused_speed: SpeedColumn | None = None
+    """Measured speed in a table that is not used."""
 
 
 def _read(asked: Options) -> tuple[Signal, _Subject]:
@@ -188,7 +195,8 @@ def _read(asked: Options) -> tuple[Signal, _Subject]:
     interval = asked.from_, asked.to
     sensor = read_sensor(asked.file, asked.column, asked.sample_rate, asked.speed, *interval)
     scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
-    return sensor_signal(sensor, scene), _Subject(None, sensor.name, sensor.unit)
+    subject = _Subject(None, sensor.name, sensor.unit, sensor.unused_speed)
+    return sensor_signal(sensor, scene), subject
 
 
 def _analysed(asked: Options) -> tuple[Signal, MeshSpectrum, _Subject]:
@@ -253,6 +261,19 @@ def _constant_speed(asked: Options, signal: Signal, _found: MeshSpectrum) -> Ite
             f"--order: the speed is assumed to be constant, {signal.speed / math.tau:.6g} turns of "
             "the sun per second relative to the carrier; if it varies, give --speed COLUMN"
         )
+
+
+def _unused_speed(
+    asked: Options, signal: Signal, found: MeshSpectrum, column: SpeedColumn | None
+) -> Iterator[str]:
+    """A remark if a measured speed that is not used lowers lines."""
+    from ..analysis.varying_speed import unused_speed_remarks
+
+    if column is None:
+        return
+    hertz = abs(signal.speed) / math.tau if asked.order else 1.0
+    highest = max((hertz * line.place for line in found.lines(LINES)), default=0.0)
+    yield from unused_speed_remarks(column, signal.sample_rate, highest)
 
 
 def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:

@@ -459,3 +459,29 @@ def test_units_of_a_csv_may_be_in_the_file_beside_it_that_export_writes(tmp_path
     assert float(done.stdout.split("\n")[1].split()[0]) == pytest.approx(100.0, rel=1e-3)
     (tmp_path / "vibration.units.json").write_text("[1]")
     assert "vibration.units.json: must be an object" in invoke(file).stderr
+
+
+@pytest.mark.parametrize("heading", ["n [rpm]", "speed", "input_speed (rad/s)", "f [rev/s]"])
+@pytest.mark.parametrize(("rise", "varies"), [(0.0, False), (1e-5, False), (0.1, True)])
+def test_a_column_of_a_speed_that_varies_is_stated_with_the_option_that_uses_it(
+    tmp_path, heading, rise, varies
+):
+    time = np.arange(0.0, 1.0, 1.0 / RATE)
+    noise = np.random.default_rng(0).standard_normal(len(time))
+    speed = 1000.0 * (1.0 + rise * time) + noise
+    tone = np.sin(2.0 * np.pi * 500.0 * (time + 0.5 * rise * time**2))
+    file = tmp_path / "a.csv"
+    rows = np.column_stack((time, tone, speed))
+    np.savetxt(file, rows, delimiter=",", header=f"time [s],a [g],{heading}", comments="")
+    said = invoke(file, "--column", "a").stderr
+    name = heading.split()[0]
+    assert (f"the column '{heading}' varies from " in said) == varies
+    assert (f"use --speed {name} --order" in said) == varies
+
+
+def test_a_column_without_a_unit_of_rotation_is_no_speed(tmp_path):
+    time = np.arange(0.0, 1.0, 1.0 / RATE)
+    file = tmp_path / "a.csv"
+    rows = np.column_stack((time, np.sin(3000.0 * time), 20.0 + time))
+    np.savetxt(file, rows, delimiter=",", header="time [s],a [g],speed [m/s]", comments="")
+    assert "varies" not in invoke(file, "--column", "a").stderr

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ...printable import one_line
+from ...units import column_to_si
 from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
+
+SPEEDS = "speed", "input_speed", "output_speed"  # names of columns of a speed without a unit
+
+
+class SpeedColumn(NamedTuple):
+    """A column with the speed of a shaft."""
+
+    name: str
+    heading: str
+    values: Array
+    """In the unit of the heading, (n,)."""
 
 
 class Sensor(NamedTuple):
@@ -26,6 +38,8 @@ class Sensor(NamedTuple):
     """Measured speed of a shaft [rad/s], (n,); None without a column of it."""
     remarks: tuple[str, ...] = ()
     """Warnings about the samples."""
+    unused_speed: SpeedColumn | None = None
+    """Measured speed of a shaft that was not selected; None if there is none, or one was."""
 
 
 def read_sensor(
@@ -87,7 +101,35 @@ def read_sensor(
             f"its heading must be, for example, {speed_name} [rpm]"
         )
     unit = columns[name].unit or "-"
-    return Sensor(name, unit, time[part], samples, measured, tuple(remarks))
+    unused = None if speed is not None else _unused_speed(columns, name, part)
+    return Sensor(name, unit, time[part], samples, measured, tuple(remarks), unused)
+
+
+def _unused_speed(columns: Mapping[str, Column], signal: str, part: slice) -> SpeedColumn | None:
+    """The first column of a speed besides the signal, without gaps between its values."""
+    for name, column in columns.items():
+        if name == signal or not _is_speed(name, column):
+            continue
+        try:
+            values = column.as_given(name)[part]
+        except ValueError:
+            continue  # no numbers
+        known = np.flatnonzero(np.isfinite(values))
+        if len(known) >= 2:
+            filled = np.interp(np.arange(len(values)), known, values[known])
+            return SpeedColumn(name, column.heading, filled)
+    return None
+
+
+def _is_speed(name: str, column: Column) -> bool:
+    """Whether the unit of a column is one of a speed of rotation, or its name without a unit."""
+    if column.unit is None:
+        return name.lower() in SPEEDS
+    try:
+        column_to_si(np.zeros(1), column.unit, "rad/s")
+    except ValueError:
+        return False
+    return True
 
 
 def _rows(time: Array, begin: float | None, end: float | None) -> slice:
