@@ -106,6 +106,26 @@ def test_a_sample_rate_that_hides_a_gap_in_the_stamps_is_reported(tmp_path):
     assert "contradicts the column 'time'" in invoke(file, "--sample-rate", RATE).stderr
 
 
+def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
+    file, (time, values) = tmp_path / "vibration.csv", vibration()
+    time[1001::500] = time[1000::500][: len(time[1001::500])]
+    rows = np.column_stack((time, values))
+    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9g")
+    said = invoke(file, "--sample-rate", RATE).stderr
+    assert "whose stamp in row 1002 is not later than the one before" in said
+    assert "by --from and --to, or give --sample-rate" in invoke(file).stderr
+
+
+def test_stamps_rounded_to_their_last_digit_give_the_lines_of_even_steps(tmp_path):
+    file, (time, values) = tmp_path / "vibration.csv", vibration()
+    rows = np.column_stack((1e3 * time, values))
+    np.savetxt(file, rows, delimiter=",", header="time [ms],a", comments="", fmt=["%.2f", "%.9f"])
+    assert "rounded to 1e-05 s: equal steps that fit them are used, 25600 Hz" in invoke(file).stderr
+    first, second = lines(file)[:2]
+    assert first["frequency_hz"] == pytest.approx(MESH, abs=0.05)
+    assert [first["amplitude"], second["amplitude"]] == pytest.approx([0.8, 0.3], rel=0.01)
+
+
 def test_one_of_several_columns_is_chosen_by_its_name(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     rows = np.column_stack((time, values, 2.0 * values))

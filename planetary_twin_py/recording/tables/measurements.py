@@ -19,6 +19,7 @@ from ...scene.names import did_you_mean
 from ...units import LARGEST, column_to_si, is_number
 from .mat_file import MatError, read_mat
 from .parquet_pages import unpacked_size
+from .rounded_stamps import UNEVEN, rounded_grid
 from .suffixes import SUFFIXES
 from .units_file import units_beside
 from .unpacking import check_unpacked
@@ -41,7 +42,6 @@ _TEXTS = (
     pa.types.is_string, pa.types.is_large_string, pa.types.is_string_view, pa.types.is_binary,
     pa.types.is_large_binary, pa.types.is_binary_view,
 )  # fmt: skip
-UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
@@ -363,7 +363,7 @@ def _number(name: str, row: int, value: Any) -> float:
 
 
 def time_step(time: Array, first: int = 0) -> float:
-    """The step of equally spaced time stamps.
+    """The step of equally spaced time stamps, which may be rounded (see `rounded_grid`).
 
     Args:
         time: time stamps [s], (rows,).
@@ -377,6 +377,8 @@ def time_step(time: Array, first: int = 0) -> float:
     """
     if len(time) < 2:
         raise ValueError(f"{len(time)} rows: must be at least 2, to determine the time step")
+    if (grid := rounded_grid(time)) is not None:
+        time = grid.time
     steps = np.diff(time)
     for k in np.flatnonzero(~(steps > 0.0))[:1]:
         raise ValueError(

@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...printable import one_line
 from ...units import column_to_si
 from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
+from .rounded_stamps import rounded_grid
 
 SPEEDS = "speed", "input_speed", "output_speed"  # names of columns of a speed without a unit
 
@@ -87,12 +89,12 @@ def read_sensor(
     with naming(path):  # what lies outside of the interval may be wrong
         part = _rows(time, begin, end)
         samples = _complete(name, columns[name].as_given(name), part)
-        time_step(time[part], part.start)
+        stamps, rounding = _even(time[part], part.start)
         measured = None
         if speed_name is not None:
             rotation = columns[speed_name].in_si(speed_name, "rad/s")
             measured = _complete(speed_name, rotation, part)
-    remarks: list[str] = []
+    remarks = [] if sample_rate is not None else list(rounding)
     if sample_rate is not None:
         remarks += _other_rate(columns.get(TIME[0]), sample_rate, part)
     if speed_name is not None and columns[speed_name].unit is None:
@@ -102,7 +104,7 @@ def read_sensor(
         )
     unit = columns[name].unit or "-"
     unused = None if speed is not None else _unused_speed(columns, name, part)
-    return Sensor(name, unit, time[part], samples, measured, tuple(remarks), unused)
+    return Sensor(name, unit, stamps, samples, measured, tuple(remarks), unused)
 
 
 def _unused_speed(columns: Mapping[str, Column], signal: str, part: slice) -> SpeedColumn | None:
@@ -130,6 +132,31 @@ def _is_speed(name: str, column: Column) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _even(time: Array, first: int) -> tuple[Array, tuple[str, ...]]:
+    """Stamps at about equal steps, those of `rounded_grid` with a remark.
+
+    Args:
+        time: time stamps [s], (n,).
+        first: number of rows before these, for messages.
+    """
+    try:
+        step = time_step(time, first)
+    except ValueError as reason:
+        if len(time) < 2:
+            raise
+        raise ValueError(
+            f"{reason}; select an interval without it by --from and --to, or give --sample-rate if "
+            "no sample is missing and the stamps are wrong"
+        ) from None
+    grid = rounded_grid(time)
+    if grid is None:
+        return time, ()
+    return grid.time, (
+        f"the time stamps are rounded to {grid.digit:.0e} s: equal steps that fit them are used, "
+        f"{1.0 / step:.7g} Hz",
+    )
 
 
 def _rows(time: Array, begin: float | None, end: float | None) -> slice:
@@ -167,18 +194,38 @@ def _other_rate(column: Column | None, rate: float, part: slice) -> Iterator[str
     rounding = max(float(steps[steps > 0.0].min()), 1.0 / rate)
     away = np.abs(known - known[0] - (rows - rows[0]) / rate)
     if float(away.max()) > rounding:
-        stated = (rows[-1] - rows[0]) / (known[-1] - known[0])
         yield (
-            f"--sample-rate = {rate:g} Hz contradicts the column {column.heading!r}, whose stamps "
-            f"are {stated:.6g} Hz on average: all frequencies are those of "
+            f"--sample-rate = {rate:g} Hz contradicts the column {column.heading!r}, "
+            f"{_contradiction(known, rows, rate, away)}: all frequencies are those of "
             "--sample-rate; omit it if the stamps are right"
         )
+
+
+def _contradiction(known: Array, rows: NDArray[np.intp], rate: float, away: Array) -> str:
+    """What is different in stamps of another sample rate, or with single wrong rows.
+
+    Args:
+        known: time stamps [s], (n,).
+        rows: their rows from 0, (n,).
+        rate: the sample rate [Hz].
+        away: deviations of the stamps from this rate [s], (n,).
+    """
+    stated = (rows[-1] - rows[0]) / (known[-1] - known[0])
+    if f"{stated:.6g}" != f"{rate:.6g}":
+        return f"whose stamps are {stated:.6g} Hz on average"
+    for later in np.flatnonzero(np.diff(known) <= 0.0)[:1]:
+        return f"whose stamp in row {rows[later + 1] + 1} is not later than the one before"
+    worst = int(away.argmax())
+    return f"whose stamp in row {rows[worst] + 1} is {away[worst]:.3g} s from equal steps"
 
 
 def _complete(name: str, values: Array, part: slice) -> Array:
     """The values of some rows, if none is missing."""
     for row in np.flatnonzero(~np.isfinite(values[part]))[:1]:
-        raise ValueError(f"row {part.start + row + 1}: {name}: has no value")
+        raise ValueError(
+            f"row {part.start + row + 1}: {name}: has no value; select an interval with all values "
+            "by --from and --to"
+        )
     return values[part]
 
 
