@@ -18,6 +18,12 @@ from ..recording.tables.sensor import SpeedColumn
 from .even_steps import PHASE
 from .mesh_spectrum import MeshSpectrum
 from .signals import MEAN, Array, Signal
+from .spectrum import Line
+
+SMALL = 0.01  # of the highest line, below which a line may be noise
+SHARP = 1.1  # power near a line over that of a tone, above which the line is spread
+NEAR = 8  # bins on each side of a line
+HANN = 1.5  # [bins] equivalent noise bandwidth of a Hann window (Harris 1978, table 1)
 
 
 def exact_order(angle: Array) -> float:
@@ -33,24 +39,39 @@ def exact_order(angle: Array) -> float:
     return PHASE / ahead if ahead > 0.0 else math.inf
 
 
-def unused_speed_remarks(column: SpeedColumn, rate: float, highest: float) -> Iterator[str]:
-    """A line if a speed that is not used varies so much that the highest line is too low.
+def unused_speed_remarks(
+    column: SpeedColumn, signal: Signal, spectrum: MeshSpectrum, hertz: float, count: int
+) -> Iterator[str]:
+    """A line if a speed that is not used varies so much that lines which follow it are too low.
+
+    A sharp line does not follow it, such as one of the mains.
 
     Args:
         column: measured speed at the samples of the signal.
-        rate: sample rate [Hz].
-        highest: frequency of the highest of the listed lines [Hz].
+        signal: of a sensor.
+        spectrum: of this signal.
+        hertz: frequency over place on the axis of the spectrum.
+        count: number of lines that are listed.
     """
-    turned = cumulative_trapezoid(column.values, dx=1.0 / rate, initial=0)
-    mean = abs(float(turned[-1])) * rate / (len(turned) - 1)
+    turned = cumulative_trapezoid(column.values, dx=1.0 / signal.sample_rate, initial=0)
+    mean = abs(float(turned[-1])) * signal.sample_rate / (len(turned) - 1)
     frequency = exact_order(turned) * mean / math.tau  # in any unit of the speed
-    if highest > frequency:
-        low, high = float(column.values.min()), float(column.values.max())
+    lines = spectrum.lines(count)
+    high = [line for line in lines if line.amplitude > SMALL * lines[0].amplitude]
+    if any(hertz * line.place > frequency and _spread(spectrum, line) > SHARP for line in high):
+        span = f"{column.values.min():.6g} to {column.values.max():.6g}"
         yield (
-            f"the column {column.heading!r} varies from {low:.6g} to {high:.6g}: lines above "
+            f"the column {column.heading!r} varies from {span}: lines above "
             f"{frequency:.3g} Hz that follow it are more than 1 % too low, and spread; use "
             f"--speed {column.name} --order if it is the speed of the input shaft"
         )
+
+
+def _spread(spectrum: MeshSpectrum, line: Line) -> float:
+    """Power near a line over that of a tone of its height; 1 for a tone."""
+    middle = round(line.place / float(spectrum.axis[1]))
+    near = spectrum.amplitude[max(middle - NEAR, 1) : middle + NEAR + 1]
+    return float((near**2).sum()) / (HANN * line.amplitude**2)
 
 
 def speed_remarks(signal: Signal, spectrum: MeshSpectrum, count: int) -> Iterator[str]:

@@ -269,11 +269,9 @@ def _unused_speed(
     """A remark if a measured speed that is not used lowers lines."""
     from ..analysis.varying_speed import unused_speed_remarks
 
-    if column is None:
-        return
-    hertz = abs(signal.speed) / math.tau if asked.order else 1.0
-    highest = max((hertz * line.place for line in found.lines(LINES)), default=0.0)
-    yield from unused_speed_remarks(column, signal.sample_rate, highest)
+    if column is not None:
+        hertz = abs(signal.speed) / math.tau if asked.order else 1.0
+        yield from unused_speed_remarks(column, signal, found, hertz, LINES)
 
 
 def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
