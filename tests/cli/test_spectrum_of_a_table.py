@@ -505,3 +505,11 @@ def test_a_column_without_a_unit_of_rotation_is_no_speed(tmp_path):
     rows = np.column_stack((time, np.sin(3000.0 * time), 20.0 + time))
     np.savetxt(file, rows, delimiter=",", header="time [s],a [g],speed [m/s]", comments="")
     assert "varies" not in invoke(file, "--column", "a").stderr
+
+
+def test_a_stuck_sensor_and_a_clipped_signal_are_reported(tmp_path):
+    samples = meshing(30)
+    assert "planetary-twin: " not in written(tmp_path / "a.csv", samples).stderr
+    assert "exactly at the lowest" in written(tmp_path / "a.csv", np.clip(samples, -1, 1)).stderr
+    samples[len(samples) // 2 :] = samples[len(samples) // 2]
+    assert "is the sensor stuck" in written(tmp_path / "a.csv", samples).stderr

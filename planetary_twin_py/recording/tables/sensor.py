@@ -13,6 +13,7 @@ from ...printable import one_line
 from ...units import column_to_si
 from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
 from .rounded_stamps import rounded_grid
+from .sensor_faults import fault_remarks
 
 SPEEDS = "speed", "input_speed", "output_speed"  # names of columns of a speed without a unit
 
@@ -102,6 +103,7 @@ def read_sensor(
             f"column {columns[speed_name].heading!r} has no unit and is read in rad/s; otherwise "
             f"its heading must be, for example, {speed_name} [rpm]"
         )
+    remarks += fault_remarks(stamps, samples)
     unit = columns[name].unit or "-"
     unused = None if speed is not None else _unused_speed(columns, name, part)
     return Sensor(name, unit, stamps, samples, measured, tuple(remarks), unused)
