@@ -52,7 +52,7 @@ class VibrationCounters(SampleCounters):
     """Of `periods`, those in which a channel does not change, which is neither judged nor
     learned."""
     unscaled_periods: int = 0
-    """Of `periods`, those whose first mesh order is not where the measured speed places it; they
+    """Of `periods`, those whose mesh orders are not where the measured speed places them; they
     are neither judged nor learned."""
     compared_periods: int = 0
     """Of `periods`, those in which a growth would have been reported."""

@@ -6,8 +6,10 @@ identify neither of them, so only those that one gear alone has are used.
 
 Amplitudes are those of a Hann window over the angle of the input, the integral of the measured
 speed. The gain error of the speed sensor would shift the lines, so the speed is scaled, by less
-than `STRETCH`, to the maximum of the first mesh order. If this maximum, searched up to half of the
-way to the next sideband, is farther away, the lines are not where the speed places them.
+than `STRETCH`, to the maximum of the first mesh order. The phases of equally spaced planets may
+cancel that order in the sum of their meshes (Parker 2000, J. Sound Vib. 236(4), 561-573): then the
+next order that does not vanish is used. If this maximum, searched up to half of the way to the next
+sideband of the first order, is farther away, the lines are not where the speed places them.
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ HARMONICS = 3  # of the mesh frequency
 SIDEBANDS = 2  # on each side of a harmonic, for each gear
 STRETCH = 2e-3  # relative error that the measured speed must not reach
 STEP = 2e-4  # between trial values of the scale of the speed
+VANISHED = 0.01  # of the strongest mesh order, below which one may be noise only
 TURN = 0.25  # [rad] phase of the farthest line in a block; see `_near_harmonics`
 
 
@@ -93,7 +96,7 @@ class PatternAmplitudes:
         window = np.hanning(len(mesh) + 2)[1:-1]
         weighted = (values - values.mean(axis=0)) * (2.0 * window / window.sum())[:, None]
         near = _near_harmonics(mesh, weighted, self._widest)
-        stretch = self._stretch(near[1])
+        stretch = self._stretch([near[mesh] for mesh in near if mesh < highest])
         if abs(stretch - 1.0) > STRETCH - 0.5 * STEP:
             return None
 
@@ -121,10 +124,17 @@ class PatternAmplitudes:
             )
         return np.sqrt(np.array([np.stack(squares, axis=1), np.stack(floors, axis=1)]))
 
-    def _stretch(self, first: _Near) -> float:
-        """Scale of the speed at which the first mesh order is strongest."""
-        strength = [float(np.sum(np.abs(first.at(trial - 1.0)))) for trial in self._stretches]
-        return float(self._stretches[int(np.argmax(strength))])
+    def _stretch(self, near: Sequence[_Near]) -> float:
+        """Scale of the speed at which the first mesh order that does not vanish is strongest."""
+        strengths = np.array(
+            [
+                [float(np.sum(np.abs(one.at(mesh * (trial - 1.0))))) for trial in self._stretches]
+                for mesh, one in enumerate(near, 1)
+            ]
+        )
+        highest = strengths.max(axis=1)
+        first = strengths[int(np.argmax(highest >= VANISHED * highest.max()))]
+        return float(self._stretches[int(np.argmax(first))])
 
 
 class _Near(NamedTuple):
