@@ -21,6 +21,7 @@ from .pacing import Pace
 from .ramps import Ramps
 from .turns import Turns
 
+NO_CLOCK = "use_sim_time: the twin waits for the first message on /clock"
 LONGEST_STEP = 10.0  # [s] simulated time of one step of a paused twin
 _STOP_POLL = 0.1  # [s] between two checks of a halted twin whether it may run
 _ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
@@ -157,7 +158,8 @@ class LiveTwin:
         running = not (self._halted or self._hold.active)
         if running:
             self._follow_ramps()
-        self._announce()
+        if running or self._listener.ready():
+            self._announce()
         if answers:  # the progress that a client reads next includes its command
             self.progress = self._present()
         for answer in answers:
@@ -171,8 +173,8 @@ class LiveTwin:
             self._due = list(self._at_zero)
 
     def _announce(self) -> None:
-        """Publish the changes of operating point and ports."""
-        if not self._due or not self._listener.ready():
+        """Publish the changes of operating point and ports, before the states they govern."""
+        if not self._due:
             return
         if self._halted:
             self._resume()
@@ -305,6 +307,9 @@ class LiveTwin:
                 f"commands: {len(commands)} steps of {duration:g} s: must be at most "
                 f"{LONGEST_STEP:g} s in total"
             )
+        if not self._listener.has_clock():
+            raise ValueError(f"{NO_CLOCK}; step the twin then")
+        self._wait_until(self._listener.ready)
         self._resume()
         received = self._given(0.0)
         for n, command in enumerate(commands):
@@ -323,15 +328,15 @@ class LiveTwin:
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
-            self._wait_for_room()
+            self._wait_until(self._listener.has_room)  # steps are not paced
             commands = given if n == 0 else {}
             self._advance(min(self._interval, left), lambda: None, commands, quality)
             self.progress = self._present()
             self._refuse_after_failure()
 
-    def _wait_for_room(self) -> None:
-        """Wait until the recorder has caught up: steps are not paced."""
-        while not self._listener.has_room():
+    def _wait_until(self, present: Callable[[], bool]) -> None:
+        """Wait within a step until the recorder is `present`, or has caught up."""
+        while not present():
             if self._stop.wait(_ROOM_POLL):
                 raise ValueError("the simulation stops before the end of the step")
             self.progress = self._present()

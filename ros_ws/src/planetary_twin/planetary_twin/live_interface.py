@@ -31,6 +31,9 @@ class Listener(Protocol):
     def ready(self) -> bool:
         """Return whether time can pass: for example, the clock to follow is available."""
 
+    def has_clock(self) -> bool:
+        """Return whether there is a time for stamps."""
+
     def has_room(self) -> bool:
         """Return whether the recorder has kept up and the next interval may be published."""
 

@@ -25,6 +25,7 @@ from .managed import ManagedNode, run_node
 from .parameters import declare_bounded, declare_fixed
 from .plant_player import PlantMessages, PlantPlayer
 from .shutdown import shut_down
+from .stamps import CLOCK_AWAITED, has_time
 from .subscription_wait import SubscriptionWait
 
 _TOPICS = {
@@ -85,6 +86,8 @@ class Plant(ManagedNode):
             wait.begin()
         self._player = PlantPlayer(self._measured, self._messages, self)
         self.get_logger().info(f"publishing measurements of {self.get_parameter('scene').value}")
+        if not has_time(self.get_clock()):
+            self.get_logger().warning(CLOCK_AWAITED)
 
     def deactivate(self) -> None:
         """Pause the run."""
@@ -102,8 +105,8 @@ class Plant(ManagedNode):
     # Called by the player, in its thread.
 
     def ready(self) -> bool:
-        """Return whether the nodes in `wait_for` have subscribed."""
-        return all(wait.present() for wait in self._waits)
+        """Return whether ROS time is available and the nodes in `wait_for` have subscribed."""
+        return has_time(self.get_clock()) and all(wait.present() for wait in self._waits)
 
     def now(self) -> int:
         """Return the ROS time [ns]."""

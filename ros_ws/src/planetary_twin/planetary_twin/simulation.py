@@ -28,7 +28,7 @@ from .accuracy_report import AccuracyReport
 from .backlog import Backlog
 from .dynamics_report import dynamics_status
 from .ledger_report import LedgerReport
-from .live import LiveTwin
+from .live import NO_CLOCK, LiveTwin
 from .live_interface import Progress
 from .managed import ManagedNode, NodeError, run_node
 from .operating_point_control import OperatingPointControl
@@ -37,7 +37,7 @@ from .real_time import KEEPS_UP, RealTimeReport
 from .shaft_commands import QOS, ShaftCommands, fault_of_names
 from .simulation_parameters import SimulationParameters
 from .simulation_services import SimulationServices
-from .stamps import STEADY
+from .stamps import CLOCK_AWAITED, STEADY
 from .subscription_wait import SubscriptionWait
 from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
@@ -111,8 +111,8 @@ class Simulation(ManagedNode):
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
         self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s")
-        if not self._telemetry.ready():
-            self.get_logger().warning("use_sim_time: waits for the first message on /clock")
+        if not self.has_clock():
+            self.get_logger().warning(CLOCK_AWAITED)
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
@@ -156,6 +156,10 @@ class Simulation(ManagedNode):
     def ready(self) -> bool:
         """Return whether ROS time is available and the node `wait_for` has subscribed."""
         return self._telemetry.ready() and self._wait.present()
+
+    def has_clock(self) -> bool:
+        """Return whether ROS time is available."""
+        return self._telemetry.ready()
 
     def has_room(self) -> bool:
         """Return whether the node that `wait_for` names has kept up with recording."""
@@ -210,8 +214,12 @@ class Simulation(ManagedNode):
             self._live.quality = self._given.quality(self._running_twin())
 
     def remark(self, parameters: list[Parameter]) -> str:
-        """Return which of `parameters` have no effect in the scene, and why."""
-        return self._given.remark(parameters)
+        """Return which of `parameters` have no effect, and whether the twin now waits."""
+        remarks = [self._given.remark(parameters)]
+        clock_changed = any(p.name == "use_sim_time" for p in parameters)
+        if clock_changed and self._live is not None and not self.has_clock():
+            remarks.append(NO_CLOCK)
+        return "; ".join(filter(None, remarks))
 
     def running(self) -> LiveTwin:
         """Return the live twin."""

@@ -9,8 +9,14 @@ from rclpy.clock import Clock, ClockType, ROSClock
 
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 """For timers that must not depend on /clock."""
+CLOCK_AWAITED = "use_sim_time: waits for the first message on /clock"
 _SET = 100_000_000  # [ns] a larger step of the system clock means that it was set
 _JUMP = 1_000_000_000  # [ns] a larger step of /clock between two readings is a jump
+
+
+def has_time(clock: ROSClock) -> bool:
+    """Return whether `clock` has a time: with `use_sim_time`, after the first /clock."""
+    return not clock.ros_time_is_active or clock.now().nanoseconds > 0
 
 
 class StrictClock:
@@ -67,7 +73,7 @@ class Stamps:
 
     def ready(self) -> bool:
         """Return whether ROS time is available: with `use_sim_time`, after the first /clock."""
-        return not self._follows() or self._clock.now().nanoseconds > 0
+        return self._source or has_time(self._clock)
 
     def begin(self, simulated: float) -> None:
         """Map `simulated` [s] to the present time, or just after the newest stamp if later."""
