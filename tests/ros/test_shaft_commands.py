@@ -321,6 +321,24 @@ def test_late_commands_have_no_effect() -> None:
     assert commands.ignored == {"late": 1}
 
 
+@pytest.mark.parametrize(
+    ("offset", "words"),
+    [
+        (-25.0, "late (25 s old, command_timeout = 0.5 s)"),
+        (-1.7e9, "late (1.7e+09 s old, command_timeout = 0.5 s)"),  # stamped by another clock
+        (25.0, "ahead of the clock (stamp 25 s ahead, at most 1 s)"),
+        (-0.2, "repeated or out of order (stamp 0.2 s before that of the last command)"),
+    ],
+)
+def test_the_report_gives_the_age_of_a_stamp_and_its_limit(offset: float, words: str) -> None:
+    now = 18 * 10**17
+    stamp = now + round(offset * 1e9)
+    commands = received(
+        command((1.0, 2.0), now), command((3.0, 4.0), stamp), timeout=0.5, now=lambda: now
+    )
+    assert commands.status("/twin").message == f"without effect since the last report: 1 {words}"
+
+
 def test_a_command_that_waited_to_be_taken_is_not_late() -> None:
     """A paused twin takes commands a few times a second only."""
     now = 10**18

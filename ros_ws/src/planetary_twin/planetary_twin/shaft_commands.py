@@ -96,36 +96,40 @@ class ShaftCommands:
         """
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
         values, now = values_of(message, self.joints), self._now() - waited if stamp else 0
-        reasons = set[str]()
+        reasons = dict[str, str]()  # with details
         if fault := fault_of_names(message, self.joints):
             values = {}
-            reasons.add(fault)
+            reasons[fault] = ""
         elif not values:
-            reasons.add(f"no effort, velocity or position of {' or '.join(self.joints)}")
+            reasons[f"no effort, velocity or position of {' or '.join(self.joints)}"] = ""
         with self._lock:
             for side in SIDES:
                 own = {name: value for name, value in values.items() if name.startswith(side)}
-                reason = self._fault(side, stamp, now) if own else ""
-                if reason:
-                    reasons.add(reason)
+                faults = self._fault_of_stamp(side, stamp, now) if own else {}
+                if faults:
+                    reasons |= faults
                 elif own:
                     self._newest[side] = stamp or self._newest[side]
                     self._arrived[side] = _Arrived(own, time.monotonic())
         self._report.look_at(message)
-        for reason in reasons:
-            self._report.ignore(reason)
+        for reason, detail in reasons.items():
+            self._report.ignore(reason, detail)
 
-    def _fault(self, side: str, stamp: int, now: int) -> str:
+    def _fault_of_stamp(self, side: str, stamp: int, now: int) -> dict[str, str]:
+        """Return why a command has no effect, with the figures of its stamp; or nothing."""
         if not stamp:
-            return ""
-        if stamp > now + _AHEAD:
-            return "ahead of the clock"
-        if self._timeout and now - stamp > 1e9 * self._timeout:
-            return "late"
+            return {}
+        age, newest = now - stamp, self._newest[side]
+        if -age > _AHEAD:
+            detail = f"stamp {_seconds(-age)} ahead, at most {_seconds(_AHEAD)}"
+            return {"ahead of the clock": detail}
+        if self._timeout and age > 1e9 * self._timeout:
+            return {"late": f"{_seconds(age)} old, command_timeout = {self._timeout:g} s"}
         # A newest stamp ahead of the clock shows that the clock was set back: ignore it.
-        if stamp <= self._newest[side] <= now + _AHEAD:
-            return "repeated or out of order"
-        return ""
+        if stamp <= newest <= now + _AHEAD:
+            detail = f"stamp {_seconds(newest - stamp)} before that of the last command"
+            return {"repeated or out of order": detail}
+        return {}
 
     def status(self, hardware: str) -> DiagnosticStatus:
         """Return the report on commands for `/diagnostics`; `hardware` is the namespace."""
@@ -224,6 +228,10 @@ class ShaftCommands:
             self._report.ignore(_OUT_OF_RANGE, str(refusal))
             return {}
         return taken
+
+
+def _seconds(nanoseconds: int) -> str:
+    return f"{nanoseconds * 1e-9:.3g} s"
 
 
 def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
