@@ -12,6 +12,7 @@ from .brief import brief_record
 from .printable import one_line
 from .result import Result
 from .scene import Scene
+from .scene.given import given_scenes
 from .simulation import check_run, simulate
 
 AHEAD = 2  # runs per thread that are active, queued or complete and not yet consumed
@@ -86,11 +87,11 @@ def simulate_many(
             return Outcome(place, scene, error)
         return Outcome(place, scene, found)
 
-    return _in_order(scenes, run, workers)
+    return _in_order(given_scenes(scenes), run, workers)
 
 
 def _in_order(
-    scenes: Iterable[Scene], run: Callable[[int, Scene], Outcome], workers: int
+    scenes: Iterator[Scene], run: Callable[[int, Scene], Outcome], workers: int
 ) -> Iterator[Outcome]:
     pending: deque[Future[Outcome]] = deque()
     pool = ThreadPoolExecutor(workers, "scene")

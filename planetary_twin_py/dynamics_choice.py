@@ -18,6 +18,7 @@ from .dynamics.static_load import mesh_force
 from .engineering_units import percent
 from .run import start
 from .scene import Scene, SceneError
+from .scene.given import check_scene
 from .studies.turning import wanted_mesh_frequency
 from .window import mesh_statistics
 
@@ -144,6 +145,7 @@ def choose_dynamics(scene: Scene) -> DynamicsChoice:
         ValueError: the scene cannot run with any dynamics.
         RunawayError: a run exceeds physical limits.
     """
+    check_scene(scene)
     runs: dict[str, tuple[dict[str, np.ndarray], float]] = {}
     refused: dict[str, str] = {}
     tried = BY_COST if scene.gearset.helix_angle != 0.0 else BY_COST[:-1]

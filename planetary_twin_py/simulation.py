@@ -43,6 +43,7 @@ from .planar.motion import axes_motion, joined_flanks
 from .result import Energy, Result, Stats
 from .run import Run, start
 from .scene import Scene
+from .scene.given import check_scene
 from .tolerance import check_tolerance
 from .window import mesh_statistics
 
@@ -90,6 +91,7 @@ def simulate(
         AccuracyWarning: results are less accurate than the tolerance, see `accuracy`.
         UserWarning: commands begin to act only after the end.
     """
+    check_scene(scene)
     check_run(duration, sample_rate, method, tolerance)
     choice = choose_dynamics(scene) if scene.dynamics == AUTO else None
     scene = scene if choice is None else choice.scene

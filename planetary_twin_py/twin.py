@@ -18,6 +18,7 @@ from .integrators.interpolant import bearings_of, new_waves, tilts
 from .run import start
 from .scene import OperatingPoint, Scene, SceneError
 from .scene.drive import Causality, Ports
+from .scene.given import check_scene
 from .scene.live import PORT_FIELDS, live_values, split_live
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
@@ -72,6 +73,7 @@ class Twin:
         tolerance: float = LIVE_TOLERANCE,
         keep_commands: bool = False,
     ) -> None:
+        check_scene(scene)
         check_sample_rate(sample_rate)
         self.start = scene
         """Scene at the start of the run."""

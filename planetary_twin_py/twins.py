@@ -9,6 +9,7 @@ from types import MappingProxyType
 from .brief import brief
 from .runaway import RunawayError
 from .scene import Scene
+from .scene.given import given_scenes
 from .tolerance import LIVE_TOLERANCE
 from .twin import Twin
 from .window import Window
@@ -47,7 +48,7 @@ class Twins:
         if workers < 1:
             raise ValueError(f"workers = {workers!r}: must be at least 1")
         self._workers = workers
-        self._twins = [Twin(scene, sample_rate, tolerance) for scene in scenes]
+        self._twins = [Twin(scene, sample_rate, tolerance) for scene in given_scenes(scenes)]
         self._failures: dict[int, RunawayError] = {}
 
     def __len__(self) -> int:

@@ -19,6 +19,7 @@ from ..following.friction_remark import friction_remarks
 from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..scene import Scene
+from ..scene.given import check_scene
 from .balances import PARAMETERS, Balances, F, Row
 from .cusums import TERM, Cusums, Steps, limit
 from .faults import Faults
@@ -88,6 +89,7 @@ class Fleet:
     """Detected steps, in the order of their detection."""
 
     def __post_init__(self) -> None:
+        check_scene(self.scene)
         if self.count < 1:
             raise ValueError(f"count = {self.count}: must be at least 1")
         if not FASTEST <= self.period <= SLOWEST:

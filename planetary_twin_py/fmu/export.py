@@ -10,6 +10,7 @@ from pathlib import Path
 
 from .._core.levels import NEEDS
 from ..scene import Scene
+from ..scene.given import check_scene
 from ..tolerance import LIVE_TOLERANCE
 from .description import Description, model_description_2, model_description_3
 from .records import build_records, file_of, put_variables
@@ -51,6 +52,7 @@ def export_fmu(
         FileNotFoundError: the libraries have not been built.
         OSError: the file cannot be written.
     """
+    check_scene(scene)
     if version not in VERSIONS:
         raise ValueError(f"version = {version!r}: must be {' or '.join(VERSIONS)}")
     _check(scene)

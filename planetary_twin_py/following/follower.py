@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..brief import brief
 from ..scene import Scene
+from ..scene.given import check_scene
 from ..units import LARGEST
 from .balance import BalanceFollower
 from .balance_filter import Innovation
@@ -145,6 +146,7 @@ class Follower:
     period: float = PERIOD
 
     def __post_init__(self) -> None:
+        check_scene(self.scene)
         check_scale(self.scale)
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")

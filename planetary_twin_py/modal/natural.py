@@ -8,6 +8,7 @@ from ..dynamics.bodies import rigid_speeds
 from ..planar.carrying import carrying
 from ..planar.small_motion import radial_stiffness
 from ..scene import Scene, SceneError
+from ..scene.given import check_scene
 from ..scene.supports import Support, Supports
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
 from .modes import NaturalModes, modes_of
@@ -76,6 +77,7 @@ def natural_modes(
             stiffness is "mean" and at times no tooth pair is in contact; or centrifugal forces
             exceed the stiffness of bearings.
     """
+    check_scene(scene)
     model = model_of(scene) if model is None else model
     springs = spring_model(scene, model, stiffness)
     if input_speed is None or model not in MOVING_AXES:

@@ -25,6 +25,7 @@ from ..dynamics.train import build_train
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..runaway import displacement_limit
 from ..scene import Scene, SceneError
+from ..scene.given import check_scene
 from ..scene.supports import Support, Supports
 from .centrifugal import centrifugal
 from .errors import Displacements, displacements
@@ -100,6 +101,7 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
         ValueError: the torque is 0, the teeth are impossible, bearings cannot hold the load, or an
             axis is displaced so far that teeth no longer mesh.
     """
+    check_scene(scene)
     if scene.operating_point.input_torque == 0.0:
         raise ValueError("input_torque = 0: must not be 0, as there is no load to share")
     if scene.supports is not None:

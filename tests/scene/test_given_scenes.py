@@ -1,0 +1,64 @@
+"""What is given in place of a scene is refused in one line, which says how to make one."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import planetary_twin_py as pt
+
+CALLS: dict[str, Callable[[Any], object]] = {
+    "simulate": lambda scene: pt.simulate(scene, 0.1),
+    "Twin": pt.Twin,
+    "choose_dynamics": pt.choose_dynamics,
+    "export_fmu": lambda scene: pt.export_fmu(scene, "never.fmu"),
+    "load_sharing": pt.load_sharing,
+    "natural_modes": pt.natural_modes,
+    "Follower": pt.Follower,
+    "Fleet": lambda scene: pt.Fleet(scene, 2),
+}
+RECORDS = {"Outcome", "DynamicsChoice"}  # results that contain a scene
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_name_in_place_of_a_scene_is_refused_with_the_call_that_loads_it(name: str) -> None:
+    for given in ("paper", Path("paper")):
+        with pytest.raises(pt.SceneError) as refusal:
+            CALLS[name](given)
+        assert str(refusal.value) == (
+            f'scene = {given!r}: must be a Scene; load_scene("paper") gives it'
+        )
+
+
+@pytest.mark.parametrize("given", [None, {"name": "paper"}, 3.0, "x" * 10_000, "two\nlines"])
+def test_anything_else_is_refused_in_one_short_line(given: object) -> None:
+    with pytest.raises(ValueError, match=r"^scene = .*: must be a Scene; ") as refusal:
+        pt.Twin(given)  # type: ignore[arg-type]
+    assert len(str(refusal.value)) < 250 and "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    "several", [pt.Twins, lambda scenes: pt.simulate_many(scenes, 0.1)], ids=["Twins", "many"]
+)
+def test_of_several_scenes_the_one_that_is_none_is_named(several: Callable[[Any], Any]) -> None:
+    paper = pt.load_scene("paper")
+    with pytest.raises(ValueError, match=r"^scenes\[1\] = 'compact_actuator': must be a Scene"):
+        list(several([paper, "compact_actuator"]))
+    for given, shown in (("paper", "'paper'"), (paper, "a Scene"), (7, "7")):
+        with pytest.raises(ValueError, match=f"^scenes = {shown}: must be several"):
+            several(given)
+
+
+def test_every_public_call_that_takes_a_scene_is_tried() -> None:
+    def annotated(public: Any) -> set[Any]:
+        function = public.__init__ if inspect.isclass(public) else public
+        given = dict(getattr(function, "__annotations__", {}))
+        given.pop("return", None)
+        return set(given.values())
+
+    taking = {name for name in pt.__all__ if annotated(getattr(pt, name)) & {"Scene", pt.Scene}}
+    assert taking - RECORDS == set(CALLS)
