@@ -17,6 +17,7 @@ import pytest
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
+from planetary_twin.running.node_settings import node_settings
 from planetary_twin.running.session import SILENCE
 from planetary_twin.running.tour import LENGTH, tour_of
 from planetary_twin.telemetry import STALL
@@ -98,6 +99,15 @@ def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
     _, errors = refused.communicate(timeout=180)
     assert refused.returncode == 2
     assert "--param 'rate_factor=2': must be NAME=VALUE, with NAME of" in " ".join(errors.split())
+
+
+def test_a_clock_of_another_node_is_refused_with_the_reason_and_the_way_to_follow_it() -> None:
+    for text in ("use_sim_time=true", "use_sim_time=false", "use_sim_time"):
+        with pytest.raises(ValueError, match="publishes no /clock") as refusal:
+            node_settings([text])
+        reason = str(refusal.value)
+        assert reason.startswith(f"--param {text!r}: ") and "\n" not in reason
+        assert "-p use_sim_time:=true" in reason and "twin.launch.py" in reason
 
 
 def test_an_endless_run_has_the_usual_tour() -> None:

@@ -7,6 +7,11 @@ from collections.abc import Sequence
 from ..simulation_parameters import SETTINGS
 
 _OF_THE_RUN = ("rate_factor", "wait_for")  # set by the command itself
+_CLOCK = "use_sim_time"
+_OWN_CLOCK = (
+    "run uses the system clock, and publishes no /clock; to follow one of another node, start the "
+    "node simulation with -p use_sim_time:=true, or twin.launch.py with use_sim_time:=true"
+)
 NAMES = tuple(name for name in SETTINGS if name not in _OF_THE_RUN)
 
 
@@ -19,6 +24,8 @@ def node_settings(given: Sequence[str]) -> dict[str, str]:
     settings = {}
     for text in given:
         name, equals, value = text.partition("=")
+        if name == _CLOCK:
+            raise ValueError(f"--param {text!r}: {_OWN_CLOCK}")
         if name not in NAMES or not equals or not value:
             raise ValueError(
                 f"--param {text!r}: must be NAME=VALUE, with NAME of {', '.join(NAMES)}"
