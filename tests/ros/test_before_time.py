@@ -118,29 +118,29 @@ class Heard:
         )
 
 
-def live(heard: Heard) -> LiveTwin:
+def live(received: Heard) -> LiveTwin:
     twin = pt.Twin(pt.load_scene("paper"))
     setting = SimpleNamespace(tolerance=twin.tolerance, sample_rate=twin.sample_rate)
     quality = SimpleNamespace(setting=setting, relearn=lambda: None, observe=lambda *given: None)
     quality.without_deadline = lambda: quality
-    return LiveTwin(twin, 0.01, 1.0, cast(Any, quality), heard.listener(), received())
+    return LiveTwin(twin, 0.01, 1.0, cast(Any, quality), received.listener(), received())
 
 
 def test_a_step_waits_for_the_recorder_and_publishes_the_operating_point_first() -> None:
     asked = iter([False, False, False])
-    heard = Heard(lambda: next(asked, True))
-    twin = live(heard)
+    received = Heard(lambda: next(asked, True))
+    twin = live(received)
     twin._pause(True)
     twin._change({"backlash": 4e-7})
     twin._steps(0.02, ({},), lambda twin: None)
-    assert heard.published == ["2e-07", "4e-07", "state", "state"]
+    assert received.published == ["2e-07", "4e-07", "state", "state"]
 
 
 def test_a_clock_lost_between_a_change_and_its_interval_withholds_no_operating_point() -> None:
     """`use_sim_time` is set in another thread than that of the twin."""
     asked = iter([True])
-    heard = Heard(lambda: next(asked, False))
-    twin = live(heard)
+    received = Heard(lambda: next(asked, False))
+    twin = live(received)
     twin._commands.change({"backlash": 4e-7})
     assert twin._serve() and twin._run_on()
-    assert heard.published == ["2e-07", "4e-07", "state"]
+    assert received.published == ["2e-07", "4e-07", "state"]
