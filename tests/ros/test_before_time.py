@@ -97,7 +97,7 @@ def test_a_plant_begins_with_the_first_clock(peer: Peer, start: Start) -> None:
     assert measured and measured[0].header.stamp.sec >= 5
 
 
-class Heard:
+class Recorded:
     """What a live twin publishes, whose time passes once `ready` returns True."""
 
     def __init__(self, ready: Callable[[], bool]) -> None:
@@ -118,29 +118,29 @@ class Heard:
         )
 
 
-def live(received: Heard) -> LiveTwin:
+def live(record: Recorded) -> LiveTwin:
     twin = pt.Twin(pt.load_scene("paper"))
     setting = SimpleNamespace(tolerance=twin.tolerance, sample_rate=twin.sample_rate)
     quality = SimpleNamespace(setting=setting, relearn=lambda: None, observe=lambda *given: None)
     quality.without_deadline = lambda: quality
-    return LiveTwin(twin, 0.01, 1.0, cast(Any, quality), received.listener(), received())
+    return LiveTwin(twin, 0.01, 1.0, cast(Any, quality), record.listener(), received())
 
 
 def test_a_step_waits_for_the_recorder_and_publishes_the_operating_point_first() -> None:
     asked = iter([False, False, False])
-    received = Heard(lambda: next(asked, True))
-    twin = live(received)
+    record = Recorded(lambda: next(asked, True))
+    twin = live(record)
     twin._pause(True)
     twin._change({"backlash": 4e-7})
     twin._steps(0.02, ({},), lambda twin: None)
-    assert received.published == ["2e-07", "4e-07", "state", "state"]
+    assert record.published == ["2e-07", "4e-07", "state", "state"]
 
 
 def test_a_clock_lost_between_a_change_and_its_interval_withholds_no_operating_point() -> None:
     """`use_sim_time` is set in another thread than that of the twin."""
     asked = iter([True])
-    received = Heard(lambda: next(asked, False))
-    twin = live(received)
+    record = Recorded(lambda: next(asked, False))
+    twin = live(record)
     twin._commands.change({"backlash": 4e-7})
     assert twin._serve() and twin._run_on()
-    assert received.published == ["2e-07", "4e-07", "state"]
+    assert record.published == ["2e-07", "4e-07", "state"]
