@@ -63,7 +63,8 @@ def fleet(
     """Estimate friction of many gearboxes of the type SCENE, with one reading in 0.1 s to 60 s.
 
     Prints changes: steps of the loss torque of a gearbox. --out and --json have the friction level
-    of each gearbox with a 95 % interval. The fleet has one false alarm per year.
+    of each gearbox with a 95 % interval. The fleet has one false alarm per year if each reading is
+    the mean over its interval; instants of a wandering speed give more.
 
     Example: planetary-twin fleet wind_turbine_stage --from scada.parquet --out state.csv
     """
