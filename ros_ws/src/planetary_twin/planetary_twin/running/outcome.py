@@ -118,7 +118,8 @@ def read_outcome(
 
 
 def driving_power(state: GearboxState) -> float:
-    """Return the power of the machines that drive in the interval of `state` [W].
+    """
+    Return the power of the machines that drive in the interval of `state` [W].
 
     Each machine's power has the direction of its mean over the interval. 0 where none drives but
     for rounding errors, which `state` shows by its efficiency.
