@@ -29,7 +29,7 @@ run: setup
 PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=4 --dist=loadfile --no-loadscope-reorder
 
 test:
-	@echo "tests of every feature: about six minutes on 2 idle cores"
+	@echo "tests of every feature: about seven minutes on 2 idle cores"
 	@$(MAKE) --no-print-directory test-features
 
 test-features: setup

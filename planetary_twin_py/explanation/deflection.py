@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train, held_axes
 from ..engineering_units import figure
 from ..quantities import SIDES, side_title
 from ..result import Result
 from ..scene import Scene
+from .mesh_loads import loads_of_run, loads_of_scene
 
 LARGEST = 0.1
 """Largest deflection of a mesh, in modules. A tooth is about 2.25 modules high, so two teeth that
@@ -26,8 +26,7 @@ def deflection_of_run(scene: Scene, run: Result) -> str | None:
     Returns:
         A sentence, or None.
     """
-    forces = abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1).max(axis=1)
-    return _warning(scene, forces.tolist())
+    return _warning(scene, loads_of_run(run))
 
 
 def deflection_of_scene(scene: Scene) -> str | None:
@@ -40,13 +39,9 @@ def deflection_of_scene(scene: Scene) -> str | None:
         A sentence, or None.
     """
     try:
-        return _static_warning(scene)
+        return _warning(scene, loads_of_scene(scene))
     except ValueError:
         return None
-
-
-def _static_warning(scene: Scene) -> str | None:
-    return _warning(scene, [abs(mesh_force(scene, scene.operating_point.input_torque))] * 2)
 
 
 def _warning(scene: Scene, forces: list[float]) -> str | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from .._core import half_width
-from ..dynamics.static_load import mesh_force
 from ..lubrication.hertz import contact_modulus
 from ..quantities import SIDES, side_title
 from ..result import Result
 from ..scene import Scene
+from .mesh_loads import loads_of_run, loads_of_scene
 
 LARGEST = 2e9
 """Largest pressure of the friction laws [Pa]: that up to which docs/lubrication.md compares them. A
@@ -50,8 +50,7 @@ def pressure_of_run(scene: Scene, run: Result) -> str | None:
     Returns:
         A sentence, or None.
     """
-    forces = abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1).max(axis=1)
-    return _warning(scene, forces.tolist())
+    return _warning(scene, loads_of_run(run))
 
 
 def pressure_of_scene(scene: Scene) -> str | None:
@@ -63,7 +62,7 @@ def pressure_of_scene(scene: Scene) -> str | None:
     Returns:
         A sentence, or None.
     """
-    return _warning(scene, [abs(mesh_force(scene, scene.operating_point.input_torque))] * 2)
+    return _warning(scene, loads_of_scene(scene))
 
 
 def _warning(scene: Scene, forces: list[float]) -> str | None:
