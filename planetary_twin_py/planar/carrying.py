@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import lru_cache
 
+from ..accuracy import AccuracyWarning
 from ..scene import Scene
 from .load_sharing import load_sharing
 
@@ -28,7 +30,12 @@ def carrying(scene: Scene) -> tuple[float, ...]:
         return every
     try:
         found = load_sharing(scene)
-    except ValueError:  # no equilibrium with these bearings
+    except ValueError as reason:
+        warnings.warn(
+            f"all planets count as loaded, because their static loads are not found: {reason}",
+            AccuracyWarning,
+            stacklevel=2,
+        )
         return every
     touching = (found.mesh_force[:, :, : scene.gearset.planets] > 0.0).any(axis=1)
     return tuple(touching.mean(axis=0).tolist())

@@ -8,6 +8,7 @@ from planar.moving_scenes import evenly, planar
 from power_flows import FLOWS, scene_of
 
 import planetary_twin_py as pt
+from planetary_twin_py.accuracy import AccuracyWarning
 from planetary_twin_py.modal.campbell import resonances
 from planetary_twin_py.modal.natural import carrying_planets, spring_model
 
@@ -91,3 +92,9 @@ def test_the_planar_matrix_lacks_the_meshes_of_a_planet_without_load():
     squares = np.linalg.eigvalsh(matrix * np.outer(scale, scale))
     expected = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * math.pi)
     assert pt.natural_modes(scene).frequencies == pytest.approx(expected, rel=1e-6, abs=0.1)
+
+
+def test_it_is_said_that_all_planets_count_as_loaded_where_no_static_load_is_found():
+    soft = pt.load_scene("floating_sun").replace(**{"supports.planet.bearing": 1e3})
+    with pytest.warns(AccuracyWarning, match="all planets count as loaded, because"):
+        pt.natural_modes(soft, "planar")
