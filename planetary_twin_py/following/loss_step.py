@@ -6,6 +6,8 @@ friction is proportional to the loss of the teeth, a change of drag has the sign
 change of a zero is constant, a change of a gain is proportional to the torque. They differ once
 load or direction has varied. The kept parameters are uncertain: they are unknowns of each
 comparison, with their covariance.
+
+Each unknown is scaled by its standard deviation, because zeros in N m and gains differ by decades.
 """
 
 from __future__ import annotations
@@ -62,7 +64,10 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     added = added / np.maximum(np.sqrt(np.mean(added**2, axis=0)), 1e-300)
     shapes = added / sd[:, None]
     # Whitened readings have the covariance 1 + S P S'; its inverse is 1 - S inner S' (Woodbury).
-    inner = covariance @ np.linalg.inv(np.eye(len(covariance)) + slopes.T @ slopes @ covariance)
+    root = _root(covariance)
+    posterior = np.linalg.qr(np.vstack([np.eye(len(root)), slopes @ root]), mode="r")
+    half = np.linalg.solve(posterior.T, root.T)
+    inner = half.T @ half
     along = _from_each(shapes[:, :, None] * slopes[:, None, :])  # (n, causes, parameters)
     square = _from_each(shapes**2) - np.einsum("nci,ij,ncj->nc", along, inner, along)
     square = np.where(square > 0.0, square, np.inf)  # round-off: no information, so no weight
@@ -78,6 +83,14 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     starts = share.sum(axis=1)
     first = int(np.searchsorted(np.cumsum(starts), BEFORE))
     return StepSize(size, math.sqrt(variance), first, int(np.argmax(starts)))
+
+
+def _root(covariance: Array) -> Array:
+    """A square root L of a covariance L L', with parameters of any units or without error."""
+    sd = np.sqrt(np.diag(covariance))
+    inverse = np.divide(1.0, sd, out=np.zeros_like(sd), where=sd > 0.0)
+    value, vector = np.linalg.eigh(covariance * inverse * inverse[:, None])
+    return np.asarray(sd[:, None] * vector * np.sqrt(np.maximum(value, 0.0)))
 
 
 def _from_each(values: Array) -> Array:
@@ -97,13 +110,14 @@ class StepCause:
     def __init__(self, begin: float, covariance: Array, possible: tuple[str, ...] = CAUSES) -> None:
         self.begin = begin
         self._possible = np.array([cause in possible for cause in CAUSES])
-        self._count, self._square = 0, 0.0
-        unknowns = len(covariance) + len(CAUSES)
-        self._matrix, self._vector = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
-        self._prior = np.zeros((unknowns, unknowns))
-        parameters = len(covariance)
-        self._prior[:parameters, :parameters] = np.linalg.pinv(covariance, hermitian=True)
-        self._prior[parameters:, parameters:] = FLAT * np.eye(len(CAUSES))
+        self._count = 0
+        parameters, causes = len(covariance), len(CAUSES)
+        self._scale = np.zeros((parameters + causes, parameters + causes))
+        self._scale[:parameters, :parameters] = _root(covariance)
+        self._scale[parameters:, parameters:] = np.eye(causes) / math.sqrt(FLAT)
+        self._triangle = np.diag([*np.ones(parameters + causes), 0.0])
+        """Rows of the scaled unknowns, whose priors are 0 +- 1, and of the scores, reduced to a
+        triangle: the normal equations would lose the priors beside large torques."""
         self._known = parameters
 
     def add(self, found: Balance) -> None:
@@ -113,10 +127,8 @@ class StepCause:
             found: balance with the parameters from before the step.
         """
         row = np.concatenate([found.slope, found.added]) / found.sd
-        score = found.value / found.sd
-        self._matrix += np.outer(row, row)
-        self._vector += score * row
-        self._square += score**2
+        row = np.append(row @ self._scale, found.value / found.sd)
+        self._triangle = np.linalg.qr(np.vstack([self._triangle, row]), mode="r")
         self._count += 1
 
     @property
@@ -127,13 +139,13 @@ class StepCause:
         gain = np.array([self._gain(n) for n in range(len(CAUSES))])
         gain[~self._possible] = -np.inf
         order = np.argsort(-gain, kind="stable")
-        misfit = 2.0 * (0.5 * self._square - float(gain.max())) / self._count
+        square = float(np.sum(self._triangle[:, -1] ** 2))
+        misfit = 2.0 * (0.5 * square - float(gain.max())) / self._count
         plausible = gain > gain.max() - BETTER * max(misfit, 1.0)
         return tuple(CAUSES[n] for n in order if plausible[n])
 
     def _gain(self, cause: int) -> float:
         """Gain of log-likelihood of one cause together with errors of the parameters."""
-        rows = [*range(self._known), self._known + cause]
-        matrix = (self._matrix + self._prior)[np.ix_(rows, rows)]
-        vector = self._vector[rows]
-        return float(0.5 * vector @ np.linalg.solve(matrix, vector))
+        columns = [*range(self._known), self._known + cause]
+        explained = np.linalg.qr(self._triangle[:, columns])[0].T @ self._triangle[:, -1]
+        return float(0.5 * explained @ explained)
