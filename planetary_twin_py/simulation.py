@@ -49,6 +49,7 @@ from .window import mesh_statistics
 
 MOST_SAMPLES = 20_000_000
 TOLERANCE = 1e-4  # unless one is given
+ROUNDING = 8.0 * np.finfo(float).eps  # of an angle, relative
 
 
 def simulate(
@@ -114,7 +115,7 @@ def simulate(
     found = _Found(
         samples=samples,
         times=np.arange(passed + 1, end + 1) / sample_rate,
-        mean_speed=(_turned(engine, until) - turned) / duration,
+        mean_speed=_travel(turned, _turned(engine, until)) / duration,
         sums=engine.pop_mesh_sums(until),
         energy=_energy(engine, books, engine.books(until), driven.work - work),
         duration=duration,
@@ -151,6 +152,11 @@ class _Found(NamedTuple):
 def _turned(engine: Run, time: float) -> np.ndarray:
     """Angles of the integrated bodies [rad] at `time` [s], the end of the last window."""
     return _angles(engine, engine.sample(time))[0]
+
+
+def _travel(begin: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Rotations between angles [rad], (bodies,); 0 where they differ by rounding only."""
+    return np.where(np.isclose(begin, end, rtol=ROUNDING, atol=0.0), 0.0, end - begin)
 
 
 def _angles(engine: Run, samples: Samples) -> np.ndarray:

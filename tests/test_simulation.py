@@ -141,3 +141,9 @@ def test_it_is_the_function_whatever_was_imported_before():
 
 def test_dir_lists_the_public_names():
     assert dir(pt) == sorted(pt.__all__)
+
+
+def test_gears_that_are_held_by_their_load_have_a_mean_speed_of_zero():
+    still = {"dynamics": "planar", "operating_point.input_speed": 0.0}
+    run = pt.simulate(pt.load_scene("floating_sun").replace(**still), 0.01)
+    assert run.angle[0].any() and not run.mean_speed.any()
