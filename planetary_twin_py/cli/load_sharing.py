@@ -58,8 +58,9 @@ def load_sharing(
         f"load sharing factor K_gamma, largest mean over a mesh cycle: {found.mean_factor:.4f}"
     )
     console.print(f"with the ripple of the tooth pairs, largest share: {found.factor:.4f}")
-    for line in _remarks(loaded, found):
-        remark(line)
+    remarks = _remarks(loaded, found)
+    for line in remarks:
+        remark(f"warning: {line}")
     if picture is not None:
         from ..plots.load_sharing import load_sharing_diagram
         from ..plots.style import save
@@ -67,7 +68,7 @@ def load_sharing(
         with writing("--picture", picture):
             save(load_sharing_diagram(loaded, found), str(picture))
     if json_ is not None:
-        write_json(_figures(loaded, found), json_)
+        write_json(_figures(loaded, found) | {"remarks": remarks}, json_)
 
 
 def _planets(scene: Scene, found: LoadSharing) -> Table:
@@ -147,19 +148,19 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
     lines = []
     if found.both_flanks:
         lines.append(
-            "warning: both flanks of a mesh touch at some positions: the backlash is used up, "
+            "both flanks of a mesh touch at some positions: the backlash is used up, "
             "and planets are wedged between sun and ring"
         )
     if scene.faults:
-        lines.append("warning: faults: are left out, teeth are healthy here")
+        lines.append("faults: are left out, teeth are healthy here")
     if scene.tilting_axes:
         lines.append(
-            f"warning: dynamics = {scene.dynamics}: these statics are planar, without the axial "
+            f"dynamics = {scene.dynamics}: these statics are planar, without the axial "
             "motion and tilting of axes (supports.*.axial, tilting), which change shares and "
             "bearing forces; simulate with dynamics = quasi_static_spatial"
         )
     if scene.mesh.backlash == "regulatory_factor":
-        lines.append("warning: mesh.backlash = regulatory_factor: forces grow from no deflection")
+        lines.append("mesh.backlash = regulatory_factor: forces grow from no deflection")
     return lines
 
 

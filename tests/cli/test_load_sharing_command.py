@@ -70,6 +70,15 @@ def test_both_flanks_are_reported():
     assert "both flanks" not in invoke("floating_sun").output
 
 
+def test_the_warnings_are_in_json_too(tmp_path):
+    file = tmp_path / "sharing.json"
+    wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")
+    printed = " ".join(invoke("floating_sun", *wedged, "--json", str(file)).output.split())
+    (line,) = json.loads(file.read_text())["remarks"]
+    assert line.startswith("both flanks of a mesh touch") and f"warning: {line}" in printed
+    assert json.loads(invoke("floating_sun", "--json", "-").stdout)["remarks"] == []
+
+
 def test_a_picture_is_drawn(tmp_path):
     png = tmp_path / "sharing.png"
     assert invoke("floating_sun", "--picture", str(png)).exit_code == 0
