@@ -80,7 +80,8 @@ def _lines(state: Following) -> Iterator[str]:
             else f"its size follows from {loss.remedy}"
         )
         kinds = " or ".join(tooth.kinds)
-        yield f"{tooth.gear} tooth {tooth.tooth}: {kinds}, {size}, z = {tooth.z:.1f}"
+        name = f"{tooth.gear} tooth {tooth.tooth}"
+        yield f"{name}: {kinds}, {size}, z = {tooth.z:.1f}{tooth.as_likely}"
 
 
 def state_figures(state: Following) -> dict[str, Any]:

@@ -56,7 +56,13 @@ class ToothState(NamedTuple):
     kinds: tuple[str, ...]
     """Possible kinds of change; one if a change of load has distinguished them."""
     candidates: tuple[str, ...]
-    """Teeth that explain the readings equally well, including this one."""
+    """Teeth that explain the readings equally well, this one first."""
+
+    @property
+    def as_likely(self) -> str:
+        """End of a line that names the other candidates; "" if there are none."""
+        others = ", ".join(self.candidates[1:])
+        return f"; as likely: {others}" if others else ""
 
 
 class _Judged(NamedTuple):
@@ -379,10 +385,7 @@ class TeethFollower:
             if size.status == "ESTIMATED"
             else f"its size follows from {size.remedy}"
         )
-        other_teeth = (
-            f"; as likely: {', '.join(state.candidates[1:])}" if len(state.candidates) > 1 else ""
-        )
-        evidence = f"z = {state.z:.1f}, {size_text}{other_teeth}"
+        evidence = f"z = {state.z:.1f}, {size_text}{state.as_likely}"
         description = f"{state.gear} tooth {state.tooth} changed"
         if tooth not in self._event_index:
             self._event_index[tooth] = len(self.events)
