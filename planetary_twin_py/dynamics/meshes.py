@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh.overlap import FaceMean, overlap_ratio
+from ..engineering_units import figure
+from ..mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from ..mesh.stiffness import StiffnessLaw
 from ..mesh.tip_relief import relieved_table
-from ..mesh.tooth_pairs import PairTable, pair_table, terms_in_use
+from ..mesh.tooth_pairs import NoRoomError, PairTable, pair_table, terms_in_use
 from ..scene import Scene
 from .bodies import Bodies
 from .faults import build_faults, fault_kinks
@@ -27,7 +28,8 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """Fields of `Train`.
 
     Raises:
-        ValueError: there is an instant without contact of teeth (see `pair_table`).
+        ValueError: there is an instant without contact of teeth (see `pair_table`), or helical
+            teeth overlap too much (see `FaceMean`).
     """
     gearset, damping = scene.gearset, scene.mesh.damping
     gears, laws = gearset.geometry, stiffness_laws(scene)
@@ -79,7 +81,25 @@ def _face(scene: Scene, kind: int, law: StiffnessLaw) -> FaceMean | None:
         return None
     mesh = gearset.geometry.meshes[kind]
     overlap = overlap_ratio(gearset.face_width, gearset.base_helix, mesh.base_pitch)
-    return FaceMean(mesh.path, scene.mesh.ramp, overlap, law, fault_kinks(scene, kind))
+    try:
+        return FaceMean(mesh.path, scene.mesh.ramp, overlap, law, fault_kinks(scene, kind))
+    except NoRoomError as error:
+        raise ValueError(_too_wide(scene, error)) from None
+
+
+def _too_wide(scene: Scene, error: NoRoomError) -> str:
+    """Message with the largest face width for the helix of the scene."""
+    gearset = scene.gearset
+    widest = min(
+        largest_overlap(mesh.path) / overlap_ratio(1.0, gearset.base_helix, mesh.base_pitch)
+        for mesh in gearset.geometry.meshes
+    )
+    below = 0.999 * widest  # so that its rounding fits, too
+    return (
+        f"gearset.face_width = {figure(gearset.face_width, 'm')}: must be at most "
+        f"{figure(below, 'm')} with gearset.helix_angle = {figure(gearset.helix_angle, 'rad')}: "
+        f"{error}"
+    )
 
 
 def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) -> PairTable:

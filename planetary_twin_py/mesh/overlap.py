@@ -22,10 +22,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .._core import TOTAL
+from .._core import PAIRS, TOTAL
 from ..gearset.geometry import PathOfContact
 from .stiffness import StiffnessLaw
-from .tooth_pairs import Along, PairTable, along, pair_table, segmented
+from .tooth_pairs import Along, NoRoomError, PairTable, along, pair_table, segmented
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -48,6 +48,26 @@ def overlap_ratio(face_width: float, base_helix: float, base_pitch: float) -> fl
     return face_width * abs(math.tan(base_helix)) / base_pitch
 
 
+def largest_overlap(path: PathOfContact) -> float:
+    """Largest overlap ratio with room for all parts of tooth pairs that are in contact at once.
+
+    Args:
+        path: path of contact of a slice.
+
+    Returns:
+        The overlap ratio, by bisection to 1e-4.
+    """
+    fits, crowded = 0.0, float(PAIRS)
+    while crowded - fits > 1e-4:
+        middle = 0.5 * (fits + crowded)
+        try:
+            _empty_table(_parts(path), middle, ())
+            fits = middle
+        except NoRoomError:
+            crowded = middle
+    return fits
+
+
 class Part(NamedTuple):
     """Part of the path of contact, before or after the pitch point [base pitches]."""
 
@@ -55,6 +75,19 @@ class Part(NamedTuple):
     last: float
     mark: float
     """Added to the shift of a pair, to distinguish its parts."""
+
+
+def _parts(path: PathOfContact) -> tuple[Part, Part]:
+    return Part(-path.approach, 0.0, 0.0), Part(0.0, path.recess, AFTER)
+
+
+def _empty_table(parts: Sequence[Part], overlap: float, kinks: Sequence[float]) -> PairTable:
+    """A table of the parts of pairs without weights, whose slices have kinks."""
+    half = 0.5 * overlap
+    ends = {end for part in parts for end in (part.first, part.last)}
+    corners = [end + side * half for end in (*ends, *kinks) for side in (-1.0, 1.0)]
+    reaches = [(part.first - half, part.last + half) for part in parts]
+    return segmented(reaches, corners, [part.mark for part in parts])
 
 
 class FaceMean:
@@ -68,8 +101,9 @@ class FaceMean:
         kinks: see `pair_table`.
 
     Raises:
-        ValueError: the contact ratio of a slice is below 1 + ramp, teeth overlap by more than the
-            table has room for, or it has no room for so many faults.
+        NoRoomError: teeth overlap by more than the table has room for, see `largest_overlap`.
+        ValueError: the contact ratio of a slice is below 1 + ramp, or the table has no room for so
+            many faults.
     """
 
     def __init__(
@@ -82,12 +116,9 @@ class FaceMean:
     ) -> None:
         self._overlap = overlap
         self._slices = pair_table(path, ramp, law.strength, law.sharing, kinks)
-        self._parts = (Part(-path.approach, 0.0, 0.0), Part(0.0, path.recess, AFTER))
-        ends = (-path.approach, -path.approach + ramp, 0.0, path.recess - ramp, path.recess, *kinks)
-        half = 0.5 * overlap
-        corners = [end + side * half for end in ends for side in (-1.0, 1.0)]
-        self._table = segmented([(part.first - half, part.last + half) for part in self._parts],
-                                corners, [part.mark for part in self._parts])  # fmt: skip
+        self._parts = _parts(path)
+        ramps = -path.approach + ramp, path.recess - ramp
+        self._table = _empty_table(self._parts, overlap, (*ramps, *kinks))
         self._weight = self._integral(self._slices.weight[:, :TOTAL])
 
     def table(self) -> PairTable:

@@ -28,6 +28,11 @@ from .interpolation import NODES, through
 
 MOST_PAIRS = 3  # of spur teeth in contact at once
 
+
+class NoRoomError(ValueError):
+    """More tooth pairs, or parts of them, are in contact at once than a table has room for."""
+
+
 Along = Callable[[np.ndarray], np.ndarray]  # function of positions on the path of contact
 
 
@@ -110,7 +115,8 @@ def segmented(
         Segments between the corners, and the pairs that are in contact in each.
 
     Raises:
-        ValueError: the table has no room for the corners, or for the pairs.
+        NoRoomError: the table has no room for the pairs.
+        ValueError: it has no room for the corners.
     """
     edges = sorted({0.0, 1.0} | {round(corner - math.floor(corner), 12) for corner in corners})
     if len(edges) > SEGMENTS:
@@ -139,9 +145,8 @@ def segmented(
             if first < middle + n < last
         ]
         if len(shifts) > PAIRS:
-            raise ValueError(
-                f"gearset.helix_angle, gearset.face_width: teeth overlap so much that {len(shifts)}"
-                f" parts of tooth pairs are in contact at once: at most {PAIRS}"
+            raise NoRoomError(
+                f"{len(shifts)} parts of tooth pairs are in contact at once: at most {PAIRS}"
             )
         table.shift[j] = shifts[0]  # absent pairs have a position but no weight
         table.shift[j, : len(shifts)] = shifts

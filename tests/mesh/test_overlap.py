@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py._core import TERMS, TOTAL
+from planetary_twin_py._core import PAIRS, TERMS, TOTAL
 from planetary_twin_py.gearset.geometry import PathOfContact
-from planetary_twin_py.mesh.overlap import FaceMean, overlap_ratio
+from planetary_twin_py.mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from planetary_twin_py.mesh.stiffness import given_stiffness, tooth_stiffness
-from planetary_twin_py.mesh.tooth_pairs import mean_weight, pair_table
+from planetary_twin_py.mesh.tooth_pairs import NoRoomError, mean_weight, pair_table
 
 PATH = PathOfContact(0.7, 0.85)
 OVERLAPS = pytest.mark.parametrize("overlap", [0.05, 0.446, 1.0, 1.9951, 3.1])
@@ -133,6 +133,8 @@ def test_a_fault_weakens_the_mean_of_the_slices_it_is_in():
         assert found == pytest.approx(expected, abs=2e-4)
 
 
-def test_beyond_the_room_of_the_table_the_error_names_what_to_change():
-    with pytest.raises(ValueError, match="face_width: teeth overlap so much that 9 parts"):
-        FaceMean(PATH, 0.03, 3.6, GIVEN)
+def test_the_largest_overlap_is_the_last_for_which_the_table_has_room():
+    largest = largest_overlap(PATH)
+    assert FaceMean(PATH, 0.03, largest, GIVEN).table().present.sum(axis=1).max() == PAIRS
+    with pytest.raises(NoRoomError, match="9 parts of tooth pairs are in contact at once"):
+        FaceMean(PATH, 0.03, largest + 1e-3, GIVEN)
