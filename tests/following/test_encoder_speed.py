@@ -14,7 +14,14 @@ SLOW = 2_000.0  # [Hz]
 
 
 def followed(
-    stated=COUNTS, rate=SLOW, speed=lambda time: TRAIN.speed, sign=1, cuts=9, lost=None, late=0.0
+    stated=COUNTS,
+    rate=SLOW,
+    speed=lambda time: TRAIN.speed,
+    sign=1,
+    cuts=9,
+    lost=None,
+    late=0.0,
+    reading=1.0,
 ):
     """A follower of readings and of encoders with COUNTS per turn at 2 kHz, for 8 s."""
     time = np.arange(0.0, 8.0, 1.0 / SLOW)
@@ -29,7 +36,7 @@ def followed(
     columns = {
         "input_torque": np.full(len(read), 63.0),
         "output_torque": np.full(len(read), -62.0 / TRAIN.ratio),
-        "input_speed": omega[20::20],
+        "input_speed": reading * omega[20::20],
     }
     for rows in np.array_split(np.arange(len(read)), cuts):
         follower.add(Readings(read[rows] + late, {name: v[rows] for name, v in columns.items()}))
@@ -76,6 +83,13 @@ def test_a_lost_turn_is_no_wrong_encoder():
 def test_encoders_that_do_not_are_refused_with_the_likely_values(wrong, said, cuts):
     with pytest.raises(InputError, match=said):
         followed(**wrong, cuts=cuts)
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("rpm", 30.0 / np.pi), ("deg/s", 180.0 / np.pi)])
+def test_a_wrong_unit_of_the_speed_is_named_before_the_counts(unit, factor):
+    said = f"rad/s; the speed is probably in {unit}: scale input_speed and output_speed by "
+    with pytest.raises(InputError, match=said + f"{1.0 / factor:.6g}; if not, the counts"):
+        followed(speed=lambda time: 0.1 * TRAIN.speed, reading=factor)
 
 
 def test_without_a_measured_speed_it_is_a_remark_that_nothing_is_checked():
