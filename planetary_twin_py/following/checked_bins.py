@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from ..scene import Scene
 from .bins import Array, Bin, Counters
 from .checks import Checks
+from .dead_torques import DeadTorques
 from .merging import Merge
 from .sensors import Sensors, torque_noise
 from .spacing import Spacing
@@ -34,6 +35,7 @@ class CheckedBins:
         self._merge = Merge(period, {"input_torque": noise[0], "output_torque": noise[1]})
         self._checks = Checks(train, sensors, period)
         self._spacing = Spacing()
+        self._dead_torques = DeadTorques(train, period)
         self._unit_remarks = UnitRemarks(scene.operating_point)
 
     @property
@@ -72,8 +74,9 @@ class CheckedBins:
         self._checks.check()
 
     def remarks(self) -> Iterator[str]:
-        """A line for each unit that may be wrong, and for each later contradiction."""
+        """A line for each unit that may be wrong, each later contradiction and dead torque."""
         yield from self._checks.remarks()
+        yield from self._dead_torques.remarks()
         yield from self._spacing.remarks(self._period)
         yield from self._unit_remarks.remarks()
 
@@ -82,6 +85,7 @@ class CheckedBins:
         self._spacing.add((time_bin.number + 1) * self._period)
         values = {name: mean.value for name, mean in time_bin.means.items()}
         speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
+        self._dead_torques.add(time_bin.number * self._period, values, speed)
         self._unit_remarks.add(values.get("input_torque", math.nan), speed)
         return time_bin
 
@@ -98,7 +102,7 @@ def table_remarks(
         columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
 
     Returns:
-        A line for each unit that may be wrong, and for each later contradiction.
+        A line for each unit that may be wrong, each later contradiction and dead torque.
 
     Raises:
         InputError: a channel has another unit, sign or shaft, see `checks`.

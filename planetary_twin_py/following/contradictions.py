@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import permutations
 from typing import NamedTuple
 
 import numpy as np
@@ -77,6 +78,11 @@ class Contradictions:
         speed = np.where(np.isfinite(speed_in), speed_in, speed_out / train.ratio)
         loaded = self._loaded(rows.time, speed, input_torque, output_torque)
         if loaded.sum() >= FEWEST:
+            found["dead torque"] = self._dead(input_torque[loaded], output_torque[loaded])
+            if found["dead torque"]:
+                return found  # whose other comparisons of torques would mislead
+        loaded &= input_torque != 0.0
+        if loaded.sum() >= FEWEST:
             ratio = float(np.median(output_torque[loaded] / input_torque[loaded]))
             size = float(np.median(np.abs(input_torque[loaded])))
             found["torques"] = self._torques(ratio, size)
@@ -97,13 +103,25 @@ class Contradictions:
         self, time: Array, speed: Array, input_torque: Array, output_torque: Array
     ) -> NDArray[np.bool_]:
         """Rows whose torques differ by the loss only."""
-        train, least = self.train, LOADED * self.train.torque
-        loaded = (np.abs(input_torque) > least) | (np.abs(train.ratio * output_torque) > least)
-        loaded &= np.isfinite(input_torque) & np.isfinite(output_torque) & (input_torque != 0.0)
+        size = np.fmax(np.abs(input_torque), np.abs(self.train.ratio * output_torque))
+        loaded = size > LOADED * self.train.torque
+        loaded &= np.isfinite(input_torque) & np.isfinite(output_torque)
         if len(time) > 1 and np.diff(time).min() > 0.0:
             inertial = np.abs(self._inertia * np.gradient(speed, time))
-            loaded &= ~(inertial > INERTIAL * np.abs(input_torque))  # true without a speed
+            loaded &= ~(inertial > INERTIAL * size)  # true without a speed
         return loaded
+
+    def _dead(self, input_torque: Array, output_torque: Array) -> str:
+        """Line on a torque that is exactly 0 in all rows in which the other one is not."""
+        torques = {"input_torque": input_torque, "output_torque": output_torque}
+        for (name, values), (other, load) in permutations(torques.items()):
+            if not values.any():
+                size = float(np.median(np.abs(load)))
+                return (
+                    f"{name} is exactly 0 and {other} is {size:.4g} N m: is the sensor of {name} "
+                    "connected?"
+                )
+        return ""
 
     def _speed_limit(self, peak: float) -> str:
         limit = self.train.speed_limit
