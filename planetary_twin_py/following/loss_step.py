@@ -65,7 +65,7 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     shapes = added / sd[:, None]
     # Whitened readings have the covariance 1 + S P S'; its inverse is 1 - S inner S' (Woodbury).
     root = _root(covariance)
-    posterior = np.linalg.qr(np.vstack([np.eye(len(root)), slopes @ root]), mode="r")
+    posterior = _triangle(np.vstack([np.eye(len(root)), slopes @ root]))
     half = np.linalg.solve(posterior.T, root.T)
     inner = half.T @ half
     along = _from_each(shapes[:, :, None] * slopes[:, None, :])  # (n, causes, parameters)
@@ -93,6 +93,11 @@ def _root(covariance: Array) -> Array:
     return np.asarray(sd[:, None] * vector * np.sqrt(np.maximum(value, 0.0)))
 
 
+def _triangle(rows: Array) -> Array:
+    """Rows R with R'R equal to that of `rows`, as many as there are columns."""
+    return np.asarray(np.linalg.qr(rows, mode="r"))
+
+
 def _from_each(values: Array) -> Array:
     """Sums from each row to the last."""
     return np.cumsum(values[::-1], axis=0)[::-1]
@@ -115,7 +120,7 @@ class StepCause:
         self._scale = np.zeros((parameters + causes, parameters + causes))
         self._scale[:parameters, :parameters] = _root(covariance)
         self._scale[parameters:, parameters:] = np.eye(causes) / math.sqrt(FLAT)
-        self._triangle = np.diag([*np.ones(parameters + causes), 0.0])
+        self._rows = np.diag([*np.ones(parameters + causes), 0.0])
         """Rows of the scaled unknowns, whose priors are 0 +- 1, and of the scores, reduced to a
         triangle: the normal equations would lose the priors beside large torques."""
         self._known = parameters
@@ -128,7 +133,7 @@ class StepCause:
         """
         row = np.concatenate([found.slope, found.added]) / found.sd
         row = np.append(row @ self._scale, found.value / found.sd)
-        self._triangle = np.linalg.qr(np.vstack([self._triangle, row]), mode="r")
+        self._rows = _triangle(np.vstack([self._rows, row]))
         self._count += 1
 
     @property
@@ -139,7 +144,7 @@ class StepCause:
         gain = np.array([self._gain(n) for n in range(len(CAUSES))])
         gain[~self._possible] = -np.inf
         order = np.argsort(-gain, kind="stable")
-        square = float(np.sum(self._triangle[:, -1] ** 2))
+        square = float(np.sum(self._rows[:, -1] ** 2))
         misfit = 2.0 * (0.5 * square - float(gain.max())) / self._count
         plausible = gain > gain.max() - BETTER * max(misfit, 1.0)
         return tuple(CAUSES[n] for n in order if plausible[n])
@@ -147,5 +152,5 @@ class StepCause:
     def _gain(self, cause: int) -> float:
         """Gain of log-likelihood of one cause together with errors of the parameters."""
         columns = [*range(self._known), self._known + cause]
-        explained = np.linalg.qr(self._triangle[:, columns])[0].T @ self._triangle[:, -1]
+        explained = np.linalg.qr(self._rows[:, columns])[0].T @ self._rows[:, -1]
         return float(0.5 * explained @ explained)
