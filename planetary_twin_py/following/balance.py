@@ -41,6 +41,7 @@ from .history import History
 from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
 from .sensors import Sensors
+from .slow_change import SlowChange
 from .train import followed_train
 from .turning import Turning
 from .variety import Variety
@@ -125,6 +126,7 @@ class BalanceFollower:
         )
         self._bins = CheckedBins(self.scene, self.train, self.sensors, self.period)
         self._cusum, self._refusals = Cusum(), _Refusals()
+        self._slow_change = SlowChange()
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
         self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
@@ -186,6 +188,9 @@ class BalanceFollower:
         self.gated += innovation.gated
         if not innovation.gated:
             self._variety.add(read)
+        if self._identified(F):
+            sd = _uncertainty(self._interval_filter, F)
+            self._slow_change.add(read.time, self.friction_level, sd)
         refused_since = self._refusals.add(read.time, innovation)
         step = self._cusum.add(read.time, alarm_innovation.value, alarm_innovation.sd)
         if step is None and refused_since is not None:
@@ -277,6 +282,7 @@ class BalanceFollower:
         for balance_filter in (self._alarm_filter, self._interval_filter):
             balance_filter.reopen(step_size.size, slope)
         self._variety.restart()
+        self._slow_change = SlowChange()
 
     def _report(self, reference_filter: BalanceFilter, cause: StepCause, event: Event) -> None:
         """Add an event, unless steps follow each other: then no single cause explains them."""
@@ -381,16 +387,21 @@ class BalanceFollower:
         if level.status == "ESTIMATED" and math.isfinite(self.operating[0]):
             teeth = self._losses(float(self._interval_filter.x[T]), *self.operating).teeth
             yield from friction_remarks(level.low, level.value, level.high, teeth)
+        yield from self._slow_change.remarks()
         yield from self.counters.remarks()
         yield from self._bins.remarks()
         if self.gated:
             yield f"{self.gated} bins do not satisfy the torque balance and are not used"
 
+    def _identified(self, state: int) -> bool:
+        """Whether the readings determine a parameter much better than its prior."""
+        prior = float(self._interval_filter.prior[1][state - F])
+        return _uncertainty(self._interval_filter, state) < IDENTIFIABLE * prior
+
     def _parameter(self, state: int) -> Estimate:
         interval_filter, name = self._interval_filter, STATES[state]
         sd = _uncertainty(interval_filter, state)
-        prior = float(interval_filter.prior[1][state - F])
-        identified = sd < IDENTIFIABLE * prior
+        identified = self._identified(state)
         remedy = BALANCE
         if self.innovation is not None:
             remedy = self._variety.remedy(state, interval_filter.p, identified)
