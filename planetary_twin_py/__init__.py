@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
-    from .fleet.fleet import Fleet, FleetEstimate, FleetEvent
+    from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
     from .following.baseline import LearnedCell
@@ -86,7 +86,7 @@ _EXPORTS = {
     "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
-    "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent"),
+    "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent", "FleetScatter"),
     "following.balance_filter": ("Innovation",),
     "following.baseline": ("LearnedCell",),
     "following.checks": ("InputError",),
@@ -132,6 +132,7 @@ __all__ = [
     "Fleet",
     "FleetEstimate",
     "FleetEvent",
+    "FleetScatter",
     "Follower",
     "Following",
     "Innovation",

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..fleet.groups import Executor, GearboxResult
 
 SHOWN = 20  # gearboxes with events
+STEP = 0.1  # of the loss torque, which users look for
 
 
 def fleet(
@@ -63,8 +64,9 @@ def fleet(
     """Estimate friction of many gearboxes of the type SCENE, with one reading in 0.1 s to 60 s.
 
     Prints changes: steps of the loss torque of a gearbox. --out and --json have the friction level
-    of each gearbox with a 95 % interval. The fleet has one false alarm per year if each reading is
-    the mean over its interval; instants of a wandering speed give more.
+    of each gearbox with a 95 % interval. The fleet has one false alarm per year. Readings should be
+    means over their intervals: where they scatter more than their noise, a warning names the steps
+    that may not be found.
 
     Example: planetary-twin fleet wind_turbine_stage --from scada.parquet --out state.csv
     """
@@ -114,9 +116,11 @@ def _executor(scheduler: str | None) -> Iterator[Executor]:
 def _show(console: Console, found: Sequence[GearboxResult]) -> None:
     changed = [one for one in found if one.events and not one.fault]
     estimated = sum(math.isfinite(one.estimates["friction_level"][0]) for one in found)
+    blind = sum(one.scatters and not one.fault and one.smallest_step > STEP for one in found)
+    hidden = f"; {blind} may hide a step of {100.0 * STEP:g} % in their scatter" if blind else ""
     console.print(
         f"{len(found)} gearboxes, friction level of {estimated} estimated, "
-        f"{len(changed) or 'none'} changed",
+        f"{len(changed) or 'none'} changed{hidden}",
         highlight=False,
     )
     _show_faults(console, [one for one in found if one.fault])
@@ -150,7 +154,10 @@ def _show_faults(console: Console, faulty: Sequence[GearboxResult]) -> None:
 
 
 def _warn(found: Sequence[GearboxResult]) -> None:
-    """Name the gearboxes with a doubtful unit, and those without complete readings."""
+    """Name gearboxes with a large scatter, with a doubtful unit, and without complete readings."""
+    scattering = [one for one in found if one.scatters and not one.fault]
+    if scattering:
+        remark(f"warning: {_scatter_line(scattering)}")
     lines = [f"{one.gearbox}: {line}" for one in found if not one.fault for line in one.remarks]
     for one in found:
         count, first = one.missing
@@ -165,6 +172,27 @@ def _warn(found: Sequence[GearboxResult]) -> None:
         remark(f"warning: and {len(lines) - SHOWN} more lines; --json has all")
 
 
+def _scatter_line(found: Sequence[GearboxResult]) -> str:
+    """What the scatter of these gearboxes is, means and does."""
+    names = ", ".join(one.gearbox for one in found[:SHOWN])
+    if len(found) > SHOWN:
+        names += f" and {len(found) - SHOWN} more"
+    measured, stated = zip(*(one.scatter for one in found), strict=True)
+    steps = [one.smallest_step for one in found]
+    return (
+        f"{names}: the torque balance scatters by {_range(measured)} N m, the sensors explain "
+        f"{_range(stated)} N m: rows are instants of a wandering speed or shorter than its wander, "
+        "or noise in --sensors is too small; intervals are wider, and steps of less than "
+        f"{_range([100.0 * step for step in steps])} % of the loss may not be found"
+    )
+
+
+def _range(values: Sequence[float]) -> str:
+    """Smallest and largest of some values, with two digits each."""
+    low, high = (f"{float(f'{value:.2g}'):g}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
 def _figures(one: GearboxResult) -> dict[str, object]:
     return {
         "readings": one.readings,
@@ -173,6 +201,10 @@ def _figures(one: GearboxResult) -> dict[str, object]:
         "fits": one.fits,
         "fault": one.fault or None,
         "remarks": one.remarks,
+        "scatter": _finite(one.scatter[0]),
+        "stated_scatter": _finite(one.scatter[1]),
+        "scatters": one.scatters,
+        "smallest_step": _finite(one.smallest_step),
         "estimates": {
             name: [_finite(value) for value in values] for name, values in one.estimates.items()
         },

@@ -40,6 +40,7 @@ Array = NDArray[np.float64]
 PARAMETERS = "friction_level", "torque_zero", "drag", "torque_gain", "law_torque", "law_speed"
 F, B, D, G, F_T, F_W = range(len(PARAMETERS))
 OWN = [0, 1, 2, 3, 5, 6]  # indices of these parameters in a `Memory`, which also has the inertia
+UNSEEN = 10.0  # variance of inertia torques between rows at most, over that of the differences
 
 
 class Row(NamedTuple):
@@ -53,6 +54,17 @@ class Row(NamedTuple):
     """Acceleration of the input [rad/s^2]."""
 
 
+class SceneBalances(NamedTuple):
+    """Balances of one row with the losses of the scene, (n,) each; without a filter."""
+
+    residual: Array
+    """Measured minus expected balance at the input [N m]; NaN without a reading."""
+    torque: Array
+    """Mean of the torques of both ends [N m]."""
+    noise: Array
+    """Variance that the noise of the sensors and the inertia explain [N^2 m^2]."""
+
+
 class Innovations(NamedTuple):
     """Measured minus expected balances, (n,) each."""
 
@@ -60,6 +72,8 @@ class Innovations(NamedTuple):
     """Innovation at the input [N m]; NaN without a reading."""
     sd: Array
     """Expected standard deviation [N m]."""
+    scene: SceneBalances
+    """The balances without the filter."""
 
 
 @dataclass
@@ -97,10 +111,14 @@ class Balances:
         self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
         self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
         self._fall, self._walk = self.memory.fall[OWN], self.memory.walk[OWN]
+        self._weight = np.full(self.count, self._noise[1] / sum(self._noise))
+        """Weight of the input in the mean torque of both ends, (n,)."""
         self.x = np.tile(self.mean, (self.count, 1))
         self.p = np.tile(np.diag(self.sd**2), (self.count, 1, 1))
+        self.least = np.ones(self.count)
+        """Variances of the balances over those of the sensors' noise, at least 1, (n,)."""
         self.excess = np.ones(self.count)
-        """Variances of the innovations over those of the sensors' noise, at least 1, (n,)."""
+        """The same of the present innovations, at least `least`, (n,)."""
 
     def restart(self, which: NDArray[np.bool_]) -> None:
         """Reset parameters and covariances of some gearboxes to the priors.
@@ -108,7 +126,26 @@ class Balances:
         Args:
             which: mask of the gearboxes, (n,).
         """
-        self.x[which], self.p[which], self.excess[which] = self.mean, np.diag(self.sd**2), 1.0
+        self.x[which], self.p[which] = self.mean, np.diag(self.sd**2)
+        self.excess[which] = self.least[which]
+
+    def widen(self, which: NDArray[np.bool_], measured: Array, stated: Array) -> None:
+        """Restart some gearboxes with their measured scatter as noise of the balance.
+
+        What accelerations can explain is an error of the input torque less the inertia torque. The
+        rest is noise of both sensors in the ratio as stated.
+
+        Args:
+            which: mask of the gearboxes, (n,).
+            measured: variances of the balances [N^2 m^2], (n,).
+            stated: variances that the sensors and the inertia explain [N^2 m^2], (n,).
+        """
+        noise = sum(self._noise)
+        added = measured[which] - stated[which]
+        inertial = np.minimum(added, UNSEEN * (stated[which] - noise) / INERTIA**2)
+        self.least[which] = 1.0 + added / noise
+        self._weight[which] *= (noise + added - inertial) / (noise + added)
+        self.restart(which)
 
     def reopen(self, which: NDArray[np.bool_]) -> None:
         """Add the prior variances of friction, zero and drag, after a step of the loss.
@@ -140,6 +177,13 @@ class Balances:
         oil = np.where(np.isfinite(row.oil_temperature), row.oil_temperature, train.oil_temperature)
         sign = np.sign(speed)
         losses = self.table(measured_torque, speed, oil)
+        balance = np.where(usable, driving + driven, np.nan)
+        inertia_noise = (INERTIA * self._inertia * np.where(usable, row.acceleration, 0.0)) ** 2
+        scene = SceneBalances(
+            balance - sign * (losses.teeth + losses.rest),
+            0.5 * (driving - driven),
+            sum(self._noise) + inertia_noise,
+        )
         phi, logarithms = self._friction(measured_torque, speed)
         expected_sum = (
             sign * (phi * losses.teeth + losses.rest + x[:, D])
@@ -147,8 +191,7 @@ class Balances:
             + x[:, G] * measured_torque
         )
         # Mean of both ends, weighted by the inverse variances of their readings.
-        weight = self._noise[1] / sum(self._noise)
-        torque = weight * measured_torque + (1.0 - weight) * (
+        torque = self._weight * measured_torque + (1.0 - self._weight) * (
             expected_sum - np.where(usable, driven, expected_sum - measured_torque)
         )
         losses = self.table(torque, speed, oil)
@@ -160,11 +203,9 @@ class Balances:
             ], axis=1,
         )  # fmt: skip
         expected = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * torque
-        noise = self.excess * sum(self._noise)
-        noise += (INERTIA * self._inertia * np.where(usable, row.acceleration, 0.0)) ** 2
-        return self._update(
-            np.where(usable, driving + driven - expected, np.nan), slope, noise, step
-        )
+        noise = self.excess * sum(self._noise) + inertia_noise
+        innovation = np.where(usable, driving + driven - expected, np.nan)
+        return Innovations(innovation, self._update(innovation, slope, noise, step), scene)
 
     def _friction(self, torque: Array, speed: Array) -> tuple[Array, tuple[Array, Array]]:
         """Friction level at operating points, and the logarithms of torque and speed, (n,) each."""
@@ -180,8 +221,10 @@ class Balances:
         added_variance = (1.0 - decay**2) * self.sd**2 + self._walk**2 * step
         self.p[:, range(len(decay)), range(len(decay))] += added_variance
 
-    def _update(self, innovation: Array, slope: Array, noise: Array, step: float) -> Innovations:
+    def _update(self, innovation: Array, slope: Array, noise: Array, step: float) -> Array:
         """Scalar updates in Joseph's form, of the gearboxes whose reading passes the gate.
+
+        Returned are the expected standard deviations of the innovations [N m], (n,).
 
         (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h. Sums
         are element by element, so that the bits of a gearbox do not depend on the others.
@@ -200,8 +243,10 @@ class Balances:
         self.p = self.p - (cross + np.swapaxes(cross, 1, 2)) + square
         weight = min(step / NOISE_MEMORY, 0.1)
         normalised_square = np.where(np.isfinite(score), np.minimum(score**2, GATE**2), 1.0)
-        self.excess = np.maximum(1.0, self.excess * (1.0 + weight * (normalised_square - 1.0)))
-        return Innovations(innovation, sd)
+        self.excess = np.maximum(
+            self.least, self.excess * (1.0 + weight * (normalised_square - 1.0))
+        )
+        return np.asarray(sd)
 
 
 def _sum(parts: Iterable[Array]) -> Array:

@@ -66,11 +66,26 @@ class Cusums:
         self._value, self._since = np.zeros(shape), np.full(shape, math.nan)
         self._total, self._weight = np.zeros(shape), np.zeros(shape)
         self._held = np.zeros(shape, dtype=bool)
+        self.waiting = np.zeros(self.count, dtype=bool)
+        """Mask of the gearboxes whose alarms wait, (n,)."""
         self.correlation = np.zeros(self.count)
         """Mean product of successive standardised innovations, (n,)."""
         self._sums = np.zeros((4, self.count))  # scores, readings, weighted values, weights
         self._begin = math.nan
         self._last, self._known = np.full(self.count, math.nan), np.zeros(self.count)
+
+    def restart(self, which: NDArray[np.bool_], time: float) -> None:
+        """Start the sums of some gearboxes from zero, without their past.
+
+        Args:
+            which: mask of the gearboxes, (n,).
+            time: present time [s].
+        """
+        for sums in (self._value, self._total, self._weight, self._sums):
+            sums[:, which] = 0.0
+        self._since[:, which], self._held[:, which] = time, False
+        self.correlation[which] = self._known[which] = 0.0
+        self._last[which] = math.nan
 
     def add(self, time: float, value: Array, sd: Array, step: float) -> Steps:
         """Add an innovation of each gearbox.
@@ -113,7 +128,7 @@ class Cusums:
             self._total[row][grows] += value[grows]
             self._weight[row][grows] += weight[grows]
         self._sums[:] = 0.0
-        alarms = (self._value > self.limit) & ~self._held
+        alarms = (self._value > self.limit) & ~self._held & ~self.waiting
         side, gearbox = np.nonzero(alarms)
         if not len(gearbox):
             return NONE

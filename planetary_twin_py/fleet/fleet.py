@@ -24,12 +24,14 @@ from .balances import PARAMETERS, Balances, F, Row
 from .cusums import TERM, Cusums, Steps, limit
 from .faults import Faults
 from .loss_table import loss_table
+from .scatter import Scatter
 
 Array = NDArray[np.float64]
 
 CHANNELS = ("input_torque", "output_torque", "input_speed", "oil_temperature")
 SLOWEST, FASTEST = 60.0, 0.1  # [s] limits of the time between two readings
 MOST_STEPS = 3  # in close succession, after which the readings of a gearbox do not fit the scene
+CLEAR = 3.0  # standard deviations of a minute's mean from which on a step is found within minutes
 CLOSE = 3.0 * TERM  # [s] between two steps in close succession
 
 
@@ -42,6 +44,23 @@ class FleetEstimate(NamedTuple):
     """Lower end of the 95 % interval, in SI; NaN where there is no value."""
     high: Array
     """Upper end of the 95 % interval, in SI; NaN where there is no value."""
+
+
+class FleetScatter(NamedTuple):
+    """Scatter of the torque balances of all gearboxes in their first minutes, (n,) each.
+
+    Where the noise of the sensors does not explain it, the measured scatter replaces that noise.
+    """
+
+    measured: Array
+    """Standard deviation of the balance of one row [N m]; NaN before it is known."""
+    stated: Array
+    """The same as the noise of the sensors explains it [N m]."""
+    excessive: NDArray[np.bool_]
+    """Whether the noise of the sensors does not explain it."""
+    step: Array
+    """Smallest step of the loss torque that is found within minutes, over the loss torque of the
+    scene at the last operating point."""
 
 
 class FleetEvent(NamedTuple):
@@ -102,6 +121,7 @@ class Fleet:
         self._alarm_filters = Balances(*common, alarm_memory(self.train), self.count)
         self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
         self._faults = Faults(self.scene, self.sensors, self.period, self.count)
+        self._scatter = Scatter(self.count)
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
@@ -153,11 +173,14 @@ class Fleet:
         self._interval_filters.update(reading, step)
         innovations = self._alarm_filters.update(reading, step)
         self.readings += np.isfinite(innovations.value)
+        self._cusums.waiting = ~self._scatter.known
         self._alarm(time, self._cusums.add(time, innovations.value, innovations.sd, self.period))
+        self._widen(self._scatter.add(time, innovations.scene))
 
     def finish(self) -> None:
-        """Compare the last readings with the scene, at the end of a table."""
+        """Judge the last readings, at the end of a table."""
         self._faults.check()
+        self._widen(self._scatter.finish())
 
     @property
     def faults(self) -> Mapping[int, str]:
@@ -184,11 +207,29 @@ class Fleet:
         return (*self._faults.remarks(gearbox), *doubtful)
 
     @property
+    def scatter(self) -> FleetScatter:
+        """Scatter of the balances of all gearboxes, and the steps that it hides."""
+        kept, rows = self._scatter, max(TERM / self.period, 1.0)
+        losses = self.table(self._last_torque, self._last_speed, self._oil)
+        step = CLEAR * kept.sd / math.sqrt(rows) / (losses.teeth + losses.rest)
+        return FleetScatter(kept.sd.copy(), kept.stated.copy(), kept.excessive.copy(), step)
+
+    @property
     def fits(self) -> NDArray[np.bool_]:
         """Whether the readings fit the scene, (n,): neither `misfits` nor `faults`."""
         fits = ~self.misfits
         fits[list(self.faults)] = False
         return fits
+
+    def _widen(self, which: NDArray[np.bool_]) -> None:
+        """Start some gearboxes from their priors, with their measured scatter as noise."""
+        if not which.any():
+            return
+        measured, stated = self._scatter.sd**2, self._scatter.stated**2
+        for filters in (self._interval_filters, self._alarm_filters):
+            filters.widen(which, measured, stated)
+        self._cusums.restart(which, self._time)
+        self.readings[which] = 0
 
     def _note_missing(self, time: float, row: Mapping[str, Array]) -> None:
         """Count the rows without a balance, and keep the last torques and speeds."""

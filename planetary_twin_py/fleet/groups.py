@@ -39,6 +39,12 @@ class GearboxResult:
     """Channel, value and correction of readings that contradict the scene; empty without."""
     remarks: tuple[str, ...]
     """See `Fleet.remarks`."""
+    scatter: tuple[float, float]
+    """Measured scatter of its balance, and what the sensors explain of it [N m]; NaN if unknown."""
+    scatters: bool
+    """Whether the sensors do not explain the scatter, see `FleetScatter.excessive`."""
+    smallest_step: float
+    """See `FleetScatter.step`."""
     missing: tuple[int, float]
     """Number of times of the table without both torques and the speed, and the first of them [s].
     """
@@ -76,6 +82,7 @@ class FollowGroup:
         for row, time in enumerate(table.time):
             fleet.add(float(time), {name: values[row] for name, values in table.columns.items()})
         fleet.finish()
+        scatter = fleet.scatter
         estimates = {name: fleet.estimate(name) for name in PARAMETERS[:4]}
         return tuple(
             GearboxResult(
@@ -89,6 +96,9 @@ class FollowGroup:
                 bool(fleet.fits[n]),
                 fleet.faults.get(n, ""),
                 fleet.remarks(n),
+                (float(scatter.measured[n]), float(scatter.stated[n])),
+                bool(scatter.excessive[n]),
+                float(scatter.step[n]),
                 (int(fleet.missing[n]), float(fleet.first_missing[n])),
             )
             for n, name in enumerate(group)

@@ -43,6 +43,8 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
         "events": "",
         "last_event": "s",
         "last_size": "N m",
+        "scatter": "N m",
+        "smallest_step": "",
     }
     for name in found[0].estimates:
         for part, heading in enumerate((name, f"{name}_low", f"{name}_high")):
@@ -54,6 +56,8 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
     last = [result.events[-1] if result.events else None for result in found]
     batch["last_event"] = np.array([np.nan if event is None else event.found for event in last])
     batch["last_size"] = np.array([np.nan if event is None else event.size for event in last])
+    batch["scatter"] = np.array([result.scatter[0] for result in found])
+    batch["smallest_step"] = np.array([result.smallest_step for result in found])
     columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
     table = FORMATS[kind](path, columns)
     table.write(batch)

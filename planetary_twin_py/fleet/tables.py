@@ -84,6 +84,8 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     time, row = np.unique(stamps, return_inverse=True)
     if advice := day_numbers(time):
         raise ValueError(f"{path}: {advice}")
+    if reason := _different_stamps(time, row, gearbox_index):
+        raise ValueError(f"{path}: {reason}")
     columns = {}
     for name in CHANNELS:
         values = np.full((len(time), len(gearboxes)), np.nan)
@@ -91,3 +93,16 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
             values[row, gearbox_index] = table[name].in_si(name, UNITS[name])
         columns[name] = values
     return FleetReadings(gearboxes, time, columns)
+
+
+def _different_stamps(time: Array, row: NDArray[np.int64], gearbox: NDArray[np.int64]) -> str:
+    """Reason to refuse gearboxes none of which has rows at most of the successive times."""
+    own = [np.unique(row[gearbox == n]) for n in np.unique(gearbox)]
+    own = [rows for rows in own if len(rows) > 1]
+    if not own or min(np.median(np.diff(rows)) for rows in own) <= 1.0:
+        return ""
+    step = min(float(np.median(np.diff(time[rows]))) for rows in own)
+    return (
+        f"{TIME}: gearboxes have rows at different times: round the times of all to the same "
+        f"multiples of {step:g} s"
+    )

@@ -1,0 +1,105 @@
+"""Measures how much the torque balance of each gearbox scatters, from its first balances.
+
+Rows that are instants of a wandering speed contain an inertia torque of which the difference of two
+speeds shows only a part. So do rounded speeds. The residuals of the scene's balance then scatter by
+more than the noise of the sensors explains.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import chdtri
+
+from ..following.balance_filter import GATE
+from .balances import SceneBalances
+
+Array = NDArray[np.float64]
+
+BALANCES, FEWEST = 20, 5  # of a gearbox, from which its scatter is measured; fewest at the end
+APART = 5.0  # [s] between two of them at least, so that they do not share one swing of the speed
+GAIN = 0.2  # largest error of a gain; no more of a balance is explained by its torque
+FITTED = 2  # parameters: a constant and a gain
+RARE = 1e-4  # probability with which noise as stated seems to scatter by more
+MAD = 1.4826  # standard deviation over the median absolute deviation of normal values
+
+
+class Scatter:
+    """Scatter of the balances of many gearboxes.
+
+    Args:
+        count: number of gearboxes.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.sd = np.full(count, math.nan)
+        """Measured standard deviation of a balance [N m], (n,); NaN before it is known."""
+        self.stated = np.full(count, math.nan)
+        """The same as the noise of the sensors explains it [N m], (n,)."""
+        self.excessive = np.zeros(count, dtype=bool)
+        """Whether the noise of the sensors does not explain the scatter, (n,)."""
+        self._balances = SceneBalances(*np.full((3, BALANCES, count), math.nan))
+        self._number = np.zeros(count, dtype=np.int64)
+        self._next = np.full(count, -math.inf)  # [s]
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Whether the scatter of a gearbox has been measured, (n,)."""
+        return np.isfinite(self.sd)
+
+    def add(self, time: float, balances: SceneBalances) -> NDArray[np.bool_]:
+        """Add a balance of every gearbox.
+
+        Args:
+            time: time of the balances [s].
+            balances: the balances, (n,) each.
+
+        Returns:
+            Mask of the gearboxes whose scatter is found excessive now, (n,).
+        """
+        taken = np.isfinite(balances.residual) & (time >= self._next) & (self._number < BALANCES)
+        (gearbox,) = np.nonzero(taken)
+        for kept, values in zip(self._balances, balances, strict=True):
+            kept[self._number[gearbox], gearbox] = values[gearbox]
+        self._number[gearbox] += 1
+        self._next[gearbox] = time + APART
+        return self._measure(taken & (self._number == BALANCES))
+
+    def finish(self) -> NDArray[np.bool_]:
+        """Measure gearboxes with few balances, at the end of a table.
+
+        Returns:
+            Mask of the gearboxes whose scatter is found excessive now, (n,).
+        """
+        return self._measure(~self.known & (self._number >= FEWEST))
+
+    def _measure(self, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        found = np.zeros_like(which)
+        for n in np.flatnonzero(which):
+            own = SceneBalances(*(values[: self._number[n], n] for values in self._balances))
+            variance, freedom = _variance(own)
+            stated = float(np.mean(own.noise))
+            self.sd[n], self.stated[n] = math.sqrt(variance), math.sqrt(stated)
+            found[n] = variance > stated * float(chdtri(freedom, RARE)) / freedom
+        self.excessive |= found
+        return found
+
+
+def _variance(own: SceneBalances) -> tuple[float, int]:
+    """Variance of the residuals of one gearbox, and its degrees of freedom.
+
+    A constant and a gain are fitted. As the noise of a balance is also in its torque, the gain is
+    limited: with a steady torque, a larger one would explain all scatter. Single wild residuals, as
+    the filter rejects them, do not count.
+    """
+    far = np.abs(own.residual - np.median(own.residual))
+    usual = max(MAD * float(np.median(far)), math.sqrt(float(np.mean(own.noise))))
+    kept = far <= GATE * usual
+    residual, torque = (v[kept] - np.mean(v[kept]) for v in (own.residual, own.torque))
+    square = float(torque @ torque)
+    gain = np.clip(residual @ torque / square, -GAIN, GAIN) if square > 0.0 else 0.0
+    left = residual - gain * torque
+    freedom = len(left) - FITTED
+    return float(left @ left) / freedom, freedom
