@@ -54,13 +54,14 @@ def reported_settings(reported: Mapping[str, str]) -> dict[float, Setting]:
 
 
 def assert_simulated_again(
+    scene: pt.Scene,
     waves: Sequence[MeshWaveform],
     points: Sequence[OperatingPoint],
     reported: Mapping[str, str],
     sample_rate: float,
 ) -> None:
     """The reported changes reproduce every sample of `waves`, at the full `sample_rate`."""
-    again = _transmission_error(points, reported, sample_rate)
+    again = _transmission_error(scene, points, reported, sample_rate)
     for wave in waves:
         stride = round(wave.sample_period * sample_rate)
         assert wave.sample_period == stride / sample_rate
@@ -70,14 +71,16 @@ def assert_simulated_again(
 
 
 def _transmission_error(
-    points: Sequence[OperatingPoint], reported: Mapping[str, str], sample_rate: float
+    scene: pt.Scene,
+    points: Sequence[OperatingPoint],
+    reported: Mapping[str, str],
+    sample_rate: float,
 ) -> np.ndarray:
     """Transmission error of all meshes, in float32 as published, shape (samples, meshes)."""
     changes = {point.simulated_time: point for point in points}
     settings = reported_settings(reported)
     values = {name: getattr(points[0], name) for name in pt.TUNABLES}
-    scene = pt.load_scene("paper").replace(**values)
-    twin = pt.Twin(scene, sample_rate, settings[0.0].tolerance)
+    twin = pt.Twin(scene.replace(**values), sample_rate, settings[0.0].tolerance)
     parts = []
     for instant in sorted({*changes, *settings, float(reported["simulated_time"])} - {0.0}):
         while twin.time < instant:

@@ -8,6 +8,8 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
 
+import planetary_twin_py as pt
+
 from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
 from .reported import assert_simulated_again, figures, reported_settings
@@ -49,4 +51,4 @@ def test_published_waveforms_are_reproduced_bit_for_bit_from_the_reports(
     assert tolerances[-1] == float(reported["tolerance"])
     assert len(points) == 3
     assert len(waves) > 100
-    assert_simulated_again(waves, points, reported, SAMPLE_RATE)
+    assert_simulated_again(pt.load_scene("paper"), waves, points, reported, SAMPLE_RATE)

@@ -15,7 +15,8 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 
-from planetary_twin_py.quality_control import HALVINGS
+import planetary_twin_py as pt
+from planetary_twin_py.quality_control import HALVINGS, Setting
 from planetary_twin_py.tolerance import LADDER
 
 from .conftest import Start
@@ -31,6 +32,8 @@ base: paper
 operating_point: {input_torque: 0.3, torque_ripple: 0.3, backlash: 5.0e-7}
 mesh: {damping: {law: viscous, damping_ratio: 0.01}}
 """
+# Its first windows last some hundred times longer than there is at 100 times real time.
+MOVING_AXES = "{base: floating_sun, operating_point: {input_speed: 1000.0}}"
 
 
 @contextlib.contextmanager
@@ -55,9 +58,12 @@ def slow_machine(pid: int, run: float = 0.002, stop: float = 0.398) -> Iterator[
 
 
 def test_an_overloaded_twin_degrades_in_order_and_its_reports_reproduce_it(
-    peer: Peer, start: Start
+    peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    options = ("autostart:=false", "rate_factor:=100", "publish_rate:=10", "tolerance:=0.0")
+    scene = tmp_path / "moving_axes.yaml"
+    scene.write_text(MOVING_AXES)
+    options = ("autostart:=false", f"scene:={scene}", "rate_factor:=100", "publish_rate:=10",
+               "tolerance:=0.0")  # fmt: skip
     arguments = itertools.chain.from_iterable(("-p", option) for option in options)
     process = start("planetary_twin.simulation", "--ros-args", *arguments)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -74,11 +80,12 @@ def test_an_overloaded_twin_degrades_in_order_and_its_reports_reproduce_it(
 
     reported = figures(reports)
     settings = list(reported_settings(reported).values())
-    assert settings[-1] == (LADDER[0], FLOOR)
-    given_up = [(-setting.tolerance, setting.sample_rate) for setting in settings]
+    # Once mesh cycles repeat, a fast machine may improve the waveform again.
+    down = settings[: settings.index(Setting(LADDER[0], FLOOR)) + 1]
+    given_up = [(-setting.tolerance, setting.sample_rate) for setting in down]
     assert given_up == sorted(given_up, reverse=True)
     assert int(reported["tolerance_changes"]) >= 1 and int(reported["sample_rate_changes"]) >= 1
-    assert reported["waveform"] == "thinned"
+    assert "thinned" in {figures([report]).get("waveform") for report in reports}
     assert int(reported["overruns"]) > 0
     # The first report may precede the end of the first interval.
     late = [s for report in reports for s in report.status if " behind: " in s.message]
@@ -96,7 +103,7 @@ def test_an_overloaded_twin_degrades_in_order_and_its_reports_reproduce_it(
         assert wave.samples == numbers[1] // 1 - numbers[0] // 1
     for before, after in itertools.pairwise(waves):
         assert after.sequence == before.sequence + 1
-    assert_simulated_again(waves, points, reported, SAMPLE_RATE)
+    assert_simulated_again(pt.load_scene(scene), waves, points, reported, SAMPLE_RATE)
 
 
 @pytest.mark.exhaustive
