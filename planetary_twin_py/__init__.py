@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
     from .following.baseline import LearnedCell
+    from .following.changed_teeth import ToothState
     from .following.checks import InputError
     from .following.estimate import Estimate, Event
     from .following.follower import (
@@ -47,7 +48,6 @@ if TYPE_CHECKING:
         Readings,
     )
     from .following.sensors import Sensors
-    from .following.teeth import ToothState
     from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
@@ -95,7 +95,7 @@ _EXPORTS = {
         "EncoderFormat", "EncoderSamples", "Follower", "Following", "Readings",
     ),
     "following.sensors": ("Sensors",),
-    "following.teeth": ("ToothState",),
+    "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),

@@ -20,13 +20,14 @@ from .balance_filter import Innovation
 from .baseline import LearnedCell
 from .baseline_file import SavedBaseline, read_baseline, write_baseline
 from .bins import CHANNELS
+from .changed_teeth import ToothState
 from .checked_bins import PERIOD
 from .checks import InputError
 from .clock_watch import ClockWatch
 from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
 from .sensors import Sensors, check_scale
-from .teeth import TeethFollower, ToothState
+from .teeth import TeethFollower
 from .vibration import VibrationFollower, VibrationSamples
 
 Array = NDArray[np.float64]

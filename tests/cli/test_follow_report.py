@@ -6,9 +6,9 @@ import pytest
 from rich.console import Console
 
 from planetary_twin_py.cli._follow_report import print_state
+from planetary_twin_py.following.changed_teeth import ToothState
 from planetary_twin_py.following.estimate import estimated
 from planetary_twin_py.following.follower import Following
-from planetary_twin_py.following.teeth import ToothState
 
 
 def printed(*teeth):
