@@ -46,6 +46,15 @@ def test_energy_closes_with_errors_gaps_faults_and_little_load(flow, changes):
     assert imbalance(planar(flow, **STILL, **changes)) < 1e-12
 
 
+@pytest.mark.parametrize("speed", [50.0, 800.0])
+@pytest.mark.parametrize("torque", [2.0, 20.0])
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+def test_planets_loose_on_their_pins_find_an_equilibrium_with_friction(flow, torque, speed):
+    given = planar(flow, **STILL, **{"supports.planet.clearance": 2e-5, "input_torque": torque},
+                   **{"input_speed": speed, "drive.speed_limit": 2.0 * speed})  # fmt: skip
+    assert imbalance(given, 0.01) < 1e-12
+
+
 def test_weight_on_a_turning_carrier_gives_back_what_it_takes():
     given = planar(FLOWS[2], **STILL, **{"supports.gravity": 9.81, "input_torque": 2.0}, **PIN)
     assert imbalance(given, 0.2) < 1e-6

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "mesh/cycle.hpp"
@@ -207,13 +208,10 @@ double largest(const Train& train, const double* force) {
 // A step of Newton's method, and the position of the bodies along it.
 //
 // Along a line the forces of a convex energy decrease. Where they have reversed and exceed a share
-// of their initial value, the secant finds where they vanish.
+// of their initial value, the secant shortens the step. Where that leaves them as large as before,
+// with flanks open that closed beyond, the step is extended to halfway.
 class Line {
 public:
-    bool overshoots(const Train& train, const double* force) const {
-        return along(train, force) < -OVERSHOOT * initial_work_;
-    }
-
     // Step to the position in which the springs of `run` balance the forces.
     void start(const Train& train, const Equilibrium& run, const double* force) {
         alignas(64) SquareMatrix stiffness;
@@ -222,8 +220,10 @@ public:
         std::copy_n(run.state.x, BODIES, start_);
         std::copy_n(force, BODIES, direction_);
         solve(stiffness, train.bodies, direction_);
-        initial_work_ = along(train, force);
+        initial_work_ = short_work_ = along(train, force);
         fraction_ = 1.0;
+        short_ = 0.0;
+        long_ = std::numeric_limits<double>::infinity();
     }
 
     void step(const Train& train, double* x) const {
@@ -231,9 +231,21 @@ public:
             x[j] = start_[j] + fraction_ * direction_[j];
     }
 
-    void step_back(const Train& train, const double* force, double* x) {
-        fraction_ *= initial_work_ / (initial_work_ - along(train, force));
-        step(train, x);
+    // Whether the step needs another length, which is then chosen, with these forces at its end.
+    bool corrects(const Train& train, const double* force) {
+        const double work = along(train, force);
+        if (work < -OVERSHOOT * initial_work_) {
+            long_ = fraction_;
+            fraction_ = short_ + (long_ - short_) * short_work_ / (short_work_ - work);
+            return true;
+        }
+        if (work > OVERSHOOT * initial_work_ && std::isfinite(long_)) {
+            short_ = fraction_;
+            short_work_ = work;
+            fraction_ = 0.5 * (short_ + long_);
+            return true;
+        }
+        return false;
     }
 
 private:
@@ -245,8 +257,10 @@ private:
 
     alignas(64) double start_[BODIES];
     alignas(64) double direction_[BODIES];
-    double initial_work_;  // force along the step at its start, times its length [J]
-    double fraction_;      // of the step
+    double initial_work_;        // force along the step at its start, times its length [J]
+    double fraction_;            // of the step
+    double short_, short_work_;  // largest fraction that is too short, and its work [J]
+    double long_;                // smallest fraction that is too long
 };
 
 // Newton's method from the positions of the bodies; whether it ends in equilibrium.
@@ -273,12 +287,8 @@ bool converges(const Model& model, double tolerance, Equilibrium& run, double (*
             add_machine_powers(model, run);
             return true;
         }
-        if (n > 0 && line.overshoots(train, force)) {
-            line.step_back(train, force, state.x);
-        } else {
-            line.start(train, run, force);
-            line.step(train, state.x);
-        }
+        if (n == 0 || !line.corrects(train, force)) line.start(train, run, force);
+        line.step(train, state.x);
     }
     return false;
 }
