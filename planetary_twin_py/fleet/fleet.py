@@ -211,7 +211,8 @@ class Fleet:
         """Scatter of the balances of all gearboxes, and the steps that it hides."""
         kept, rows = self._scatter, max(TERM / self.period, 1.0)
         losses = self.table(self._last_torque, self._last_speed, self._oil)
-        step = CLEAR * kept.sd / math.sqrt(rows) / (losses.teeth + losses.rest)
+        used = np.where(kept.excessive, kept.sd, kept.stated)  # as noise of the balances
+        step = CLEAR * used / math.sqrt(rows) / (losses.teeth + losses.rest)
         return FleetScatter(kept.sd.copy(), kept.stated.copy(), kept.excessive.copy(), step)
 
     @property

@@ -46,13 +46,27 @@ def test_energy_closes_with_errors_gaps_faults_and_little_load(flow, changes):
     assert imbalance(planar(flow, **STILL, **changes)) < 1e-12
 
 
+def loose(flow, torque, speed, **more):
+    clearance = {"supports.planet.clearance": 2e-5}
+    point = {"input_torque": torque, "input_speed": speed, "drive.speed_limit": 2.0 * speed}
+    return planar(flow, **STILL, **clearance, **point, **more)
+
+
 @pytest.mark.parametrize("speed", [50.0, 800.0])
 @pytest.mark.parametrize("torque", [2.0, 20.0])
 @pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
 def test_planets_loose_on_their_pins_find_an_equilibrium_with_friction(flow, torque, speed):
-    given = planar(flow, **STILL, **{"supports.planet.clearance": 2e-5, "input_torque": torque},
-                   **{"input_speed": speed, "drive.speed_limit": 2.0 * speed})  # fmt: skip
-    assert imbalance(given, 0.01) < 1e-12
+    assert imbalance(loose(flow, torque, speed), 0.01) < 1e-12
+
+
+@pytest.mark.parametrize("speed", [50.0, 800.0])
+@pytest.mark.parametrize("torque", [2.0, 20.0])
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+def test_planets_loose_on_their_pins_carry_as_in_static_load_sharing(flow, torque, speed):
+    given = loose(flow, torque, speed, **CONSTANT)
+    static = load_sharing(given).mesh_force[0]
+    found = simulate(given, 0.001).axes.flank_force
+    assert found == pytest.approx(np.broadcast_to(static, found.shape), rel=1e-4, abs=0.01)
 
 
 def test_weight_on_a_turning_carrier_gives_back_what_it_takes():
