@@ -202,11 +202,11 @@ class _Collector:
         runs = [run for run in runs if run.intervals]
         if not runs:
             found = {ORIGIN: len(self._origins), STATE: len(self._intervals)}
+            usual = "recordings started later by ~/start or ~/snapshot have no start of a run"
             raise RecordingError(
                 no_run_yet(path, found)
                 or f"{path}: has no run with its start, its origin ({ORIGIN}) and its changes, so "
-                "nothing can be simulated again; recordings started later by ~/start or ~/snapshot "
-                "have no start of a run"
+                f"nothing can be simulated again; {remarks[0] if remarks else usual}"
             )
         return runs
 
