@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..terminal.arguments import FileArgument, JsonOption
-from ..terminal.console import busy
+from ..terminal.console import busy, print_list
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.names import shown
@@ -107,25 +107,21 @@ def _print(console: Console, found: Info) -> None:
     console.print(f"gearbox time  {found.simulated:.3f} s", highlight=False)
     for number, ramp in enumerate(ramps(found.changes)):
         title = "" if number else "changes"
-        console.print(
-            f"{title:13} {ramp.times[0]:10.4f} s  {_described(ramp)}",
-            highlight=False,
-            soft_wrap=True,
-        )
+        print_list(console, f"{title:13} {ramp.times[0]:10.4f} s", _described(ramp))
 
 
-def _described(ramp: Ramp) -> str:
+def _described(ramp: Ramp) -> list[str]:
     """The changed parameters and their values."""
     steps = len(ramp.times)
     if not ramp.last:
-        return "no change"
+        return ["no change"]
     if steps == 1:
-        return ", ".join(f"{name} = {_shown(name, value)}" for name, value in ramp.last.items())
-    ways = ", ".join(
+        return [f"{name} = {_shown(name, value)}" for name, value in ramp.last.items()]
+    *ways, last = (
         f"{k} from {ramp.first[k]:.6g} to {value:.6g} {_unit(k)}".rstrip()
         for k, value in ramp.last.items()
     )
-    return f"{ways} in {steps} steps over {ramp.duration:.6g} s"
+    return [*ways, f"{last} in {steps} steps over {ramp.duration:.6g} s"]
 
 
 def _shown(name: str, value: float | str) -> str:
