@@ -78,6 +78,9 @@ class Sidebands:
     def at(self, orders: float, resolution: float) -> list[Sideband]:
         """Sidebands that coincide with a line, those of the lowest number first.
 
+        If there is one, those of other members up to twice the largest number are listed as well:
+        a line at two places does not show which member it is of.
+
         Args:
             orders: place of the line [mesh orders].
             resolution: largest distance of a sideband from the line [mesh orders].
@@ -87,8 +90,10 @@ class Sidebands:
             for member, distance in self.spacing.items():
                 number = round((orders - harmonic) / distance)
                 away = abs(harmonic + number * distance - orders)
-                if away <= resolution and 0 < abs(number) <= self.most:
+                if away <= resolution and 0 < abs(number) <= 2 * self.most:
                     found.append(Sideband(harmonic, member, number))
+        if not any(abs(one.number) <= self.most for one in found):
+            return []
         return sorted(found, key=lambda one: (abs(one.number), one.harmonic))
 
 

@@ -12,7 +12,7 @@ harmonics. Their sidebands do, because their distance is that of the turns of a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from typing import NamedTuple
 
 from ..gearset.kinematics import MEMBERS
@@ -95,7 +95,7 @@ def _report(fits: list[Fit]) -> str:
     )
     return (
         f"the strongest lines fit a mesh frequency {fits[0].factor:.4g} times that of the scene: "
-        f"{cause}"
+        f"{cause} Lines are named by that of the scene."
     )
 
 
@@ -132,14 +132,16 @@ def _fits(spectrum: MeshSpectrum, scene: Scene) -> tuple[list[Line], Fit, list[F
     first = {1, scene.gearset.planets}
     many = math.ceil(spectrum.axis[-1] / spectrum.mesh)
     exact = EXACT * step / spectrum.mesh
-    own = _fit(lines, spectrum.mesh, exact, sidebands, first, many)
+    # A tooth of a planet meshes twice a turn. At another mesh frequency that would be no evidence:
+    # sidebands twice as far apart are also the first ones of half that frequency.
+    own = _fit(lines, spectrum.mesh, exact, sidebands, {"planet": {2, *first}}, first, many)
     found = []
     for harmonic in range(1, HARMONICS + 1 if lines else 1):
         mesh = lines[0].place / harmonic
         factor, near = mesh / spectrum.mesh, step / mesh
         if abs(lines[0].place - harmonic * spectrum.mesh) <= EXACT * step:
             continue  # that of the scene
-        fit = _fit(lines, mesh, near, sidebands, first, HARMONICS)
+        fit = _fit(lines, mesh, near, sidebands, {}, first, HARMONICS)
         cause = next((m for m, f in held.items() if abs(f / factor - 1.0) <= near), None)
         fit = fit._replace(factor=factor, held=cause)
         if _certain(fit, own, lines):
@@ -155,7 +157,8 @@ def _fit(
     mesh: float,
     near: float,
     sidebands: Sidebands,
-    first: Iterable[int],
+    of_member: Mapping[str, Set[int]],
+    first: Set[int],
     most: int,
 ) -> Fit:
     """Lines at the harmonics of a mesh frequency up to number `most`, and at their sidebands.
@@ -165,7 +168,8 @@ def _fit(
         mesh: mesh frequency, on the axis of the spectrum.
         near: largest distance of a line from its harmonic [mesh orders].
         sidebands: of the gearbox.
-        first: numbers of the sidebands of one planet and of all.
+        of_member: numbers of the sidebands that are evidence in a pair, by member.
+        first: those of the other members: of one planet and of all.
         most: largest number of a harmonic.
     """
     orders = {line: line.place / mesh for line in lines}
@@ -178,7 +182,9 @@ def _fit(
     beside = {line: separate.at(order, near) for line, order in orders.items()}
     every = {sideband for found in beside.values() for sideband in found}
     pair = any(
-        abs(one.number) in first and one._replace(number=-one.number) in every for one in every
+        abs(one.number) in of_member.get(one.member, first)
+        and one._replace(number=-one.number) in every
+        for one in every
     )
     explained = harmonics.keys() | {line for line, found in beside.items() if found}
     return Fit(1.0, None, frozenset(harmonics.values()), frozenset(explained), pair)

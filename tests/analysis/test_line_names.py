@@ -11,7 +11,7 @@ from planetary_twin_py.analysis.line_names import LineNames
 from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
 from planetary_twin_py.analysis.sensor import sensor_signal
 from planetary_twin_py.analysis.shaft_lines import ShaftLine, ShaftLines
-from planetary_twin_py.analysis.sidebands import MOST, Sideband, Sidebands
+from planetary_twin_py.analysis.sidebands import MOST, Sideband, Sidebands, sideband_text
 from planetary_twin_py.analysis.signals import Signal
 from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
 from planetary_twin_py.recording.tables.sensor import Sensor
@@ -114,6 +114,15 @@ def test_sidebands_are_named_up_to_the_third_or_one_for_each_planet():
     assert sidebands.most == max(MOST, PAPER.gearset.planets)
     assert Sideband(1, "sun", MOST) in sidebands.at(1.0 + MOST / 30.0, 1e-4)
     assert all(one.member != "sun" for one in sidebands.at(1.0 + (MOST + 1) / 30.0, 1e-4))
+
+
+def test_a_line_at_sidebands_of_two_members_is_named_by_both():
+    """Sidebands of a planet of 40 teeth, of which the fourth is at the third of 30 teeth."""
+    sidebands = Sidebands({"sun": 1 / 30, "planet": 1 / 40}, MOST)
+    assert sideband_text(sidebands.at(1.1, 1e-4)) == (
+        "sideband +3 of harmonic 1: sun; sideband +4 of harmonic 1: planet"
+    )
+    assert sidebands.at(1.0 + 5 / 40, 1e-4) == []
 
 
 def test_an_alias_of_a_mesh_harmonic_in_a_table_is_named():

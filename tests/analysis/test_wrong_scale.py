@@ -27,3 +27,19 @@ def remarks_at(mesh):
     axis = np.linspace(0.0, 0.5 * RATE, 501)
     silent = MeshSpectrum(axis, np.zeros(501), mesh, Band(0.0, 0.5 * RATE), RATE, 0.0)
     return list(scale_remarks(silent, pt.load_scene("paper")))
+
+
+def test_a_fault_of_a_planet_seen_by_both_of_its_meshes_gives_no_warning():
+    """Its sidebands are 2/36 mesh orders apart: as the first ones of half the mesh frequency."""
+    scene = pt.load_scene("paper").replace(**{
+        "gearset.teeth": {"sun": 27, "planet": 36, "ring": 99},
+        "gearset.planet_angles": tuple(2.0 * np.pi / 3.0 * k for k in range(3)),
+    })  # fmt: skip
+    mesh, axis = 100.0, np.arange(0.0, 0.5 * RATE, 0.1)
+    lines = {1: 1.0, 2: 0.5, 1 - 2 / 36: 0.1, 1 + 2 / 36: 0.1, 2 - 2 / 36: 0.05, 2 + 2 / 36: 0.05}
+    amplitude = 1e-4 + sum(
+        height * np.maximum(0.0, 1.0 - np.abs(axis - order * mesh) / 0.2)
+        for order, height in lines.items()
+    )
+    found = MeshSpectrum(axis, amplitude, mesh, Band(0.0, 0.5 * RATE), RATE, 0.0)
+    assert list(scale_remarks(found, scene)) == []
