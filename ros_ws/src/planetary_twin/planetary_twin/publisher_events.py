@@ -1,0 +1,20 @@
+"""
+The events of a publisher that a node watches: subscribers whose QoS is incompatible.
+
+rclpy also watches for subscribers with another message type. Their own nodes report this, and each
+event of each publisher costs an executor time whenever it wakes.
+"""
+
+from rclpy.event_handler import PublisherEventCallbacks, QoSOfferedIncompatibleQoSInfo
+from rclpy.impl.rcutils_logger import RcutilsLogger
+from rclpy.qos import qos_policy_name_from_kind
+
+
+def warn_of_qos(logger: RcutilsLogger, topic: str) -> PublisherEventCallbacks:
+    """Return callbacks that warn, by `logger`, of subscribers that `topic` cannot serve."""
+
+    def warn(event: QoSOfferedIncompatibleQoSInfo) -> None:
+        policy = qos_policy_name_from_kind(event.last_policy_kind)
+        logger.warning(f"{topic}: a subscriber with an incompatible QoS receives nothing: {policy}")
+
+    return PublisherEventCallbacks(incompatible_qos=warn, use_default_callbacks=False)
