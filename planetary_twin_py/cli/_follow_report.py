@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 from ..engineering_units import percent
+from ..instant import instant, is_date
 from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from ..following.follower import Following
 
-EPOCH = 1e8  # [s] above this, stamps count from 1970
-_YEAR_10000 = 253402300800.0  # [s] from 1970
 REMEDY = "improved by"
 """Heading of the column with readings that would determine a quantity, or determine it better."""
 
@@ -51,16 +49,9 @@ def print_state(console: Console, name: str, span: tuple[float, float], state: F
 
 def _span(first: float, last: float) -> str:
     """Format the first and the last stamp: seconds with two decimals, or dates."""
-    if first > EPOCH and last < _YEAR_10000:
-        return f"{_instant(first)} to {_instant(last)}"
+    if is_date(first) and is_date(last):
+        return f"{instant(first)} to {instant(last)}"
     return f"{first:.2f} to {last:.2f} s"
-
-
-def _instant(time: float) -> str:
-    """Format a stamp: as a date in UTC if it counts from 1970 and has a year of four digits."""
-    if not EPOCH < time < _YEAR_10000:
-        return f"{time:.1f} s"
-    return datetime.fromtimestamp(time, UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-5]
 
 
 def _lines(state: Following) -> Iterator[str]:
@@ -69,7 +60,7 @@ def _lines(state: Following) -> Iterator[str]:
         yield state.unchanged
     for event in state.events:
         causes = f"; {' or '.join(event.causes)}" if event.causes else ""
-        since = f"since {_instant(event.since)}, found at {_instant(event.found)}"
+        since = f"since {instant(event.since)}, found at {instant(event.found)}"
         yield f"{event.what}: {event.evidence}; {since}{causes}"
     for tooth in state.teeth:
         loss = tooth.loss

@@ -66,7 +66,7 @@ def fleet(
     Prints changes: steps of the loss torque of a gearbox. --out and --json have the friction level
     of each gearbox with a 95 % interval. The fleet has one false alarm per year. Readings should be
     means over their intervals: where they scatter more than their noise, a warning names the steps
-    that may not be found.
+    that may not be found. If no gearbox can be judged, the exit code is 2.
 
     Example: planetary-twin fleet wind_turbine_stage --from scada.parquet --out state.csv
     """
@@ -94,6 +94,11 @@ def fleet(
             write_state(out, found)
     if json_ is not None:
         write_json({one.gearbox: _figures(one) for one in found}, json_)
+    if not any(map(_is_judged, found)):
+        fail(
+            "no gearbox is judged: readings contradict the scene, are incomplete, or are too few "
+            "for their scatter"
+        )
 
 
 @contextmanager
@@ -113,14 +118,20 @@ def _executor(scheduler: str | None) -> Iterator[Executor]:
         cluster.close()
 
 
+def _is_judged(one: GearboxResult) -> bool:
+    """Whether a step could be found."""
+    return not one.fault and one.readings > 0
+
+
 def _show(console: Console, found: Sequence[GearboxResult]) -> None:
-    changed = [one for one in found if one.events and not one.fault]
+    judged = list(filter(_is_judged, found))
+    changed = [one for one in judged if one.events]
     estimated = sum(math.isfinite(one.estimates["friction_level"][0]) for one in found)
-    blind = sum(one.scatters and not one.fault and one.smallest_step > STEP for one in found)
+    blind = sum(one.scatters and one.smallest_step > STEP for one in judged)
     hidden = f"; {blind} may hide a step of {100.0 * STEP:g} % in their scatter" if blind else ""
+    changes = f"{len(changed) or 'none'} changed" if judged else "none judged"
     console.print(
-        f"{len(found)} gearboxes, friction level of {estimated} estimated, "
-        f"{len(changed) or 'none'} changed{hidden}",
+        f"{len(found)} gearboxes, friction level of {estimated} estimated, {changes}{hidden}",
         highlight=False,
     )
     _show_faults(console, [one for one in found if one.fault])

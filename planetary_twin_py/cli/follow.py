@@ -137,16 +137,17 @@ def follow(  # noqa: PLR0913 - an argument for each option
         with writing("--out", out):
             write_notes(out, states)
     if picture is not None:
-        _draw(loaded, states, picture)
+        _draw(loaded, states, measured.span[0], picture)
     if json_ is not None:
         write_json(state_figures(states[-1]), json_)
 
 
-def _draw(scene: Scene, states: Sequence[Following], picture: Path) -> None:
-    """Draw the estimates over time."""
+def _draw(scene: Scene, states: Sequence[Following], first: float, picture: Path) -> None:
+    """Draw the estimates over time; `first` is the stamp of the first reading [s]."""
     from ..following.train import followed_train
     from ..plots.follow import follow_diagram
     from ..plots.style import save
 
     with writing("--picture", picture):
-        save(follow_diagram(scene.name, followed_train(scene).teeth, states), str(picture))
+        teeth = followed_train(scene).teeth
+        save(follow_diagram(scene.name, teeth, states, first), str(picture))

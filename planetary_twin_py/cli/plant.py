@@ -9,7 +9,7 @@ import typer
 
 from ..terminal.arguments import DurationOption, SceneArgument, SetOption
 from ..terminal.console import make_console
-from ..terminal.messages import fail, need
+from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import TABLES, file_ending_in
 from ..terminal.settings import changed_scene, settings
 
@@ -74,6 +74,8 @@ def plant(
             raise ValueError("--encoders: requires sensors.encoders.rate in --hidden")
         if vibration is not None and truth.sensors.vibration.rate == 0.0:
             raise ValueError("--vibration: requires sensors.vibration.rate in --hidden")
+        if line := truth.late_changes(duration):
+            remark(f"warning: {line}")
         with make_console().status("simulating"):
             lines = list(_write(loaded, truth, duration, (out, encoders, vibration)))
     except (ValueError, ArithmeticError, OSError) as error:

@@ -72,6 +72,8 @@ class Innovations(NamedTuple):
     """Innovation at the input [N m]; NaN without a reading."""
     sd: Array
     """Expected standard deviation [N m]."""
+    loss: Array
+    """Loss torque of the scene [N m]."""
     scene: SceneBalances
     """The balances without the filter."""
 
@@ -179,8 +181,9 @@ class Balances:
         losses = self.table(measured_torque, speed, oil)
         balance = np.where(usable, driving + driven, np.nan)
         inertia_noise = (INERTIA * self._inertia * np.where(usable, row.acceleration, 0.0)) ** 2
+        loss = losses.teeth + losses.rest
         scene = SceneBalances(
-            balance - sign * (losses.teeth + losses.rest),
+            balance - sign * loss,
             0.5 * (driving - driven),
             sum(self._noise) + inertia_noise,
         )
@@ -205,7 +208,8 @@ class Balances:
         expected = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * torque
         noise = self.excess * sum(self._noise) + inertia_noise
         innovation = np.where(usable, driving + driven - expected, np.nan)
-        return Innovations(innovation, self._update(innovation, slope, noise, step), scene)
+        sd = self._update(innovation, slope, noise, step)
+        return Innovations(innovation, sd, loss, scene)
 
     def _friction(self, torque: Array, speed: Array) -> tuple[Array, tuple[Array, Array]]:
         """Friction level at operating points, and the logarithms of torque and speed, (n,) each."""

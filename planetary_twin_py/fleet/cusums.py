@@ -44,9 +44,11 @@ class Steps(NamedTuple):
     """Times at which the sums left zero [s]."""
     size: Array
     """Means of the innovations since then [N m]."""
+    share: Array
+    """Sizes over the means of the scene's loss since then, with the same weights."""
 
 
-NONE = Steps(np.zeros(0, dtype=np.int64), *np.zeros((2, 0)))
+NONE = Steps(np.zeros(0, dtype=np.int64), *np.zeros((3, 0)))
 
 
 @dataclass
@@ -64,13 +66,13 @@ class Cusums:
     def __post_init__(self) -> None:
         shape = 2, self.count
         self._value, self._since = np.zeros(shape), np.full(shape, math.nan)
-        self._total, self._weight = np.zeros(shape), np.zeros(shape)
+        self._totals = np.zeros((3, *shape))  # weighted values and losses, weights; since then
         self._held = np.zeros(shape, dtype=bool)
         self.waiting = np.zeros(self.count, dtype=bool)
         """Mask of the gearboxes whose alarms wait, (n,)."""
         self.correlation = np.zeros(self.count)
         """Mean product of successive standardised innovations, (n,)."""
-        self._sums = np.zeros((4, self.count))  # scores, readings, weighted values, weights
+        self._sums = np.zeros((5, self.count))  # scores, readings, and terms of `_totals`
         self._begin = math.nan
         self._last, self._known = np.full(self.count, math.nan), np.zeros(self.count)
 
@@ -81,19 +83,20 @@ class Cusums:
             which: mask of the gearboxes, (n,).
             time: present time [s].
         """
-        for sums in (self._value, self._total, self._weight, self._sums):
-            sums[:, which] = 0.0
+        for sums in (self._value, self._totals, self._sums):
+            sums[..., which] = 0.0
         self._since[:, which], self._held[:, which] = time, False
         self.correlation[which] = self._known[which] = 0.0
         self._last[which] = math.nan
 
-    def add(self, time: float, value: Array, sd: Array, step: float) -> Steps:
+    def add(self, time: float, value: Array, sd: Array, loss: Array, step: float) -> Steps:
         """Add an innovation of each gearbox.
 
         Args:
             time: time of the innovations [s].
             value: innovations [N m], (n,); NaN without a reading.
             sd: expected standard deviations [N m], (n,).
+            loss: loss torques of the scene [N m], (n,).
             step: time between two readings [s].
 
         Returns:
@@ -103,7 +106,7 @@ class Cusums:
         has_reading = np.isfinite(score)
         self._update_correlation(score, has_reading, step)
         weight = 1.0 / sd**2
-        terms = np.stack([score, np.ones(self.count), weight * value, weight])
+        terms = np.stack([score, np.ones(self.count), weight * value, weight * loss, weight])
         self._sums += np.where(has_reading, terms, 0.0)
         if math.isnan(self._begin):
             self._begin, self._since[:] = time - step, time - step
@@ -113,7 +116,7 @@ class Cusums:
         return self._end_term(time)
 
     def _end_term(self, time: float) -> Steps:
-        score, readings, value, weight = self._sums
+        score, readings, *terms = self._sums
         has_reading = readings > 0.0
         term = score / np.sqrt(np.maximum(readings, 1.0))
         held = (self._known >= KNOWN) & (self.correlation > CORRELATED)
@@ -122,21 +125,19 @@ class Cusums:
             sums[has_reading] += (sign * term - KAPPA)[has_reading]
             zero = sums <= 0.0
             sums[zero] = 0.0
-            self._total[row][zero] = self._weight[row][zero] = 0.0
+            self._totals[:, row, zero] = 0.0
             self._since[row][zero], self._held[row][zero] = time, held[zero]
             grows = has_reading & ~zero
-            self._total[row][grows] += value[grows]
-            self._weight[row][grows] += weight[grows]
+            for total, added in zip(self._totals[:, row], terms, strict=True):
+                total[grows] += added[grows]
         self._sums[:] = 0.0
         alarms = (self._value > self.limit) & ~self._held & ~self.waiting
         side, gearbox = np.nonzero(alarms)
         if not len(gearbox):
             return NONE
-        weight = self._weight[side, gearbox]
-        steps = Steps(
-            gearbox, self._since[side, gearbox].copy(), self._total[side, gearbox] / weight
-        )
-        self._value[:, gearbox] = self._total[:, gearbox] = self._weight[:, gearbox] = 0.0
+        value, loss, weight = self._totals[:, side, gearbox]
+        steps = Steps(gearbox, self._since[side, gearbox].copy(), value / weight, value / loss)
+        self._value[:, gearbox] = self._totals[:, :, gearbox] = 0.0
         self._since[:, gearbox] = time
         return steps
 

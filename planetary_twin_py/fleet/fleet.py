@@ -59,8 +59,8 @@ class FleetScatter(NamedTuple):
     excessive: NDArray[np.bool_]
     """Whether the noise of the sensors does not explain it."""
     step: Array
-    """Smallest step of the loss torque that is found within minutes, over the loss torque of the
-    scene at the last operating point."""
+    """Smallest step of the loss torque that is found within minutes, over the mean loss torque of
+    the scene at all readings."""
 
 
 class FleetEvent(NamedTuple):
@@ -76,7 +76,7 @@ class FleetEvent(NamedTuple):
     """Mean of the innovations since then [N m], at the input; positive: a larger loss. The step
     itself is larger, because the filter adapts to a part of it."""
     share: float
-    """Size over the loss torque of the scene at the same operating point."""
+    """Size over the mean loss torque of the scene since then, with the same weights."""
 
 
 @dataclass
@@ -134,7 +134,9 @@ class Fleet:
         """Number of rows without a torque or the speed, (n,)."""
         self.first_missing = np.full(self.count, math.nan)
         """Time of the first of them [s], (n,); NaN if there is none."""
-        self._last_torque = np.full(self.count, self.train.torque)  # at which a step is compared
+        self._losses = np.zeros(self.count)  # [N m] sum of the scene's at all balances
+        self._balances = np.zeros(self.count)  # number of them
+        self._last_torque = np.full(self.count, self.train.torque)
         self._last_speed = np.full(self.count, self.train.speed)
         self._last_step_times = np.full(self.count, -math.inf)  # [s]
         self._close_steps = np.zeros(self.count, dtype=np.int64)  # in close succession
@@ -172,10 +174,14 @@ class Fleet:
         reading = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
         self._interval_filters.update(reading, step)
         innovations = self._alarm_filters.update(reading, step)
-        self.readings += np.isfinite(innovations.value)
+        value, sd, loss, scene = innovations
+        has_balance = np.isfinite(value)
+        self.readings += has_balance
+        self._losses += np.where(has_balance, loss, 0.0)
+        self._balances += has_balance
         self._cusums.waiting = ~self._scatter.known
-        self._alarm(time, self._cusums.add(time, innovations.value, innovations.sd, self.period))
-        self._widen(self._scatter.add(time, innovations.scene))
+        self._alarm(time, self._cusums.add(time, value, sd, loss, self.period))
+        self._widen(self._scatter.add(time, scene))
 
     def finish(self) -> None:
         """Judge the last readings, at the end of a table."""
@@ -210,9 +216,9 @@ class Fleet:
     def scatter(self) -> FleetScatter:
         """Scatter of the balances of all gearboxes, and the steps that it hides."""
         kept, rows = self._scatter, max(TERM / self.period, 1.0)
-        losses = self.table(self._last_torque, self._last_speed, self._oil)
+        loss = np.where(self._balances > 0.0, self._losses, math.nan) / self._balances.clip(1.0)
         used = np.where(kept.excessive, kept.sd, kept.stated)  # as noise of the balances
-        step = CLEAR * used / math.sqrt(rows) / (losses.teeth + losses.rest)
+        step = CLEAR * used / math.sqrt(rows) / loss
         return FleetScatter(kept.sd.copy(), kept.stated.copy(), kept.excessive.copy(), step)
 
     @property
@@ -244,16 +250,14 @@ class Fleet:
     def _alarm(self, time: float, steps: Steps) -> None:
         fits = ~self.misfits[steps.gearbox]
         self._note_misfits(time, steps.gearbox)
-        gearbox, since, size = (values[fits] for values in steps)
+        gearbox, since, size, share = (values[fits] for values in steps)
         if not len(gearbox):
             return
-        speed = self._last_speed[gearbox]
-        losses = self.table(self._last_torque[gearbox], speed, self._oil[gearbox])
-        direction = np.sign(speed)
-        for k, index in enumerate(gearbox):
-            value = float(direction[k] * size[k])
-            loss = float(losses.teeth[k] + losses.rest[k])
-            self.events.append(FleetEvent(int(index), float(since[k]), time, value, value / loss))
+        direction = np.sign(self._last_speed[gearbox])
+        for index, begin, *sizes in zip(
+            gearbox, since, direction * size, direction * share, strict=True
+        ):
+            self.events.append(FleetEvent(int(index), float(begin), time, *map(float, sizes)))
         mask = np.zeros(self.count, dtype=bool)
         mask[gearbox] = True
         self._alarm_filters.restart(mask)

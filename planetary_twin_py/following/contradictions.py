@@ -218,7 +218,9 @@ class Contradictions:
                 return (
                     f"{statement}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
                 )
-        if abs(share * expected**2 - 1.0) < 0.5:
+        if abs(ratio * expected - 1.0) < 0.5:
+            return f"{statement}; input_torque and output_torque seem to be exchanged"
+        if abs(abs(ratio) - 1.0) < 0.5:
             return f"{statement}; both torques seem to be referred to the same shaft"
         return f"{statement}; no unit explains it"
 

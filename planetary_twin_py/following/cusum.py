@@ -84,7 +84,7 @@ class Cusum:
             for one_sided in self._sums:
                 one_sided.since = time
         step = None
-        if time >= self._begin + TERM:
+        if self._term and time >= self._begin + TERM:
             step = self._end_term(time)
             self._begin = time
         self._term.append(score)

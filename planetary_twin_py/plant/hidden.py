@@ -137,6 +137,23 @@ class Hidden(Section):
         """The changes, in order of time."""
         return tuple(sorted(self.changes, key=lambda change: change.at))
 
+    def late_changes(self, duration: float) -> str:
+        """Line on changes that start only after the end.
+
+        Args:
+            duration: simulated time [s].
+
+        Returns:
+            The line; empty if all changes start before the end.
+        """
+        late = [change.at for change in self.changes if change.at >= duration]
+        if not late:
+            return ""
+        return (
+            f"changes: those at {min(late):g} s or later have no effect: the simulation ends at "
+            f"{duration:g} s"
+        )
+
     def check(self, scene: Scene) -> Scene:
         """Check the differences from a scene, and the faults, against that scene.
 

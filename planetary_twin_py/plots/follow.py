@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 
 from ..following.follower import Following
 from ..following.tooth_search import ALARM
+from ..instant import instant, is_date
 from .style import BLUE, CYCLE, GREY, WIDTH, applied
 
 HEIGHT = 2.1  # of a row [in]
@@ -18,13 +20,16 @@ Tooth = tuple[str, int]
 """Gear and number."""
 
 
-def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Following]) -> Figure:
+def follow_diagram(
+    name: str, teeth: Mapping[str, int], states: Sequence[Following], first: float
+) -> Figure:
     """Draw estimates over time, with a dotted line where a change has been found.
 
     Args:
         name: name of the scene, for the title.
         teeth: number of teeth by gear, in the order of `Following.every_z`.
         states: estimated states, in the order of time.
+        first: stamp of the first reading [s], from which times count if it is a date.
 
     Returns:
         The figure: friction level with its 95 % interval; with encoders also the significance of
@@ -36,6 +41,8 @@ def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Followi
     states = [state for state in states if np.isfinite(state.time)]
     if not states:
         raise ValueError("there is no estimate to draw")
+    start = first if is_date(first) else 0.0
+    states = [_since(start, state) for state in states]
     every = [(gear, number) for gear, count in teeth.items() for number in range(count)]
     changed = list(dict.fromkeys((t.gear, t.tooth) for state in states for t in state.teeth))
     rows = 1 + any(state.every_z for state in states) + bool(changed)
@@ -51,8 +58,14 @@ def follow_diagram(name: str, teeth: Mapping[str, int], states: Sequence[Followi
             for event in states[-1].events:
                 panel.axvline(event.found, color=GREY, linewidth=0.8, linestyle=":")
         axes[0].set_title(f"{name}: {_headline(states[-1])}")
-        axes[-1].set_xlabel("Time [s]")
+        axes[-1].set_xlabel(f"Time since {instant(first)} UTC [s]" if start else "Time [s]")
     return figure
+
+
+def _since(start: float, state: Following) -> Following:
+    """The state with times that count from `start` [s], as far as they are drawn."""
+    events = tuple(replace(event, found=event.found - start) for event in state.events)
+    return replace(state, time=state.time - start, events=events)
 
 
 def _headline(state: Following) -> str:

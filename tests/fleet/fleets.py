@@ -32,10 +32,7 @@ class Played:
 
     def row(self, time):
         """Readings of all at a time; the load wanders by 5 %, the oil by 8 K in an hour."""
-        keep = np.exp(-self.period / 60.0)
-        self.wander *= keep
-        self.wander += np.sqrt(1.0 - keep**2) * self.chance.standard_normal(self.count)
-        torque = 63.0 * (1.0 + 0.05 * self.wander)
+        torque = self.torque(time)
         speed = np.full(self.count, 104.7)
         oil = np.full(self.count, 343.15 + 8.0 * np.sin(2.0 * np.pi * time / 3600.0))
         losses = self.table(torque, speed, oil)
@@ -50,8 +47,24 @@ class Played:
             "oil_temperature": oil,
         }
 
+    def torque(self, time):
+        """True input torques at a time [N m]."""
+        keep = np.exp(-self.period / 60.0)
+        self.wander *= keep
+        self.wander += np.sqrt(1.0 - keep**2) * self.chance.standard_normal(self.count)
+        return 63.0 * (1.0 + 0.05 * self.wander)
+
     def level(self):
         """True friction levels at the operating point of the scene."""
         at = [np.full(self.count, value) for value in (63.0, 104.72, 343.15)]
         true, nominal = self.table(*at), loss_table(self.scene)(*at)
         return (self.friction * true.teeth + true.rest - nominal.rest) / nominal.teeth
+
+
+class Alternating(Played):
+    """A fleet whose torque alternates every five minutes, at other times for each gearbox."""
+
+    def torque(self, time):
+        phase = np.linspace(0.0, 600.0, self.count, endpoint=False)
+        high = (time + phase) % 600.0 < 300.0
+        return np.where(high, 80.0, 40.0) + 2.0 * self.chance.standard_normal(self.count)

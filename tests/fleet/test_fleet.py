@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from fleet.fleets import Played, paper
+from fleet.fleets import Alternating, Played, paper
 from tiers import first
 
 from planetary_twin_py.fleet.cusums import Cusums, limit
@@ -39,6 +39,16 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
     for event in fleet.events:
         assert 1200.0 < event.found < 1900.0 and event.size > 0.0
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
+
+
+def test_the_share_of_a_step_and_the_smallest_step_do_not_depend_on_the_phase_of_the_duty():
+    played = Alternating(20, 8)
+    played.friction[:] = 1.0
+    fleet = followed(played, 2400, 1200)
+    shares = [event.share for event in fleet.events]
+    assert {event.gearbox for event in fleet.events} == set(range(10))
+    assert min(shares) > 0.0 and np.median(shares) > 0.06 and max(shares) < 0.11
+    assert np.ptp(fleet.scatter.step) < 0.03 * np.mean(fleet.scatter.step)
 
 
 @pytest.mark.exhaustive
@@ -100,7 +110,7 @@ def test_white_innovations_reach_the_limit_as_rarely_as_stated():
     assert limit(1, 60.0) == pytest.approx(np.log(365.25 * 1440.0) - 1.166)
     sums, count, found = Cusums(400, low), 1000, 0
     for number in range(1, count + 1):
-        steps = sums.add(60.0 * number, chance.standard_normal(400), np.ones(400), 60.0)
+        steps = sums.add(60.0 * number, chance.standard_normal(400), *np.ones((2, 400)), 60.0)
         found += len(steps.gearbox)
     assert found == pytest.approx(400 * count / terms, rel=0.15)
 

@@ -127,6 +127,21 @@ def test_the_command_names_contradictions_and_missing_rows_in_valid_json(table, 
     assert rows["G05"]["fault"].startswith("loss torque") and rows["G03"]["missing"] == "9"
 
 
+@pytest.mark.parametrize(
+    ("output_torque", "line"),
+    [("-145.0", "readings contradict the scene"), ("", "a torque or the speed is missing")],
+)
+def test_a_fleet_of_which_none_is_judged_is_bad_data(tmp_path, output_torque, line):
+    path, state = tmp_path / "scada.csv", tmp_path / "state.csv"
+    rows = (f"A,{second},63.0,{output_torque},104.72\n" for second in range(1, 31))
+    path.write_text("gearbox,time,input_torque,output_torque,input_speed\n" + "".join(rows))
+    said = run("fleet", "paper", "--from", path, "--out", state)
+    assert said.returncode == 2
+    assert "none judged" in said.stdout and line in said.stdout + said.stderr
+    assert "no gearbox is judged" in said.stderr.splitlines()[-1]
+    assert state.exists()
+
+
 def test_a_table_without_a_channel_is_refused_in_one_line(tmp_path):
     path = tmp_path / "scada.csv"
     path.write_text("gearbox,time,input_torque\nA,1,2\nA,2,2\n")

@@ -6,8 +6,10 @@ from following.plants import paper, played
 from tiers import first
 
 from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.contradictions import Contradictions, Rows
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.sensors import Sensors
+from planetary_twin_py.following.train import followed_train
 
 RPM = 30.0 / np.pi
 WRONG = {
@@ -30,6 +32,10 @@ WRONG = {
     "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "probably degC"),
     "exchanged shafts": (
         {"input_speed": -3 / 7, "output_speed": -7 / 3}, "input and output are exchanged",
+    ),
+    "exchanged torques": (
+        {"input_torque": 7 / 3, "output_torque": 3 / 7},
+        "input_torque and output_torque seem to be exchanged",
     ),
 }  # fmt: skip
 
@@ -58,6 +64,20 @@ def test_the_stated_correction_is_accepted(readings, what):
     mended = Follower(paper(), scale={name: float(factor)})
     mended.add(Readings(time, wrong))
     assert mended.estimate()["input_torque"].status == "ESTIMATED"
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_torques_of_the_same_shaft_are_not_called_exchanged(sign):
+    train = followed_train(paper())._replace(ratio=-0.2)
+    torque = np.full(10, train.torque)
+    speed = np.full(10, train.speed)
+    rows = Rows(
+        np.arange(1.0, 11.0),
+        {"input_speed": speed, "output_speed": -0.2 * speed, "input_torque": torque}
+        | {"output_torque": 0.99 * sign * torque},
+    )
+    found = Contradictions(train, Sensors(), 1.0).shown_by(rows)
+    assert found["torques"].endswith("both torques seem to be referred to the same shaft")
 
 
 @pytest.mark.parametrize("duty", ["steady", "reversing"])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from command_line import run
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.train import followed_train
@@ -147,3 +148,20 @@ def test_a_value_of_a_change_replaces_the_one_before(step):
     assert torque[(time > 1.1) & (time < 1.4)] == pytest.approx(0.5)
     assert torque[time > 1.6] == pytest.approx(0.8)
     assert set(plant.at("friction", time[time > 1.0], 1.0)) == {1.2}
+
+
+def test_the_command_warns_of_changes_after_its_end(tmp_path):
+    path = tmp_path / "late.yaml"
+    path.write_text("changes: [{at: 0.5 s, friction: 1.2}, {at: 90 s, friction: 1.3}]")
+    command = "plant", "paper", "--hidden", path, "--out", tmp_path / "readings.csv"
+    said = run(*command, "--duration", "1")
+    assert said.stderr.splitlines() == [
+        "planetary-twin: warning: changes: those at 90 s or later have no effect: the simulation "
+        "ends at 1 s"
+    ]
+
+
+@pytest.mark.parametrize(("duration", "warned"), [(90.0, True), (90.1, False)])
+def test_a_change_at_the_end_is_late(duration, warned):
+    hidden = Hidden.model_validate({"changes": [{"at": 90.0, "friction": 1.2}]})
+    assert bool(hidden.late_changes(duration)) == warned

@@ -26,7 +26,7 @@ def tooth(loss):
 
 
 def test_readings_without_encoders_have_the_friction_level_alone():
-    figure = follow_diagram("rig", TEETH, [state(1.0), state(2.0, 1.1), state(3.0, 1.2)])
+    figure = follow_diagram("rig", TEETH, [state(1.0), state(2.0, 1.1), state(3.0, 1.2)], 0.5)
     (axes,) = figure.axes
     (line,) = axes.lines
     np.testing.assert_array_equal(line.get_ydata(), [np.nan, 1.1, 1.2])
@@ -40,7 +40,7 @@ def test_a_changed_tooth_has_its_significance_and_its_loss():
         state(1.0, 1.0, tuple(z[0])),
         state(2.0, 1.0, tuple(z[1]), (tooth(0.01),), (event,)),
     ]
-    significance, loss, _ = follow_diagram("rig", TEETH, states).axes
+    significance, loss, _ = follow_diagram("rig", TEETH, states, 0.5).axes
     shown = next(one for one in significance.lines if one.get_label() == "planet_1 tooth 1")
     np.testing.assert_array_equal(shown.get_ydata(), z[:, 4])
     assert loss.lines[0].get_ydata() == pytest.approx([1.0])  # [%]
@@ -49,4 +49,15 @@ def test_a_changed_tooth_has_its_significance_and_its_loss():
 
 def test_without_any_estimate_there_is_no_picture():
     with pytest.raises(ValueError, match="no estimate to draw"):
-        follow_diagram("rig", TEETH, [state(np.nan)])
+        follow_diagram("rig", TEETH, [state(np.nan)], 0.5)
+
+
+def test_times_count_from_the_first_reading_if_stamps_are_dates():
+    first = 1795895000.3
+    event = Event("loss torque stepped", first + 1.0, first + 2.0, tooth(0.01).loss, (), "")
+    states = [state(first + 1.0, 1.0), state(first + 3.0, 1.2, events=(event,))]
+    (axes,) = follow_diagram("rig", TEETH, states, first).axes
+    assert axes.lines[0].get_xdata() == pytest.approx([1.0, 3.0])
+    assert axes.lines[1].get_xdata() == pytest.approx([2.0, 2.0])
+    assert axes.get_title(loc="left") == "rig: loss torque stepped, found at 2.0 s"
+    assert axes.get_xlabel() == "Time since 2026-11-28 19:43:20.3 UTC [s]"

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from intervals import agrees
+from planetary_twin.commands import _plant_plan
 from tiers import first_rows
 
 from .peer import LONG, TWIN, Peer
@@ -125,6 +126,15 @@ def test_an_interrupt_leaves_a_finished_recording_and_says_what_was_judged(
     assert process.returncode == 0, errors
     assert "no change in the torque balance; not judged: vibration" in output
     assert counts(tmp_path / "recordings" / "rig")[f"{TWIN}/measured/joint_states"] > 0
+
+
+def test_changes_after_the_end_are_named_before_it_runs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "late.yaml"
+    path.write_text("changes: [{at: 90 s, friction: 1.5}]")
+    _plant_plan("paper", 20.0, None, (path, None))
+    assert "changes: those at 90 s or later have no effect" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -188,8 +188,8 @@ def _plant_plan(
     if not duration <= LONGEST_PLAY:
         raise ValueError(f"--duration = {duration:g} s: must be at most {LONGEST_PLAY:g} s")
     loaded = pt.load_scene(scene)
-    if hidden is not None:
-        read_hidden(hidden, loaded)
+    if hidden is not None and (line := read_hidden(hidden, loaded).late_changes(duration)):
+        remark(f"warning: {line}")
     if sensors is not None:
         read_sensors(sensors)
     return PlantPlan(
