@@ -85,15 +85,22 @@ class LostMotion:
         return self.hysteresis > 2.0 * self.resolution
 
     @property
+    def stiffness_by_sense(self) -> tuple[float, float]:
+        """Torsional stiffness from half to full torque, positive and negative [N m/rad].
+
+        Other tooth pairs carry in each sense, which planets in phase do not average.
+        """
+        turn = int(np.argmin(self.torque))
+        rising, falling = slice(turn, None), slice(turn + 1)  # they load in their senses
+        return (
+            _loading_slope(self.torque[rising], self.twist[rising]),
+            _loading_slope(-self.torque[falling], -self.twist[falling]),
+        )
+
+    @property
     def stiffness(self) -> float:
         """Torsional stiffness from half to full torque, mean of both senses [N m/rad]."""
-        largest, (torque, twist) = float(self.torque.max()), self._branches()[1]
-        rising_line = np.polyfit(
-            *_points_between(twist, torque, UPPER * largest, largest), 1
-        )  # the rising branch loads where the torque is positive
-        torque, twist = self._branches()[0]
-        falling_line = np.polyfit(*_points_between(twist, torque, -largest, -UPPER * largest), 1)
-        return float(0.5 * (rising_line[0] + falling_line[0]))
+        return 0.5 * sum(self.stiffness_by_sense)
 
     @property
     def stiffness_with_couplings(self) -> float:
@@ -114,12 +121,10 @@ def _twist_at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
     return float(twist[k] + slope * (value - torque[k]))
 
 
-def _points_between(
-    twist: np.ndarray, torque: np.ndarray, low: float, high: float
-) -> tuple[np.ndarray, np.ndarray]:
-    margin = 1e-6 * (high - low)
-    chosen = (torque >= low - margin) & (torque <= high + margin)
-    return twist[chosen], torque[chosen]
+def _loading_slope(torque: np.ndarray, twist: np.ndarray) -> float:
+    """Stiffness from half to full torque of a branch, which is positive there [N m/rad]."""
+    chosen = torque >= (UPPER - 1e-6) * torque.max()
+    return float(np.polyfit(twist[chosen], torque[chosen], 1)[0])
 
 
 def lost_motion(

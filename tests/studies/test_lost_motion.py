@@ -72,6 +72,27 @@ def test_contacts_of_involute_teeth_are_as_stiff_as_at_the_torque_of_the_bench(t
     assert heavy > 1.1 * light
 
 
+def test_planets_in_phase_are_as_stiff_in_each_sense_as_the_pairs_that_carry_in_it():
+    teeth = {"sun": 18, "planet": 45, "ring": 108}
+    angles = tuple(2.0 * math.pi * k / 3 for k in range(3))
+    scene = SMOOTH.replace(
+        **{
+            "gearset.teeth": teeth,
+            "gearset.planet_angles": angles,
+            "mesh.stiffness": "involute",
+            "backlash": 0.0,
+        }
+    )
+    found = lost_motion(scene, TORQUE, levels=10)
+    expected = [
+        np.ptp(found.torque[part]) / np.ptp(found.twist[part])
+        for part in (found.torque >= 0.5 * TORQUE, found.torque <= -0.5 * TORQUE)
+    ]
+    assert found.stiffness_by_sense == pytest.approx(expected, rel=1e-3)
+    assert expected[0] != pytest.approx(expected[1], rel=0.05)
+    assert found.stiffness == pytest.approx(np.mean(expected), rel=1e-3)
+
+
 @pytest.mark.exhaustive
 def test_the_command_says_what_is_rigid():
     options = ["lost-motion", "floating_sun", "--torque", "20 N m", "--set", "dynamics=torsional"]
@@ -160,6 +181,7 @@ def test_the_command_prints_and_draws_what_the_library_finds(tmp_path):
     found = lost_motion(pt.load_scene("paper"), 50.0)
     assert figures["lost_motion"] == pytest.approx(found.lost_motion)
     assert figures["stiffness"] == pytest.approx(found.stiffness)
+    assert figures["stiffness_by_sense"] == pytest.approx(found.stiffness_by_sense)
     assert png.read_bytes().startswith(b"\x89PNG")
     assert "lost motion at 3 % of it [deg]" in shown
 
