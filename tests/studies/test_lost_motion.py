@@ -52,6 +52,16 @@ def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
     assert found.stiffness_with_couplings == pytest.approx(1.0 / series)
 
 
+def test_the_backlash_is_a_step_at_zero_torque_in_both_directions():
+    found = lost_motion(SMOOTH, TORQUE, levels=5)
+    down, up = found.twist[found.torque == 0.0].reshape(2, 2)
+    assert down[0] - down[1] == pytest.approx(FREE_PLAY, rel=1e-3)
+    assert up[1] - up[0] == pytest.approx(FREE_PLAY, rel=1e-3)
+    turn = int(np.argmin(found.torque))
+    assert (np.diff(found.torque[: turn + 1]) <= 0.0).all()
+    assert (np.diff(found.torque[turn:]) >= 0.0).all()
+
+
 def quasi_static_stiffness(scene, torque):
     """Torque on the output over its twist [N m/rad], in a quasi-static run, mean of both senses."""
     stiffness = []
