@@ -48,8 +48,9 @@ def lost_motion(
 
     The input is held, and the output is loaded slowly from 0 to TORQUE, to its opposite and back.
     Angles are those of the members of the gear set, without the couplings; the last stiffness is
-    that from the motor to the load. Bearings, shafts and the carrier are rigid, also those of a
-    scene with supports.
+    that from the motor to the load. The stiffness is the mean of both senses, and that of each, at
+    one position of the mesh. Bearings, shafts and the carrier are rigid, also those of a scene with
+    supports.
 
     Example: planetary-twin lost-motion paper --torque '100 N m' --picture loop.png
     """
@@ -90,17 +91,21 @@ def lost_motion(
 
 _HELD = (
     "Of the teeth alone: bearings, shafts and the carrier are rigid, so a measured gearbox is "
-    "softer. The compliance of the contacts is that at the largest torque"
+    "softer. The compliance of the contacts is that at the largest torque. The stiffness is that "
+    "at one position of the mesh: other tooth pairs carry in the other sense and at other positions"
 )
 
 
 def _print(console: Console, found: LostMotion, largest: float) -> None:
+    positive, negative = found.stiffness_by_sense
     for name, value in (
         ("largest torque on the output [N m]", largest),
         (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),
         (f"hysteresis at {100 * found.share:g} % of it [deg]", _hysteresis(found)),
         ("torsional stiffness, half to full torque [N m/rad]", found.stiffness),
-        ("the same, motor to load with couplings [N m/rad]", found.stiffness_with_couplings),
+        ("- under positive torque [N m/rad]", positive),
+        ("- under negative torque [N m/rad]", negative),
+        ("stiffness, motor to load with couplings [N m/rad]", found.stiffness_with_couplings),
     ):
         shown = value if isinstance(value, str) else f"{value:.6g}"
         console.print(f"{name:<52}{shown}", highlight=False, markup=False)
@@ -126,6 +131,7 @@ def _figures(found: LostMotion) -> dict[str, object]:
         "hysteresis": found.hysteresis,
         "hysteresis_resolved": found.hysteresis_resolved,
         "stiffness": found.stiffness,
+        "stiffness_by_sense": found.stiffness_by_sense,
         "stiffness_with_couplings": found.stiffness_with_couplings,
         "settled": found.settled,
         "torque": found.torque.tolist(),

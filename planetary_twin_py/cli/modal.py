@@ -89,7 +89,7 @@ def modal(
         from ..plots.style import save
 
         with writing("--campbell", campbell):
-            save(campbell_diagram(loaded, mean, found, limit), str(campbell))
+            save(campbell_diagram(loaded, model, mean, found, limit), str(campbell))
     if json_ is not None:
         speeds = {"input_speed": speed or 0.0, "speed_limit": limit}
         resonant = {"resonances": [resonance._asdict() for resonance in found]}

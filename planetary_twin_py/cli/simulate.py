@@ -212,7 +212,7 @@ def _table(meshes: dict[str, dict[str, float]]) -> Table:
 
     from ..quantities import MESH
 
-    table = Table("", title="Meshes by kind")
+    table = Table("", title="Meshes by kind", caption="A peak is the largest magnitude")
     for side in meshes:
         table.add_column(side.replace("_", "-"), justify="right")
     rows = (row.values() for row in meshes.values())

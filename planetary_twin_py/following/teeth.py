@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene, SceneError
+from ..scene import Scene
 from .baseline import Baseline, LearnedCell
 from .baseline_file import TeethBaseline
 from .changed_teeth import ChangedTeeth, JudgedBlock, ToothState
@@ -66,7 +66,7 @@ class TeethFollower:
     def __post_init__(self) -> None:
         first, second = self.counts_per_turn
         if min(first, second) < 1 or not self.period > 0.0:
-            raise SceneError(
+            raise ValueError(
                 f"counts_per_turn = {first}, {second}, period = {self.period!r} s: must be above 0"
             )
         self.train = followed_train(self.scene)

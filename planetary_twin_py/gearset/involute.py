@@ -82,7 +82,7 @@ class SpurGear:
         Args:
             radius: of the circles [m], any shape.
         """
-        local = np.arccos(np.minimum(self.base_radius / radius, 1.0))
+        local = np.arccos(self.base_radius / np.maximum(radius, self.base_radius))
         thinning = _involute(local) - _involute(np.array(self.pressure_angle))
         half = 0.5 * math.pi / self.teeth
         if self.profile_shift != 0.0:

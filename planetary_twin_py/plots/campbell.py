@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,11 +16,14 @@ from .style import GREY, applied, colour_of, panels
 
 RPM = 30.0 / np.pi  # per rad/s
 LABEL_HEIGHT, LABEL_WIDTH = 0.045, 0.02  # of a digit over those of the picture
+COLUMN, ROW = 9.0, 12.0  # [pt] from a label at an edge to the next one outwards
+GAP = 3.0  # [pt] from an edge to a label
 MARGIN = 1.1  # highest frequency shown/highest natural frequency
 
 
 def campbell_diagram(
     scene: Scene,
+    model: str,
     modes: NaturalModes,
     found: tuple[Resonance, ...],
     highest_speed: float,
@@ -28,6 +33,7 @@ def campbell_diagram(
 
     Args:
         scene: gives the mesh frequency, the speed of a second motor, and the title.
+        model: of the modes, see `natural_modes`; for the title.
         modes: modes at mean mesh stiffness; modes of one kind have the same colour.
         found: crossings to mark, from `resonances`.
         highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
@@ -50,13 +56,16 @@ def campbell_diagram(
         speeds = _corners(line, *ends)
         numbers = np.arange(1, harmonics + 1)
         axes.plot(speeds * RPM, np.outer(line.at(speeds), numbers), color=GREY, lw=0.8)
-        for h, place in _label_places(line, *ends, top, numbers):
+        labels = _labels(line, *ends, top, numbers)
+        for label in labels:
             axes.annotate(
-                f"{h}",
-                place,
-                (2, 2),
+                f"{label.harmonic}",
+                label.place,
+                label.offset,
                 xycoords="axes fraction",
                 textcoords="offset points",
+                ha="left" if label.offset[0] else "center",
+                va="baseline" if label.offset[1] else "center",
                 color=GREY,
                 annotation_clip=False,
             )
@@ -68,7 +77,10 @@ def campbell_diagram(
             ylim=(0.0, top),
             xlabel=_speed_label(scene),
             ylabel="frequency [Hz]",
-            title=f"{scene.name}: natural frequencies at mean mesh stiffness\n",
+        )
+        axes.set_title(
+            f"{scene.name}, {model} model: natural frequencies at mean mesh stiffness",
+            pad=2.0 * ROW + max((label.offset[1] for label in labels), default=0.0) - GAP,
         )
         figure.legend(loc="outside lower center", ncols=len(kinds) + 2)
     return figure
@@ -86,10 +98,20 @@ def _speed_label(scene: Scene) -> str:
     return f"speed of the first motor{beside} [rpm]"
 
 
-def _label_places(
+class _Label(NamedTuple):
+    """Number of a harmonic where its line leaves the picture for the last time."""
+
+    harmonic: int
+    place: tuple[float, float]
+    """From left to right and bottom to top of the picture, 0 to 1."""
+    offset: tuple[float, float]
+    """Outwards, at right angles to the edge [pt]."""
+
+
+def _labels(
     line: MeshLine, lowest: float, highest: float, top: float, numbers: np.ndarray
-) -> list[tuple[int, tuple[float, float]]]:
-    """Where the lines of the harmonics leave the picture for the last time, apart by a label.
+) -> list[_Label]:
+    """Labels at the right and the upper edge, each at its own line.
 
     Args:
         line: mesh frequency.
@@ -99,27 +121,34 @@ def _label_places(
         numbers: numbers of the harmonics, ascending.
 
     Returns:
-        Harmonics with places from left to right and bottom to top of the picture, 0 to 1; without
-        lines that are above the picture at all speeds.
+        The labels; none of lines that are above the picture at all speeds.
     """
-    heights = numbers * line.at(np.array(highest)) / top
-    right = [int(h) for h in numbers[heights <= 1.0]]
-    left = {}  # speed at which a line rises through the upper edge
-    for h in numbers[heights > 1.0].tolist():
+    beside, above = {}, {}  # places on the edges, ascending
+    for h, height in zip(numbers.tolist(), numbers * line.at(np.array(highest)) / top, strict=True):
+        if height <= 1.0:
+            beside[h] = float(height)
+    for h in numbers.tolist()[::-1]:
         through = [speed for s in (-top, top) if lowest < (speed := line.speed(s / h)) < highest]
-        if through:
-            left[h] = (max(through) - lowest) / (highest - lowest)
-    above = _apart(list(left.values())[::-1], LABEL_WIDTH)[::-1]
-    beside = _apart(heights[heights <= 1.0].tolist(), LABEL_HEIGHT)
-    places = [(1.0, y) for y in beside] + [(x, 1.0) for x in above]
-    return list(zip([*right, *left], places, strict=True))
+        if h not in beside and through:
+            above[h] = (max(through) - lowest) / (highest - lowest)
+    columns = _rows([*beside.values()], LABEL_HEIGHT)
+    rows = _rows([*above.values()], LABEL_WIDTH)
+    return [
+        *(_Label(h, (1.0, y), (GAP + COLUMN * k, 0.0))
+          for (h, y), k in zip(beside.items(), columns, strict=True)),
+        *(_Label(h, (x, 1.0), (0.0, GAP + ROW * k))
+          for (h, x), k in zip(above.items(), rows, strict=True)),
+    ]  # fmt: skip
 
 
-def _apart(places: list[float], gap: float) -> list[float]:
-    """The ascending places, each moved to at least `gap` after the one before."""
-    found: list[float] = []
+def _rows(places: list[float], gap: float) -> list[int]:
+    """Row of each of the ascending places, so that those in one row are at least `gap` apart."""
+    last: list[float] = []  # place in each row
+    found = []
     for place in places:
-        found.append(max(place, found[-1] + gap) if found else place)
+        row = next((k for k, before in enumerate(last) if place - before >= gap), len(last))
+        last[row : row + 1] = [place]
+        found.append(row)
     return found
 
 

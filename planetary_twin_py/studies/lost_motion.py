@@ -37,7 +37,11 @@ SETTLED = 1e-4  # change between two readings of a twist at rest, over the elast
 
 @dataclass(frozen=True)
 class LostMotion:
-    """A closed loop of twist over torque, from the largest torque to its opposite and back."""
+    """A closed loop of twist over torque, from the largest torque to its opposite and back.
+
+    Where the torque changes its sense, it has two points at torque 0, where flanks part and meet.
+    They are not measured, but on the elastic line of their sense through the nearest measured one.
+    """
 
     torque: np.ndarray
     """On the output member [N m], (points,)."""
@@ -85,15 +89,17 @@ class LostMotion:
         return self.hysteresis > 2.0 * self.resolution
 
     @property
+    def stiffness_by_sense(self) -> tuple[float, float]:
+        """Torsional stiffness from half to full torque, positive and negative [N m/rad].
+
+        Other tooth pairs carry in each sense, which planets in phase do not average.
+        """
+        return _stiffness_by_sense(self.torque, self.twist)
+
+    @property
     def stiffness(self) -> float:
         """Torsional stiffness from half to full torque, mean of both senses [N m/rad]."""
-        largest, (torque, twist) = float(self.torque.max()), self._branches()[1]
-        rising_line = np.polyfit(
-            *_points_between(twist, torque, UPPER * largest, largest), 1
-        )  # the rising branch loads where the torque is positive
-        torque, twist = self._branches()[0]
-        falling_line = np.polyfit(*_points_between(twist, torque, -largest, -UPPER * largest), 1)
-        return float(0.5 * (rising_line[0] + falling_line[0]))
+        return 0.5 * sum(self.stiffness_by_sense)
 
     @property
     def stiffness_with_couplings(self) -> float:
@@ -114,12 +120,30 @@ def _twist_at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
     return float(twist[k] + slope * (value - torque[k]))
 
 
-def _points_between(
-    twist: np.ndarray, torque: np.ndarray, low: float, high: float
-) -> tuple[np.ndarray, np.ndarray]:
-    margin = 1e-6 * (high - low)
-    chosen = (torque >= low - margin) & (torque <= high + margin)
-    return twist[chosen], torque[chosen]
+def _stiffness_by_sense(torque: np.ndarray, twist: np.ndarray) -> tuple[float, float]:
+    """Stiffness of a loop from half to full torque, positive and negative [N m/rad]."""
+    turn = int(np.argmin(torque))
+    rising, falling = slice(turn, None), slice(turn + 1)  # they load in their senses
+    return (
+        _loading_slope(torque[rising], twist[rising]),
+        _loading_slope(-torque[falling], -twist[falling]),
+    )
+
+
+def _with_flanks_parted(torque: np.ndarray, twist: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Torque and twist of a loop with both ends of the backlash, at torque 0."""
+    positive, negative = _stiffness_by_sense(torque, twist)
+    unloaded = twist - torque / np.where(torque > 0.0, positive, negative)
+    before = np.flatnonzero(torque[:-1] * torque[1:] < 0.0)
+    ends = np.column_stack([before, before + 1]).ravel()
+    places = np.repeat(before + 1, 2)
+    return np.insert(torque, places, 0.0), np.insert(twist, places, unloaded[ends])
+
+
+def _loading_slope(torque: np.ndarray, twist: np.ndarray) -> float:
+    """Stiffness from half to full torque of a branch, which is positive there [N m/rad]."""
+    chosen = torque >= (UPPER - 1e-6) * torque.max()
+    return float(np.polyfit(twist[chosen], torque[chosen], 1)[0])
 
 
 def lost_motion(
@@ -186,11 +210,9 @@ def lost_motion(
         largest_motion = max(largest_motion, _motion(readings))
         loop.append(readings[-1])
         report(1)
-    closed = np.array(loop[len(loading) - 1 :])
+    closed = _with_flanks_parted(*np.array(loop[len(loading) - 1 :]).T)
     couplings = _compliance_of_couplings(scene)
-    return LostMotion(
-        closed[:, 0], closed[:, 1], largest_motion <= resolution, share, couplings, resolution
-    )
+    return LostMotion(*closed, largest_motion <= resolution, share, couplings, resolution)
 
 
 def _motion(readings: list[tuple[float, float]]) -> float:

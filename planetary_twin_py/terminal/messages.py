@@ -34,7 +34,8 @@ def fail(message: object, code: int = 2) -> NoReturn:
 
     Args:
         message: text, or an exception; one of the system is shown as file and reason. Of others,
-            `argument = value` is shown as `--option = value`, see `naming_options`.
+            `argument = value` is shown as `--option = value`, see `naming_options`, but in those of
+            a scene, which name its fields.
         code: exit code.
 
     Raises:
@@ -43,10 +44,16 @@ def fail(message: object, code: int = 2) -> NoReturn:
     if isinstance(message, OSError) and message.strerror:
         named = () if message.filename is None else (str(message.filename),)
         message = ": ".join((*named, message.strerror))
-    elif isinstance(message, Exception):
+    elif isinstance(message, Exception) and not _of_a_scene(message):
         message = _with_options(str(message))
     _say(f"planetary-twin: {message}", "red")
     raise typer.Exit(code)
+
+
+def _of_a_scene(error: Exception) -> bool:
+    from ..scene import SceneError  # Pydantic, which many commands do not load
+
+    return isinstance(error, SceneError)
 
 
 def _with_options(text: str) -> str:

@@ -15,7 +15,7 @@ def invoke(*arguments):
 
 @pytest.mark.parametrize(
     "scene, model",
-    [("paper", "torsional"), ("paper", "printed"), ("wind_turbine_stage", "spatial")],
+    [("paper", "torsional"), ("paper", "printed"), ("helical_stage", "spatial")],
 )
 def test_figures_are_those_of_the_library(scene, model):
     figures = json.loads(invoke(scene, "--model", model, "--json", "-").stdout)

@@ -133,6 +133,10 @@ def test_the_sign_of_the_coast_flanks_is_explained_where_they_carry_the_load():
     assert line in invoke("wind_turbine_stage", "--duration", "0.05").stdout
 
 
+def test_the_table_of_meshes_says_that_peaks_have_no_sign():
+    assert "A peak is the largest magnitude" in invoke("paper", *SHORT).stdout
+
+
 def test_samples_contain_their_scene(tmp_path):
     invoke("paper", *SHORT, "--out", str(tmp_path / "run.npz"))
     text = str(np.load(tmp_path / "run.npz")["scene_yaml"])

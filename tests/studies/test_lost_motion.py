@@ -52,6 +52,16 @@ def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
     assert found.stiffness_with_couplings == pytest.approx(1.0 / series)
 
 
+def test_the_backlash_is_a_step_at_zero_torque_in_both_directions():
+    found = lost_motion(SMOOTH, TORQUE, levels=5)
+    down, up = found.twist[found.torque == 0.0].reshape(2, 2)
+    assert down[0] - down[1] == pytest.approx(FREE_PLAY, rel=1e-3)
+    assert up[1] - up[0] == pytest.approx(FREE_PLAY, rel=1e-3)
+    turn = int(np.argmin(found.torque))
+    assert (np.diff(found.torque[: turn + 1]) <= 0.0).all()
+    assert (np.diff(found.torque[turn:]) >= 0.0).all()
+
+
 def quasi_static_stiffness(scene, torque):
     """Torque on the output over its twist [N m/rad], in a quasi-static run, mean of both senses."""
     stiffness = []
@@ -70,6 +80,27 @@ def test_contacts_of_involute_teeth_are_as_stiff_as_at_the_torque_of_the_bench(t
     assert found.stiffness == pytest.approx(quasi_static_stiffness(scene, torque), rel=0.01)
     light, heavy = (quasi_static_stiffness(scene, each) for each in (1.0, 400.0))
     assert heavy > 1.1 * light
+
+
+def test_planets_in_phase_are_as_stiff_in_each_sense_as_the_pairs_that_carry_in_it():
+    teeth = {"sun": 18, "planet": 45, "ring": 108}
+    angles = tuple(2.0 * math.pi * k / 3 for k in range(3))
+    scene = SMOOTH.replace(
+        **{
+            "gearset.teeth": teeth,
+            "gearset.planet_angles": angles,
+            "mesh.stiffness": "involute",
+            "backlash": 0.0,
+        }
+    )
+    found = lost_motion(scene, TORQUE, levels=10)
+    expected = [
+        np.ptp(found.torque[part]) / np.ptp(found.twist[part])
+        for part in (found.torque >= 0.5 * TORQUE, found.torque <= -0.5 * TORQUE)
+    ]
+    assert found.stiffness_by_sense == pytest.approx(expected, rel=1e-3)
+    assert expected[0] != pytest.approx(expected[1], rel=0.05)
+    assert found.stiffness == pytest.approx(np.mean(expected), rel=1e-3)
 
 
 @pytest.mark.exhaustive
@@ -160,6 +191,7 @@ def test_the_command_prints_and_draws_what_the_library_finds(tmp_path):
     found = lost_motion(pt.load_scene("paper"), 50.0)
     assert figures["lost_motion"] == pytest.approx(found.lost_motion)
     assert figures["stiffness"] == pytest.approx(found.stiffness)
+    assert figures["stiffness_by_sense"] == pytest.approx(found.stiffness_by_sense)
     assert png.read_bytes().startswith(b"\x89PNG")
     assert "lost motion at 3 % of it [deg]" in shown
 

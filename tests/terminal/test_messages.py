@@ -3,6 +3,7 @@
 import pytest
 import typer
 
+from planetary_twin_py import SceneError
 from planetary_twin_py.terminal.messages import fail, naming_options
 
 
@@ -29,6 +30,7 @@ def test_an_error_is_one_line_without_the_names_of_python(capsys, error, line):
         (ValueError("from = 1 s at sample_rate = 2 Hz"), "--from = 1 s at --sample-rate = 2 Hz"),
         (ValueError("mesh.from = 3, not_from = 4"), "mesh.from = 3, not_from = 4"),
         (ValueError("input_torque = 1e9 N m"), "input_torque = 1e9 N m"),  # of the scene
+        (SceneError("a.yaml: from = 3"), "a.yaml: from = 3"),  # a field of the file
         ("from = 3", "from = 3"),  # a text of the command itself
     ],
 )

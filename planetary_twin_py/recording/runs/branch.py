@@ -12,7 +12,7 @@ import numpy as np
 
 from ...commands import CAUSALITIES, Commands
 from ...integrators.clock import TICKS
-from ...scene import Scene, SceneError
+from ...scene import Scene
 from ...scene.live import LIVE, PORT_FIELDS
 from .origin import Origin, makers_here
 from .schedule import Change, Interval, RecordedRun, nanoseconds
@@ -128,7 +128,7 @@ def _values(scene: Scene, branch: Branch) -> tuple[dict[str, Any], Scene]:
     changed = scene.replace(**settings)
     others = [name for name in settings if name not in LIVE]
     if others and branch.start > 0.0:
-        raise SceneError(
+        raise ValueError(
             f"{others[0]}: changes the model, which requires from = 0; a later change is possible "
             f"for {', '.join(LIVE)}"
         )
