@@ -118,6 +118,14 @@ def test_a_command_reports_that_no_twin_runs(command: Command, domain: int) -> N
         assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
 
 
+def test_a_duration_too_short_to_watch_is_refused_in_one_line(command: Command) -> None:
+    for duration in ("0.01", "-1", "nan"):
+        answer = command("monitor", "--duration", duration)
+        assert answer.returncode == 2
+        (line,) = answer.stderr.splitlines()
+        assert line.endswith(f"--duration = {float(duration):g} s: must be at least 0.1 s")
+
+
 def test_the_monitor_shows_every_figure(command: Command, points: list[OperatingPoint]) -> None:
     answer = command("monitor", "--duration", "2.5")
     assert answer.returncode == 0, answer.stderr
