@@ -97,7 +97,7 @@ def test_every_parameter_is_listed_with_its_range(
 def test_invalid_arguments_end_in_one_line(command: Command, points: list[OperatingPoint]) -> None:
     for arguments, reason in (
         (("param", "set", "backlash", "3"), "backlash"),
-        (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
+        (("param", "set", "backlash", "-1"), "backlash = -1 m: must be a number within 0 and"),
         (("param", "set", "backlash", "3 kg"), "backlash"),
         (("param", "set", "scene", "other"), "scene"),
         (("param", "get", "gap"), "gap: no such parameter"),
@@ -105,6 +105,12 @@ def test_invalid_arguments_end_in_one_line(command: Command, points: list[Operat
         (("op", "drive.input.port=torque"), "planetary-twin param set drive.input.port VALUE"),
         (("op", "backlash"), "NAME=VALUE"),
         (("op", "input_torque=1e9"), "input_torque"),
+        (
+            ("op", "input_speed=20000 rpm"),
+            "input_speed = 2094.4 rad/s: must be a number within -1100 and 1100 rad/s "
+            "(-10504.2 rpm to 10504.2 rpm)",
+        ),
+        (("op", "input_speed=1100.0000001"), "input_speed = 1100.0000001 rad/s: must be"),
     ):
         answer = command(*arguments)
         assert answer.returncode == 2, answer.stdout
