@@ -149,5 +149,7 @@ def test_a_parameter_without_effect_is_reported_with_the_reason(tmp_path):
     found = fit_course(tmp_path / "rig.mat", scene, ("mesh.damping.damping_ratio",))
     (line,) = course_remarks(found)
     assert "the simulated torque does not change with it" in line
-    with pytest.raises(ValueError, match="lubrication.boundary = greenwood_tripp does not use it"):
+    with pytest.raises(
+        ValueError, match=r"lubrication\.boundary = greenwood_tripp does not use it"
+    ):
         fit_course(tmp_path / "rig.mat", scene, (FRICTION,))
