@@ -105,7 +105,7 @@ class Gearset(Section):
         ge=-0.8,
         le=0.8,
     )
-    addendum: float = quantity("", "addendum in modules", 1.0, gt=0.0, le=1.5)
+    addendum: float = quantity("", "addendum in transverse modules", 1.0, gt=0.0, le=1.5)
     profile_shift: ProfileShift = Field(ProfileShift(), description="profile shift coefficients")
     centre_distance: float | None = quantity(
         "m",

@@ -12,6 +12,7 @@ _UNUSED_WITHOUT_BOUNDARY = (
     "lubrication.limiting_stress",
     "lubrication.shear_stress",
 )
+_WITH_BOUNDARY = ("eyring", "evans_johnson", "printed")  # viscous laws, boundary friction is added
 
 
 def not_in_use(scene: Scene, name: str) -> str | None:
@@ -33,6 +34,16 @@ def not_in_use(scene: Scene, name: str) -> str | None:
     traction = scene.lubrication.traction
     if traction in ("schlenk", "table") and plain in _UNUSED_WITHOUT_BOUNDARY:
         return f"lubrication.traction = {traction} includes boundary friction"
+    boundary = scene.lubrication.boundary
+    if (
+        plain == "lubrication.boundary_coefficient"
+        and traction in _WITH_BOUNDARY
+        and boundary != "load_sharing"
+    ):
+        return (
+            f"lubrication.boundary = {boundary} does not use it; "
+            "set lubrication.boundary = load_sharing to use it"
+        )
     if traction != "table" and plain.startswith("lubrication.friction_table"):
         return f"lubrication.traction = {traction}; set lubrication.traction = table to use it"
     if plain == "second_input_speed" and scene.drive.second_input is None:

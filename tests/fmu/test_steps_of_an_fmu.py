@@ -179,8 +179,9 @@ def test_time_begins_where_the_importing_tool_says(tmp_path):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"input__torque": 1e9}, "input.torque = 1e+09: must be within -1000 and 1000"),
-        ({"input__torque": float("nan")}, "input.torque = nan: must be within"),
+        ({"input__torque": 1e9}, "input.torque = 1e+09 N m: must be within -1000 and 1000 N m"),
+        ({"input__torque": 1e9}, "1000 N m, from drive.torque_limit"),
+        ({"input__torque": float("nan")}, "input.torque = nan N m: must be within"),
         ({"operating_point__backlash": -1.0}, "operating_point.backlash = -1: must be within 0"),
         ({"input__speed": 1.0}, "input.speed: is an output and cannot be set"),
         ({"operating_point__input_speed": 1.0}, "is fixed once the initialisation has ended"),
@@ -202,6 +203,24 @@ def test_a_step_from_elsewhere_is_refused(tmp_path):
         slave.step(1e-3)
 
 
+def test_calls_after_an_error_name_it_until_a_state_is_restored_or_the_instance_is_reset(tmp_path):
+    slave = slave_of(driven("torque", "torque"), tmp_path)
+    before = slave.state()
+    with pytest.raises(Refused, match="step size = 0 s: must be above 0"):
+        slave.step(0.0)
+    for call in (lambda: slave.step(1e-3), lambda: slave.set(input__torque=1.0), slave.end):
+        with pytest.raises(Refused, match="the run has ended with an error; reset the instance"):
+            call()
+    slave.restore(before)
+    slave.free(before)
+    slave.step(1e-3)
+    with pytest.raises(Refused, match="step size"):
+        slave.step(0.0)
+    slave.reset()
+    slave.begin()
+    slave.step(1e-3)
+
+
 def test_a_runaway_ends_the_fmu(tmp_path):
     scene = driven("torque", "torque", **{"drive.speed_limit": 120.0})
     slave = slave_of(scene, tmp_path)
@@ -209,7 +228,7 @@ def test_a_runaway_ends_the_fmu(tmp_path):
     with pytest.raises(Refused, match="exceeds what a gearbox can show"):
         for _ in range(1000):
             slave.step(1e-3)
-    with pytest.raises(Refused, match="step: must follow the initialisation"):
+    with pytest.raises(Refused, match="step: the run has ended with an error"):
         slave.step(1e-3)
 
 

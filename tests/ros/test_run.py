@@ -101,6 +101,13 @@ def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
     assert "--param 'rate_factor=2': must be NAME=VALUE, with NAME of" in " ".join(errors.split())
 
 
+def test_a_mistyped_parameter_of_a_run_is_refused_with_a_similar_one() -> None:
+    reason = "--param 'comand_timeout=1': no such parameter; did you mean command_timeout?"
+    with pytest.raises(ValueError) as refusal:
+        node_settings(["comand_timeout=1"])
+    assert str(refusal.value) == reason
+
+
 def test_a_clock_of_another_node_is_refused_with_the_reason_and_the_way_to_follow_it() -> None:
     for text in ("use_sim_time=true", "use_sim_time=false", "use_sim_time"):
         with pytest.raises(ValueError, match="publishes no /clock") as refusal:

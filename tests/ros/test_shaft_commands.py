@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin import shaft_commands
-from planetary_twin.shaft_commands import ShaftCommands, fault_of_names
+from planetary_twin.shaft_commands import ShaftCommands, fault_of_names, names_given
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
@@ -125,7 +125,11 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
     for request, reason in (
         (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),
         (JointState(name=[RING], velocity=[1.0]), "output_speed = 1.0: requires drive.output.port"),
-        (JointState(name=["elbow"], effort=[1.0]), "command: must have an effort, velocity or"),
+        (
+            JointState(name=["elbow"], effort=[1.0]),
+            "command: must have an effort, velocity or position of "
+            f"{SUN} or {RING}; the command names 'elbow'",
+        ),
         (JointState(name=[SUN], effort=[1.0, 2.0]), "command: has more values than names"),
         (JointState(effort=[1.0]), "command: has more values than names"),
         (JointState(name=[SUN, SUN], effort=[1.0, 2.0]), "command: has a name twice"),
@@ -473,6 +477,14 @@ def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
     assert torques(empty) == {}
     reason = "no effort, velocity or position of sun_joint or ring_joint"
     assert empty.ignored == {reason: 1}
+
+
+def test_a_command_for_an_unknown_joint_is_reported_with_its_name() -> None:
+    commands = received(JointState(name=["elbow"], effort=[1.0]))
+    text = "of sun_joint or ring_joint (the command names 'elbow')"
+    assert text in commands.status("/twin").message
+    many = JointState(name=[f"a{n}" for n in range(9)], effort=[1.0] * 9)
+    assert names_given(many) == "the command names 'a0', 'a1', 'a2', ..."
 
 
 def brakes(status: DiagnosticStatus) -> bool:

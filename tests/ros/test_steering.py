@@ -97,7 +97,7 @@ def test_every_parameter_is_listed_with_its_range(
 def test_invalid_arguments_end_in_one_line(command: Command, points: list[OperatingPoint]) -> None:
     for arguments, reason in (
         (("param", "set", "backlash", "3"), "backlash"),
-        (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
+        (("param", "set", "backlash", "-1"), "backlash = -1 m: must be a number within 0 and"),
         (("param", "set", "backlash", "3 kg"), "backlash"),
         (("param", "set", "scene", "other"), "scene"),
         (("param", "get", "gap"), "gap: no such parameter"),
@@ -105,6 +105,12 @@ def test_invalid_arguments_end_in_one_line(command: Command, points: list[Operat
         (("op", "drive.input.port=torque"), "planetary-twin param set drive.input.port VALUE"),
         (("op", "backlash"), "NAME=VALUE"),
         (("op", "input_torque=1e9"), "input_torque"),
+        (
+            ("op", "input_speed=20000 rpm"),
+            "input_speed = 2094.4 rad/s: must be a number within -1100 and 1100 rad/s "
+            "(-10504.2 rpm to 10504.2 rpm)",
+        ),
+        (("op", "input_speed=1100.0000001"), "input_speed = 1100.0000001 rad/s: must be"),
     ):
         answer = command(*arguments)
         assert answer.returncode == 2, answer.stdout
@@ -116,6 +122,14 @@ def test_a_command_reports_that_no_twin_runs(command: Command, domain: int) -> N
     for arguments in (("param", "list"), ("monitor",)):
         answer = command(*arguments)
         assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
+
+
+def test_a_duration_too_short_to_watch_is_refused_in_one_line(command: Command) -> None:
+    for duration in ("0.01", "-1", "nan"):
+        answer = command("monitor", "--duration", duration)
+        assert answer.returncode == 2
+        (line,) = answer.stderr.splitlines()
+        assert line.endswith(f"--duration = {float(duration):g} s: must be at least 0.1 s")
 
 
 def test_the_monitor_shows_every_figure(command: Command, points: list[OperatingPoint]) -> None:

@@ -34,6 +34,17 @@ std::string name_of(const Variable& variable) {
     return reinterpret_cast<const char*>(variable.name);
 }
 
+// Unit of a given value at a port.
+const char* unit_of(const Variable& variable) {
+    return variable.kind == TORQUE ? " N m" : variable.kind == SPEED ? " rad/s" : "";
+}
+
+// Field of the scene that limits a given value at a port.
+const char* limiting_field(const Variable& variable) {
+    if (variable.kind == TORQUE) return ", from drive.torque_limit";
+    return variable.kind == SPEED ? ", from drive.speed_limit" : "";
+}
+
 double* field(OperatingPoint& point, std::int64_t index) {
     double* const fields[] = {&point.backlash,           &point.lambda_ratio, &point.input_speed,
                               &point.second_input_speed, &point.input_torque, &point.torque_ripple};
@@ -54,8 +65,9 @@ public:
         if (variable->given == BEFORE_THE_END && run_.running)
             return name_of(*variable) + ": is fixed once the initialisation has ended";
         if (!(variable->lowest <= value && value <= variable->highest))
-            return name_of(*variable) + " = " + number(value) + ": must be within " +
-                   number(variable->lowest) + " and " + number(variable->highest);
+            return name_of(*variable) + " = " + number(value) + unit_of(*variable) +
+                   ": must be within " + number(variable->lowest) + " and " +
+                   number(variable->highest) + unit_of(*variable) + limiting_field(*variable);
         put(*variable, value);
         run_.dirty = true;
         return {};

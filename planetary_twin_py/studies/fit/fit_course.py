@@ -29,7 +29,6 @@ from .parameter import Parameter, read_parameters
 from .residual_runs import Runs, count_runs
 
 CONFIDENCE = 0.95
-BOUNDARY = "lubrication.boundary_coefficient"  # factor on the friction of the load of asperities
 LEAST = 1e-9  # [N m] smallest noise
 NEAR = 1e-2  # distance within which a parameter is at an end of its range, over its scale
 SLOW = 0.01  # share of the largest speed below which the sign of the loss is unknown
@@ -221,13 +220,11 @@ def _require_torque(torque: Array | None) -> Array:
 
 def _reason(found: FittedCourse, members: Sequence[int]) -> str:
     """Why parameters are not identifiable."""
-    names = [found.parameters[k].name for k in members]
     if len(members) > 1:
         return "only a combination is: a change of one compensates a change of another"
     if not found.without_effect[members[0]]:
         return "its effect on the torque is smaller than the residuals"
-    cause = "; films carry the whole load, so no friction is boundary friction"
-    return "the simulated torque does not change with it" + cause * (names == [BOUNDARY])
+    return "the simulated torque does not change with it"
 
 
 def course_remarks(found: FittedCourse) -> Iterator[str]:

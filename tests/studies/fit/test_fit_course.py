@@ -146,6 +146,10 @@ def test_a_parameter_without_effect_is_reported_with_the_reason(tmp_path):
     torque = 63.0 + NOISE * np.random.default_rng(1).standard_normal(len(time))
     table = {"time": time, "input_speed": pt.rpm(1000) * one, "input_torque": torque}
     savemat(tmp_path / "rig.mat", table | {"output_torque": (lost - 63.0) / train.ratio * one})
-    found = fit_course(tmp_path / "rig.mat", scene, (FRICTION,))
+    found = fit_course(tmp_path / "rig.mat", scene, ("mesh.damping.damping_ratio",))
     (line,) = course_remarks(found)
-    assert "does not change with it; films carry the whole load" in line
+    assert "the simulated torque does not change with it" in line
+    with pytest.raises(
+        ValueError, match=r"lubrication\.boundary = greenwood_tripp does not use it"
+    ):
+        fit_course(tmp_path / "rig.mat", scene, (FRICTION,))

@@ -31,7 +31,7 @@ public:
     }
 
     Status set(const std::uint32_t* references, std::size_t count, const double* values) {
-        if (phase_ > Phase::STEPPING) return refuse("values: cannot be set after the end");
+        if (phase_ > Phase::STEPPING) return refuse("values: " + ended());
         for (std::size_t n = 0; n < count; ++n)
             if (Status status = answer(instance_->set(references[n], values[n]))) return status;
         return OK;
@@ -57,6 +57,7 @@ public:
     }
 
     Status step(double from, double size) {
+        if (phase_ > Phase::STEPPING) return refuse("step: " + ended());
         if (phase_ != Phase::STEPPING) return refuse("step: must follow the initialisation");
         const Status status = answer(instance_->step(from, from + size));
         if (status == ERROR) phase_ = Phase::FAILED;
@@ -64,6 +65,7 @@ public:
     }
 
     Status terminate() {
+        if (phase_ > Phase::STEPPING) return refuse("termination: " + ended());
         if (phase_ != Phase::STEPPING) return refuse("termination: must follow the initialisation");
         phase_ = Phase::STOPPED;
         return OK;
@@ -112,6 +114,13 @@ private:
     std::unique_ptr<Instance> instance_;
     Report report_;
     Phase phase_ = Phase::MADE;
+
+    // What must follow the end of a run: the standard allows no other call after an error.
+    std::string ended() const {
+        const std::string how = phase_ == Phase::FAILED ? "the run has ended with an error"
+                                                        : "the run has been terminated";
+        return how + "; reset the instance, or restore an earlier state";
+    }
 
     Status answer(const ErrorMessage& error) { return error.empty() ? OK : refuse(error); }
 };

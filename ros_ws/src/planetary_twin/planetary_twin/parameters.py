@@ -20,6 +20,7 @@ from rclpy.parameter import Parameter
 
 from planetary_twin_py import TUNABLES, Tunable
 from planetary_twin_py.scene.quantity import unit_of, within
+from planetary_twin_py.units import customary
 
 from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 
@@ -120,9 +121,23 @@ def _check_within(descriptor: ParameterDescriptor, name: str, value: float) -> N
             continue
         if name in TUNABLES:
             unit = TUNABLES[name].unit
-            refused = f"{name} = {value!r} {unit}".rstrip()
-            raise ValueError(f"{refused}: {within(low, high, unit)}")
+            refused = f"{name} = {_refused(value, low, high)} {unit}".rstrip()
+            raise ValueError(
+                f"{refused}: {within(low, high, unit)}{_in_customary(low, high, unit)}"
+            )
         raise ValueError(f"{name} = {value!r}: {within(low, high, '')} ({descriptor.description})")
+
+
+def _refused(value: float, low: float, high: float) -> str:
+    """Return `value` in six digits, or in all if it is within the range when rounded."""
+    rounded = f"{value:.6g}"
+    return repr(value) if low <= float(rounded) <= high else rounded
+
+
+def _in_customary(low: float, high: float, unit: str) -> str:
+    """Return a range in customary units, for users who think in them."""
+    ends = [customary(end, unit, 6) for end in (low, high)]
+    return f" ({' to '.join(ends)})" if all(ends) else ""
 
 
 def declare_at_start(node: Declaring, name: str, default: Any, description: str) -> Any:

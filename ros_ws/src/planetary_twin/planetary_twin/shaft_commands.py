@@ -15,6 +15,7 @@ from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Twin
 from planetary_twin_py.commands import Command
+from planetary_twin_py.printable import one_line
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
 from planetary_twin_py.scene.drive import Ports
 
@@ -25,6 +26,8 @@ SILENCE = ("hold", "zero", "brake")
 """Reaction to missing commands: hold the last one, remove it, or brake the input shaft."""
 _TURN = 2.0 * math.pi
 _OUT_OF_RANGE = "out of range"
+_MOST_NAMES = 3  # in a message
+_LONGEST_NAME = 40  # characters
 _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
 QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
 """QoS of ~/command: it matches reliable and best-effort publishers, and holds what several fast
@@ -101,7 +104,8 @@ class ShaftCommands:
             values = {}
             reasons[fault] = ""
         elif not values:
-            reasons[f"no effort, velocity or position of {' or '.join(self.joints)}"] = ""
+            reason = f"no effort, velocity or position of {' or '.join(self.joints)}"
+            reasons[reason] = names_given(message)
         with self._lock:
             for side in SIDES:
                 own = {name: value for name, value in values.items() if name.startswith(side)}
@@ -243,6 +247,13 @@ def nearest_turn(values: dict[str, float], twin: Twin) -> dict[str, float]:
             angle = getattr(twin.port_states, f"{side}_angle")
             near[name] += _TURN * round((angle - near[name]) / _TURN)
     return near
+
+
+def names_given(message: JointState) -> str:
+    """Return the names of a command, for a message: the first ones of many."""
+    shown = [repr(one_line(name, _LONGEST_NAME)) for name in message.name[:_MOST_NAMES]]
+    more = ["..."] if len(message.name) > _MOST_NAMES else []
+    return f"the command names {', '.join(shown + more)}" if shown else "the command has no name"
 
 
 def fault_of_names(message: JointState, joints: tuple[str, str]) -> str:

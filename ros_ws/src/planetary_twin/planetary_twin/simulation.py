@@ -34,7 +34,7 @@ from .managed import ManagedNode, NodeError, run_node
 from .operating_point_control import OperatingPointControl
 from .polling import PolledSubscription
 from .real_time import KEEPS_UP, RealTimeReport
-from .shaft_commands import QOS, ShaftCommands, fault_of_names
+from .shaft_commands import QOS, ShaftCommands, fault_of_names, names_given
 from .simulation_parameters import SimulationParameters
 from .simulation_services import SimulationServices
 from .stamps import CLOCK_AWAITED, STEADY
@@ -237,7 +237,8 @@ class Simulation(ManagedNode):
         values = values_of(message, joints)
         if not values:
             raise ValueError(
-                f"command: must have an effort, velocity or position of {' or '.join(joints)}"
+                f"command: must have an effort, velocity or position of {' or '.join(joints)}; "
+                f"{names_given(message)}"
             )
         return values
 

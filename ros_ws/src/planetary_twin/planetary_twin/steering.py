@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .remote import Remote
 
 NAMESPACE = "/planetary_twin"
+SHORTEST_WATCH = 0.1  # [s]
 Namespace = Annotated[str, typer.Option(help="Namespace of the twin.")]
 # A value may start with "-", which would otherwise be taken for an option.
 _NEGATIVE = {"ignore_unknown_options": True}
@@ -150,7 +151,7 @@ def _shown(value: Any) -> str:
 def monitor(
     namespace: Namespace = NAMESPACE,
     duration: Annotated[
-        float | None, typer.Option(help="Time to watch [s]; without: until Ctrl-C.", min=0.1)
+        float | None, typer.Option(help="Time to watch [s], from 0.1; without: until Ctrl-C.")
     ] = None,
 ) -> None:
     """
@@ -158,6 +159,8 @@ def monitor(
 
     Example: planetary-twin monitor --duration 10
     """
+    if duration is not None and not duration >= SHORTEST_WATCH:
+        fail(f"--duration = {duration:g} s: must be at least {SHORTEST_WATCH:g} s")
     from .monitor import watch
 
     with contextlib.suppress(KeyboardInterrupt):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from planetary_twin_py.scene.names import did_you_mean
+
 from ..simulation_parameters import SETTINGS
 
 _OF_THE_RUN = ("rate_factor", "wait_for")  # set by the command itself
@@ -26,6 +28,8 @@ def node_settings(given: Sequence[str]) -> dict[str, str]:
         name, equals, value = text.partition("=")
         if name == _CLOCK:
             raise ValueError(f"--param {text!r}: {_OWN_CLOCK}")
+        if name not in NAMES and (near := did_you_mean(name, NAMES)):
+            raise ValueError(f"--param {text!r}: no such parameter{near}")
         if name not in NAMES or not equals or not value:
             raise ValueError(
                 f"--param {text!r}: must be NAME=VALUE, with NAME of {', '.join(NAMES)}"
