@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -21,7 +20,6 @@ from .scene import OperatingPoint, Scene, SceneError
 from .scene.drive import Causality, Ports
 from .scene.given import check_scene
 from .scene.live import PORT_FIELDS, live_values, split_live
-from .scene.unused import without_effect
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
 from .window_jobs import WindowJobs, run_alone
@@ -188,8 +186,6 @@ class Twin:
     def set(self, **changes: Any) -> float:
         """Change fields of the operating point, and ports, at the current time.
 
-        A UserWarning names changed fields that have no effect in the scene.
-
         Newly given torques and motions keep their present values until a command changes them. A
         machine that starts to control the speed begins with the present speed as set-point, and
         approaches the set-point of the operating point at the slew rate of the drive.
@@ -206,11 +202,7 @@ class Twin:
                 port; no field is changed.
         """
         tuned, causalities = split_live(changes)
-        before = self.operating_point
-        point = self.scene.point_with(before, tuned)
-        changed = [name for name in tuned if getattr(point, name) != getattr(before, name)]
-        if remarks := list(without_effect(self.scene, changed)):
-            warnings.warn("; ".join(remarks), UserWarning, stacklevel=2)
+        point = self.scene.point_with(self.operating_point, tuned)
         return self._change(point=point, ports=self.ports._replace(**causalities))
 
     def set_tolerance(self, tolerance: float) -> float:

@@ -1,7 +1,6 @@
 """The twin stepped live: windows, changes while it runs, and its limits."""
 
 import math
-import warnings
 
 import numpy as np
 import pytest
@@ -118,17 +117,6 @@ def test_an_unknown_name_is_refused():
     with pytest.raises(pt.SceneError) as refusal:
         pt.Twin(PAPER).set(**{"lambda": 1.0})
     assert str(refusal.value) == "lambda: no such field; did you mean lambda_ratio?"
-
-
-def test_a_change_without_effect_in_the_scene_is_named_once_in_a_warning():
-    twin = pt.Twin(PAPER.replace(**{"lubrication.lambda_ratio": "computed"}))
-    with pytest.warns(UserWarning, match="lambda_ratio: has no effect: the scene comp") as warned:
-        twin.set(lambda_ratio=2.0, input_torque=60.0)
-    assert len(warned) == 1 and warned[0].filename == __file__
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        twin.set(lambda_ratio=2.0, input_torque=61.0)  # which changes the torque only
-        pt.Twin(PAPER).set(lambda_ratio=2.0)
 
 
 def test_speed_change_is_followed_at_the_slew_rate_without_drift():
