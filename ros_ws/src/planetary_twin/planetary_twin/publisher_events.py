@@ -15,6 +15,6 @@ def warn_of_qos(logger: RcutilsLogger, topic: str) -> PublisherEventCallbacks:
 
     def warn(event: QoSOfferedIncompatibleQoSInfo) -> None:
         policy = qos_policy_name_from_kind(event.last_policy_kind)
-        logger.warning(f"{topic}: a subscriber with an incompatible QoS receives nothing: {policy}")
+        logger.warning(f"{topic}: a subscriber of incompatible QoS receives nothing: {policy}")
 
     return PublisherEventCallbacks(incompatible_qos=warn, use_default_callbacks=False)
