@@ -66,7 +66,7 @@ class ManagedNode(ParameterNode):
         self, kind: type, topic: str, qos: QoSProfile | int
     ) -> LifecyclePublisher:
         """Create a publisher of messages of `kind` that warns of subscribers with other QoS."""
-        events = warn_of_qos(self.get_logger(), self.resolve_topic_name(topic))
+        events = warn_of_qos(self, topic)
         publisher: LifecyclePublisher = super().create_lifecycle_publisher(
             kind, topic, qos, event_callbacks=events
         )

@@ -6,15 +6,18 @@ event of each publisher costs an executor time whenever it wakes.
 """
 
 from rclpy.event_handler import PublisherEventCallbacks, QoSOfferedIncompatibleQoSInfo
-from rclpy.impl.rcutils_logger import RcutilsLogger
+from rclpy.node import Node
 from rclpy.qos import qos_policy_name_from_kind
 
 
-def warn_of_qos(logger: RcutilsLogger, topic: str) -> PublisherEventCallbacks:
-    """Return callbacks that warn, by `logger`, of subscribers that `topic` cannot serve."""
+def warn_of_qos(node: Node, topic: str) -> PublisherEventCallbacks:
+    """Return callbacks by which `node` warns of subscribers that its `topic` cannot serve."""
 
     def warn(event: QoSOfferedIncompatibleQoSInfo) -> None:
         policy = qos_policy_name_from_kind(event.last_policy_kind)
-        logger.warning(f"{topic}: a subscriber of incompatible QoS receives nothing: {policy}")
+        name = node.resolve_topic_name(topic)
+        node.get_logger().warning(
+            f"{name}: a subscriber of incompatible QoS receives nothing: {policy}"
+        )
 
     return PublisherEventCallbacks(incompatible_qos=warn, use_default_callbacks=False)
