@@ -13,8 +13,7 @@ import rclpy
 from lifecycle_msgs.srv import ChangeState
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.lifecycle import LifecyclePublisher, LifecycleState, TransitionCallbackReturn
-from rclpy.qos import QoSProfile
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 
 from planetary_twin_py.scene.names import did_you_mean
 
@@ -22,7 +21,6 @@ from .heap import return_freed_memory
 from .namesakes import Namesakes
 from .parameter_node import ParameterNode
 from .parameters import brief, declare_at_start
-from .publisher_events import warn_of_qos
 from .shutdown import shut_down
 from .signals import SIGNALS
 from .stamps import STEADY
@@ -61,16 +59,6 @@ class ManagedNode(ParameterNode):
         )
         self._namesakes = Namesakes(self)
         self.create_timer(_TRIM_PERIOD, return_freed_memory, clock=STEADY)
-
-    def create_lifecycle_publisher(
-        self, kind: type, topic: str, qos: QoSProfile | int
-    ) -> LifecyclePublisher:
-        """Create a publisher of messages of `kind` that warns of subscribers with other QoS."""
-        events = warn_of_qos(self, topic)
-        publisher: LifecyclePublisher = super().create_lifecycle_publisher(
-            kind, topic, qos, event_callbacks=events
-        )
-        return publisher
 
     def configure(self) -> None:
         """Acquire the resources of a run."""
