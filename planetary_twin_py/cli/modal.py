@@ -81,15 +81,15 @@ def modal(
     title = f"{shown(loaded.name)}, {model} model{turning}"
     console.print(_mode_table(title, single, mean, None if turning else springs))
     _print_resonances(console, loaded, found)
-    for line in (_bearings_of_load(loaded, model), _planets_without_load(loaded, model)):
-        if line:
+    for judge in (_bearings_of_load, _bearings_without_stiffness, _planets_without_load):
+        if line := judge(loaded, model):
             remark(f"warning: {line}")
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
 
         with writing("--campbell", campbell):
-            save(campbell_diagram(loaded, model, mean, found, limit), str(campbell))
+            save(campbell_diagram(loaded, mean, found, limit, model=model), str(campbell))
     if json_ is not None:
         speeds = {"input_speed": speed or 0.0, "speed_limit": limit}
         resonant = {"resonances": [resonance._asdict() for resonance in found]}
@@ -134,6 +134,21 @@ def _bearings_of_load(scene: Scene, model: str) -> str | None:
         f"{named}: a bearing with clearance or rolling elements is linear about its mean static "
         f"load at input_torque = {torque}, and has no stiffness without load: modes are those of "
         "vibration that is small compared with this load"
+    )
+
+
+def _bearings_without_stiffness(scene: Scene, model: str) -> str | None:
+    """A remark on axial and tilting stiffnesses that the scene lacks, if the model has any."""
+    from ..spatial.bearings import missing_stiffnesses
+
+    if scene.supports is None or model != "spatial":
+        return None
+    missing = [*missing_stiffnesses(scene.supports)]
+    if not missing:
+        return None
+    return (
+        f"{', '.join(missing)}: missing, so without stiffness: some modes are rigid or lower for "
+        "that reason alone; dynamics = spatial requires a stiffness of each, 0 where a body floats"
     )
 
 

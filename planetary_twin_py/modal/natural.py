@@ -10,7 +10,6 @@ from ..planar.small_motion import radial_stiffness
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
 from ..scene.supports import Support, Supports
-from ..spatial.bearings import missing_stiffnesses
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
 from .modes import NaturalModes, modes_of
 from .planar import PlanarBody, PlanarSet, planar_model
@@ -57,8 +56,7 @@ def natural_modes(
         model: "torsional", gears and carrier as in a simulation (Kahraman 1994); "machines", the
             same with motor and load, where the end of a shaft whose motion is given is at rest;
             "printed", eqs. (32)-(38) of Salagianni et al. 2017; "planar", Lin and Parker 1999;
-            "spatial", six motions of every body, whose supports all have an axial and a tilting
-            stiffness, 0 where it floats. The last two require `scene.supports`, whose
+            "spatial", six motions of every body. The last two require `scene.supports`, whose
             rolling bearings and bearings with clearance are linear about the static equilibrium at
             the torque of the scene. None: that of the dynamics of the scene, see `model_of`. But
             for "printed", meshes that carry no load in static equilibrium have no stiffness, see
@@ -208,8 +206,6 @@ def _pin_factors(scene: Scene) -> tuple[float, ...]:
 
 def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
     supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
-    if missing := missing_stiffnesses(supports, "with model = 'spatial'"):
-        raise SceneError(missing)
     gears = gearset.geometry
     sun_planet, planet_ring = gears.meshes
     radius = {

@@ -23,21 +23,21 @@ MARGIN = 1.1  # highest frequency shown/highest natural frequency
 
 def campbell_diagram(
     scene: Scene,
-    model: str,
     modes: NaturalModes,
     found: tuple[Resonance, ...],
     highest_speed: float,
     harmonics: int = HARMONICS,
+    model: str = "torsional",
 ) -> Figure:
     """Draw frequencies against the speed of the first motor.
 
     Args:
         scene: gives the mesh frequency, the speed of a second motor, and the title.
-        model: of the modes, see `natural_modes`; for the title.
         modes: modes at mean mesh stiffness; modes of one kind have the same colour.
         found: crossings to mark, from `resonances`.
         highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
         harmonics: number of mesh harmonics.
+        model: of the modes, see `natural_modes`; for the title.
 
     Returns:
         The figure.

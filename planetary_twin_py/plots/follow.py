@@ -21,7 +21,7 @@ Tooth = tuple[str, int]
 
 
 def follow_diagram(
-    name: str, teeth: Mapping[str, int], states: Sequence[Following], first: float
+    name: str, teeth: Mapping[str, int], states: Sequence[Following], first: float = 0.0
 ) -> Figure:
     """Draw estimates over time, with a dotted line where a change has been found.
 

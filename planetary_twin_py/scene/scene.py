@@ -222,8 +222,12 @@ class Scene(Section):
         if supports is None:
             yield f"supports: missing; {why} all masses and bearings are required"
         else:
-            if self.tilting_axes and (missing := missing_stiffnesses(supports, why)):
-                yield missing
+            missing = [*missing_stiffnesses(supports)] if self.tilting_axes else []
+            if missing:
+                yield (
+                    f"{', '.join(missing)}: missing; {why} every body requires an axial and a "
+                    "tilting stiffness, 0 where it floats"
+                )
             yield from unsupported(supports)
             if self.tilting_axes and self.gearset.helix_angle != 0.0:
                 yield from unsupported_along(supports)

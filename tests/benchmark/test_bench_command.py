@@ -43,7 +43,7 @@ def test_page_figures_and_picture_come_from_one_run(tmp_path):
     ]
     for row in rows:
         assert f"| {speed_cell(Speed(row['rtf'], row['rtf_low'], row['rtf_high']))} |" in text
-    assert "| short | 1e-02 | - | - | never |" in text
+    assert "| short | 1e-02 | never |" in text
     assert "(page-runs.md)" in text and "(page.md)" in text
     assert "(work.png)" in text and picture.read_bytes().startswith(b"\x89PNG")
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)

@@ -31,8 +31,7 @@ def test_the_fastest_run_that_is_accurate_enough_counts():
 
 
 def test_the_page_shows_speeds_and_ratios():
-    speeds = Speed(300.0, 290.0, 310.0), 0.0, 2e-5, Speed(9.0, 8.0, 10.0)
-    minute = Steady("case", 1e-3, 1.0, 0.0, 2e-5, 0.0, *speeds)
+    minute = Steady("case", 1e-3, 1.0, 0.0, 2e-5, 0.0, Speed(300.0, 290.0, 310.0), 0.0)
     page = equal_error_markdown(ROWS, [minute])
     for error, cells in (
         ("1e-03", "10 | 5 (2) | 0.5 (20) | - | 300"),

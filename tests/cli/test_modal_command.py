@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.spatial.bearings import BODIES
 
 
 def invoke(*arguments):
@@ -15,7 +16,7 @@ def invoke(*arguments):
 
 @pytest.mark.parametrize(
     "scene, model",
-    [("paper", "torsional"), ("paper", "printed"), ("helical_stage", "spatial")],
+    [("paper", "torsional"), ("paper", "printed"), ("wind_turbine_stage", "spatial")],
 )
 def test_figures_are_those_of_the_library(scene, model):
     figures = json.loads(invoke(scene, "--model", model, "--json", "-").stdout)
@@ -150,3 +151,14 @@ def test_invalid_arguments_end_in_one_line(arguments, word):
     result = invoke(*arguments)
     assert result.exit_code == 2
     assert word in result.stderr and result.stderr.count("\n") == 1
+
+
+def test_spatial_modes_warn_of_missing_stiffnesses():
+    done = CliRunner().invoke(build_app(), ["modal", "floating_sun", "--model", "spatial"])
+    assert done.exit_code == 0
+    assert "warning: supports.sun.axial, supports.sun.tilting" in done.stderr
+    assert "missing, so without stiffness" in done.stderr
+    given = [f"supports.{body}.{way}=0" for body in BODIES for way in ("axial", "tilting")]
+    sets = [word for each in given for word in ("--set", each)]
+    done = CliRunner().invoke(build_app(), ["modal", "floating_sun", "--model", "spatial", *sets])
+    assert done.exit_code == 0 and "missing, so without stiffness" not in done.stderr

@@ -94,7 +94,7 @@ def test_marks_of_a_differential_are_on_its_lines_which_start_at_both_ends_of_th
     scene, highest = differential(), pt.rpm(20_000)
     modes = pt.natural_modes(scene, stiffness="mean")
     found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
-    figure = campbell_diagram(scene, "torsional", modes, found, highest)
+    figure = campbell_diagram(scene, modes, found, highest)
     (axes,) = figure.axes
     *rays, marks = axes.lines
     assert len(rays) == 5 and len(marks.get_xdata()) == len(found) > 0
@@ -111,7 +111,7 @@ def test_every_resonance_is_marked_where_a_harmonic_crosses_a_natural_frequency(
     scene = pt.load_scene("paper")
     modes, highest = pt.natural_modes(scene, stiffness="mean"), pt.rpm(20_000)
     found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
-    (axes,) = campbell_diagram(scene, "torsional", modes, found, highest).axes
+    (axes,) = campbell_diagram(scene, modes, found, highest).axes
     *rays, marks = axes.lines
     assert len(rays) == 5 and len(marks.get_xdata()) == len(found) > 0
     for resonance, x, y in zip(found, marks.get_xdata(), marks.get_ydata(), strict=True):
@@ -124,7 +124,7 @@ def test_crossings_that_phasing_suppresses_are_open_circles():
     scene = pt.load_scene("wind_turbine_stage")
     modes, springs = (make(scene, "planar", "mean") for make in (pt.natural_modes, spring_model))
     found = resonances(scene, modes, springs, pt.rpm(60.0))
-    (axes,) = campbell_diagram(scene, "planar", modes, found, pt.rpm(60.0)).axes
+    (axes,) = campbell_diagram(scene, modes, found, pt.rpm(60.0)).axes
     filled, hollow = axes.lines[-2:]
     assert (filled.get_markerfacecolor(), hollow.get_markerfacecolor()) == ("black", "white")
     excited = [r.frequency for r in found if r.excitation == EXCITED]
@@ -140,7 +140,7 @@ def test_labels_of_harmonics_do_not_overlap_and_are_at_their_own_lines(name, lim
     """Slow gears crowd them at the right edge, and a high limit of the speed at the upper edge."""
     scene = pt.load_scene(name)
     modes = pt.natural_modes(scene, stiffness="mean")
-    figure = campbell_diagram(scene, "torsional", modes, (), limit)
+    figure = campbell_diagram(scene, modes, (), limit)
     figure.draw_without_rendering()
     (axes,) = figure.axes
     boxes = [label.get_window_extent() for label in axes.texts]
@@ -159,5 +159,5 @@ def test_labels_of_harmonics_do_not_overlap_and_are_at_their_own_lines(name, lim
 def test_the_title_names_the_model():
     scene = pt.load_scene("wind_turbine_stage")
     modes = pt.natural_modes(scene, "planar")
-    (axes,) = campbell_diagram(scene, "planar", modes, (), pt.rpm(60.0)).axes
+    (axes,) = campbell_diagram(scene, modes, (), pt.rpm(60.0), model="planar").axes
     assert axes.get_title(loc="left").startswith("wind_turbine_stage, planar model: ")

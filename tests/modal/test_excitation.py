@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from planar.moving_scenes import FREE_IN_SPACE, planar, supports
+from planar.moving_scenes import planar, supports
 from power_flows import FLOWS
 
 import planetary_twin_py as pt
@@ -44,7 +44,7 @@ def excited_kind(teeth, planets, harmonic):
     [((21, 99), 3), ((20, 70), 3), ((30, 70), 4), ((29, 71), 4), ((36, 74), 5), ((31, 71), 6)],
 )
 def test_equally_spaced_planets_excite_the_modes_of_the_published_rule(teeth, planets, model):
-    scene = evenly_spaced(teeth, planets).replace(**FREE_IN_SPACE)
+    scene = evenly_spaced(teeth, planets)
     modes, springs = natural_modes(scene, model, "mean"), spring_model(scene, model, "mean")
     found = resonances(scene, modes, springs, 1e9, harmonics=7)
     assert {r.kind for r in found} >= {"rotational", "translational"}

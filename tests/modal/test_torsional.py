@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from planar.moving_scenes import FREE_IN_SPACE
 from power_flows import DIFFERENTIALS, FLOWS, flow_name, scene_of
 
 import planetary_twin_py as pt
@@ -125,16 +124,6 @@ def test_an_unknown_model_and_a_scene_without_supports_end_in_one_line():
         pt.natural_modes(scene, "flat")
     with pytest.raises(pt.SceneError, match="supports: missing"):
         pt.natural_modes(scene, "planar")
-
-
-def test_spatial_modes_require_the_stiffnesses_that_spatial_dynamics_require_and_may_have_0():
-    scene = pt.load_scene("floating_sun")
-    wanted = "supports.sun.axial, .*: missing; with {} = 'spatial' every body requires an axial"
-    with pytest.raises(pt.SceneError, match=wanted.format("model")):
-        pt.natural_modes(scene, "spatial")
-    with pytest.raises(pt.SceneError, match=wanted.format("dynamics")):
-        scene.replace(dynamics="spatial")
-    assert "rigid" in pt.natural_modes(scene.replace(**FREE_IN_SPACE), "spatial").kinds
 
 
 def test_planets_in_phase_have_separate_modes():

@@ -7,7 +7,6 @@ from power_flows import FLOWS, scene_of
 from planetary_twin_py import Scene
 
 MASSES = {"sun": 0.46, "planet": 0.177, "ring": 0.588, "carrier": 3.0}  # [kg], Chaari et al. 2006
-FREE_IN_SPACE = {f"supports.{kind}.{way}": 0.0 for kind in MASSES for way in ("axial", "tilting")}
 
 
 def supports(bearing=1e8, **bearings):

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from planar.moving_scenes import FREE_IN_SPACE, MASSES, planar
+from planar.moving_scenes import MASSES, planar
 from planar.published_set import MESH, PIN, TORQUE, scene
 from planar.rolling_law import (
     element,
@@ -166,7 +166,7 @@ def test_small_motion_of_a_planet_is_stiffer_along_its_load():
     assert outwards == pytest.approx(pin / size, rel=1e-9)
     assert across == pytest.approx(10.0 / 9.0 * pin / size, rel=1e-6)  # of a force r^(10/9)
     for model in ("planar", "spatial"):
-        springs = spring_model(given.replace(**FREE_IN_SPACE), model).springs
+        springs = spring_model(given, model).springs
         found = [s.stiffness for s in springs if s.kind == "planet_bearing"]
         assert found == [outwards, across] * 3
 

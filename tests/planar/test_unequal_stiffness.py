@@ -11,7 +11,6 @@ import math
 
 import numpy as np
 import pytest
-from planar.moving_scenes import FREE_IN_SPACE
 from planar.published_set import MESH, PIN, scene
 from spatial.tilting_scenes import spatial
 from tiers import first
@@ -109,9 +108,7 @@ def test_torsional_modes_are_those_of_the_matrix_of_unequal_planets():
 
 def test_spatial_modes_of_spur_gears_contain_the_planar_ones():
     errors = {f"errors.{name}": factors[:3] for name, factors in UNEQUAL.items()}
-    given = load_scene("wind_turbine_stage").replace(
-        **FREE_IN_SPACE, **{"gearset.helix_angle": 0.0, **errors}
-    )
+    given = load_scene("wind_turbine_stage").replace(**{"gearset.helix_angle": 0.0, **errors})
     equal, planar, space = (
         natural_modes(each, model).frequencies
         for each, model in (

@@ -97,7 +97,7 @@ def test_a_dumped_file_restores_its_values(peer: Peer, start: Start, tmp_path: P
         ("publish_rate", "50.5", "publish_rate = '50.5': fixed while the node is configured"),
         ("gap", "1e-7", "'gap': no such parameter"),
         ("backlash", "wide", "backlash = 'wide': must be a number"),
-        ("input_torque", "1e9", "input_torque = 1e+09 N m: must be a number within"),
+        ("input_torque", "1e9", "input_torque = 1000000000.0 N m: must be a number within"),
     ):
         wrong = Parameter(name=name)
         wrong.value.type, wrong.value.string_value = ParameterType.PARAMETER_STRING, text

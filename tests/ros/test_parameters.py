@@ -86,7 +86,7 @@ def test_geometry_is_that_of_the_scene_and_cannot_be_set(
 
 REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
     ("backlash", math.nan, ("nan", "0.001")),
-    ("backlash", -1.0, ("backlash = -1 m: must be a number within 0 and 0.001 m",)),
+    ("backlash", -1.0, ("backlash = -1.0 m: must be a number within 0 and 0.001 m",)),
     (
         "tolerance",
         0.5,

@@ -32,7 +32,7 @@ def words(text):
     [
         ["modal", "paper"],
         ["modal", "wind_turbine_stage", "--model", "planar"],
-        ["modal", "helical_stage", "--model", "spatial"],
+        ["modal", "wind_turbine_stage", "--model", "spatial"],
         ["fields", "mesh"],
         ["info", SAMPLE],
         ["spectrum", SAMPLE],
