@@ -96,7 +96,7 @@ def test_ports_that_cannot_be_are_refused_in_one_line_and_the_twin_goes_on(
     for values, reason in (
         ({INPUT: "pedal"}, "drive.input.port = 'pedal': must be 'machine', 'torque' or 'motion'"),
         ({INPUT: 3.0}, "drive.input.port = 3.0: must be of type STRING"),
-        ({INPUT: "torque", "input_speed": 1e5}, "input_speed = 100000 rad/s: must be"),
+        ({INPUT: "torque", "input_speed": 1e5}, "input_speed = 100000.0 rad/s: must be"),
         ({INPUT: "torque", OUTPUT: "pedal"}, "drive.output.port = 'pedal': must be"),
     ):
         result = user.set(NODE, atomically=True, **values)

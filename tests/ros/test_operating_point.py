@@ -48,8 +48,7 @@ def test_invalid_values_are_refused_with_the_reason_and_change_nothing(
         assert not result.successful
         ((name, value),) = values.items()
         assert name in result.reason
-        shown = f"{value:.6g}" if isinstance(value, float) else str(value).lower()
-        assert shown in result.reason.lower()
+        assert str(value).lower() in result.reason.lower()
     assert not user.set(NODE, backlash_typo=1.0).successful
     assert not user.set(NODE, scene="other").successful
     assert not user.set(NODE, atomically=True, backlash=3e-7, lambda_ratio=99.0).successful

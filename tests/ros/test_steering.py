@@ -97,7 +97,7 @@ def test_every_parameter_is_listed_with_its_range(
 def test_invalid_arguments_end_in_one_line(command: Command, points: list[OperatingPoint]) -> None:
     for arguments, reason in (
         (("param", "set", "backlash", "3"), "backlash"),
-        (("param", "set", "backlash", "-1"), "backlash = -1 m: must be a number within 0 and"),
+        (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
         (("param", "set", "backlash", "3 kg"), "backlash"),
         (("param", "set", "scene", "other"), "scene"),
         (("param", "get", "gap"), "gap: no such parameter"),

@@ -30,6 +30,7 @@ _UNCONFIGURED = (
     "(planetary-twin run: --param {name}=VALUE)"
 )
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
+_MOST_CHARACTERS = 13  # of a refused value that is shown as it is
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60
 
@@ -129,9 +130,10 @@ def _check_within(descriptor: ParameterDescriptor, name: str, value: float) -> N
 
 
 def _refused(value: float, low: float, high: float) -> str:
-    """Return `value` in six digits, or in all if it is within the range when rounded."""
+    """Return `value`; one of many digits, as from a converted unit, rounded if still refused."""
     rounded = f"{value:.6g}"
-    return repr(value) if low <= float(rounded) <= high else rounded
+    short = len(repr(value)) <= _MOST_CHARACTERS
+    return repr(value) if short or low <= float(rounded) <= high else rounded
 
 
 def _in_customary(low: float, high: float, unit: str) -> str:
