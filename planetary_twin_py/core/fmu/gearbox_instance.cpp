@@ -65,9 +65,9 @@ public:
         if (variable->given == BEFORE_THE_END && run_.running)
             return name_of(*variable) + ": is fixed once the initialisation has ended";
         if (!(variable->lowest <= value && value <= variable->highest))
-            return name_of(*variable) + " = " + number(value) + unit_of(*variable) +
-                   ": must be within " + number(variable->lowest) + " and " +
-                   number(variable->highest) + unit_of(*variable) + limiting_field(*variable);
+            return name_of(*variable) + " = " + number(value) + ": must be within " +
+                   number(variable->lowest) + " and " + number(variable->highest) +
+                   unit_of(*variable) + limiting_field(*variable);
         put(*variable, value);
         run_.dirty = true;
         return {};

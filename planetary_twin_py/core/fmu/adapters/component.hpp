@@ -31,7 +31,8 @@ public:
     }
 
     Status set(const std::uint32_t* references, std::size_t count, const double* values) {
-        if (phase_ > Phase::STEPPING) return refuse("values: " + ended());
+        if (phase_ > Phase::STEPPING)
+            return refuse("values: cannot be set after the end: " + ended());
         for (std::size_t n = 0; n < count; ++n)
             if (Status status = answer(instance_->set(references[n], values[n]))) return status;
         return OK;
@@ -57,7 +58,8 @@ public:
     }
 
     Status step(double from, double size) {
-        if (phase_ > Phase::STEPPING) return refuse("step: " + ended());
+        if (phase_ > Phase::STEPPING)
+            return refuse("step: must follow the initialisation: " + ended());
         if (phase_ != Phase::STEPPING) return refuse("step: must follow the initialisation");
         const Status status = answer(instance_->step(from, from + size));
         if (status == ERROR) phase_ = Phase::FAILED;
