@@ -39,8 +39,8 @@ class Steady(NamedTuple):
     error_power_loss: float
     speed: Speed  # of a minute from the start, without samples
     setup_s: float  # building and starting the model [s]
-    computed_error_dte: float  # without the delay, if every cycle is computed
-    computed: Speed  # then, from the start, without samples
+    computed_error_dte: float = NAN  # without the delay, if every cycle is computed
+    computed: Speed = NOT  # then, from the start, without samples
 
     def figures(self) -> dict[str, str | float | None]:
         """Values for JSON, None for NaN."""
@@ -65,7 +65,7 @@ def measure_steady(
             scene = case.scene()
             begin = repeats_from(scene, tolerance)
             if math.isnan(begin):
-                found.append(Steady(case.name, tolerance, begin, NAN, NAN, NAN, NOT, NAN, NAN, NOT))
+                found.append(Steady(case.name, tolerance, begin, NAN, NAN, NAN, NOT, NAN))
                 continue
             exact = _settled(scene, EXACT, METHOD) if exact is None else exact
             error = _errors(_settled(scene, tolerance, AUTO), exact)
@@ -147,17 +147,17 @@ def _cells(row: Steady) -> tuple[str, ...]:
 
 
 _PAGE_TITLES = (
-    "case", "tolerance", "every cycle", "DTE error", "repeats from", "a minute", "DTE error",
-    "late by", "loss error",
+    "case", "tolerance", "repeats from", "late by", "DTE error", "loss error", "a minute",
+    "every cycle", "its DTE error",
 )  # fmt: skip
 
 
 def _page_cells(row: Steady) -> tuple[str, ...]:
     case, tolerance, begin, late, dte, _, loss, *_ = _cells(row)
     if math.isnan(row.repeats_from):
-        return case, tolerance, "-", "-", begin, *["-"] * 4
+        return case, tolerance, begin, *["-"] * 6
     computed = speed_cell(row.computed), f"{row.computed_error_dte:.1e}"
-    return case, tolerance, *computed, begin, speed_cell(row.speed), dte, late, loss
+    return case, tolerance, begin, late, dte, loss, speed_cell(row.speed), *computed
 
 
 def steady_table(rows: Sequence[Steady]) -> Table:

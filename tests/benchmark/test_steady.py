@@ -21,6 +21,9 @@ def test_repeated_cycles_are_within_the_tolerance_and_a_minute_of_them_costs_lit
     assert row.speed.low <= row.speed.median <= row.speed.high
     cells = f"| smooth | 1e-03 | {row.repeats_from:.2f} s | {row.late:.0e} | {row.error_dte:.1e} |"
     assert cells in steady_markdown([row])
+    assert 0.0 < row.computed_error_dte < 1e-3
+    assert row.computed.low <= row.computed.median <= row.computed.high
+    assert f" | {row.computed_error_dte:.1e} |\n" in steady_markdown([row])
     figures = row.figures()
     assert figures["method"] == "auto" and figures["error_power_loss"] is None
     assert figures["rtf_low"] <= figures["rtf"] <= figures["rtf_high"] and figures["setup_s"] > 0.0
