@@ -71,7 +71,7 @@ def explain(
         fail(error)
     description = f": {escape(loaded.description)}" if loaded.description else ""
     console.print(f"[bold]{shown(loaded.name)}[/bold]{description}\n")
-    print_list(console, "gears", gears(loaded))
+    print_list(console, "gears: ", gears(loaded))
     console.print()
     console.print(_mesh_table(loaded, meshes))
     if loaded.dynamics == "auto":

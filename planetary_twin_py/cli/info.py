@@ -107,7 +107,7 @@ def _print(console: Console, found: Info) -> None:
     console.print(f"gearbox time  {found.simulated:.3f} s", highlight=False)
     for number, ramp in enumerate(ramps(found.changes)):
         title = "" if number else "changes"
-        print_list(console, f"{title:13} {ramp.times[0]:10.4f} s", _described(ramp))
+        print_list(console, f"{title:13} {ramp.times[0]:10.4f} s  ", _described(ramp))
 
 
 def _described(ramp: Ramp) -> list[str]:

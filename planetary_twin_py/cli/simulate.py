@@ -96,8 +96,8 @@ def simulate(
         chosen = {"dynamics": result.choice.figures()}
     train = {"settling_s": settling} | _train(loaded, result)
     meshes = _meshes(result)
-    print_list(console, "gears", gears(loaded))
-    print_list(console, "operating point", operating_point(loaded))
+    print_list(console, "gears: ", gears(loaded))
+    print_list(console, "operating point: ", operating_point(loaded))
     for name, value in train.items():
         if name in _SOURCES and not _has_several(train):
             continue

@@ -37,14 +37,14 @@ def busy(activity: str) -> Status:
     return make_console(stderr=True).status(activity)
 
 
-def print_list(console: Console, title: str, parts: Iterable[str]) -> None:
+def print_list(console: Console, lead: str, parts: Iterable[str]) -> None:
     """Print parts separated by commas; lines break between parts only, not before a unit.
 
     Args:
         console: where to print; its width limits the lines.
-        title: text before the first part.
+        lead: text before the first part, with what separates them.
         parts: texts without commas.
     """
     whole = ", ".join(part.replace(" ", _NO_BREAK) for part in parts)
-    folded = textwrap.fill(f"{title}: {whole}", console.width, subsequent_indent="  ")
+    folded = textwrap.fill(f"{lead}{whole}", console.width, subsequent_indent="  ")
     console.print(folded.replace(_NO_BREAK, " "), markup=False, highlight=False, soft_wrap=True)

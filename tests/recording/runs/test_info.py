@@ -212,10 +212,10 @@ def listed_changes(file):
 def test_a_ramp_is_one_line(tmp_path):
     legs = (50, {"input_torque": 30.0}), (20, {"backlash": 4e-7, "lambda_ratio": 2.0})
     start, *ways = listed_changes(ramped(tmp_path / "bag", *legs))
-    assert start.startswith("0.0000 s: backlash = 2e-07 m")
+    assert start.startswith("0.0000 s  backlash = 2e-07 m")
     assert ways == [
-        "0.0000 s: input_torque from 63 to 30 N m in 50 steps over 0.5 s",
-        "0.5500 s: backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
+        "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
+        "0.5500 s  backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
     ]
 
 
