@@ -145,7 +145,7 @@ def _show(console: Console, found: Sequence[GearboxResult]) -> None:
             continue
         for event in one.events:
             console.print(
-                f"{one.gearbox}: loss torque changed by {100.0 * event.share:+.3g} % of the "
+                f"{one.gearbox}: loss torque changed by about {100.0 * event.share:+.3g} % of the "
                 f"scene's or more, since {event.since:g} s, found at {event.found:g} s",
                 highlight=False, markup=False,
             )  # fmt: skip
