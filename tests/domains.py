@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import socket
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,20 +12,25 @@ from pathlib import Path
 
 # Ports of a domain begin at 7400 + 250 x its number: those of 101 lie below what Linux gives out.
 DOMAINS = 101
+_PORTS, _PER_DOMAIN = 7400, 250
 
 
 @contextmanager
 def private_domain() -> Iterator[int]:
     """
-    Hold a domain for as long as the context lasts.
+    Hold a domain on which nobody is for as long as the context lasts.
 
-    The kernel lets go of the lock when the process that holds it ends, however it ends. Raises
-    `RuntimeError` where tests of others hold all domains.
+    The kernel lets go of the lock when the process that holds it ends, however it ends. Nodes that
+    such a process leaves behind keep their domain from being used. Raises `RuntimeError` where
+    tests of others hold all domains.
     """
     for count in range(DOMAINS):
         number = 1 + (os.getpid() + count) % DOMAINS
-        if (lock := _locked(number)) is not None:
+        if (lock := _locked(number)) is None:
+            continue
+        if _empty(number):
             break
+        os.close(lock)
     else:
         raise RuntimeError(f"all {DOMAINS} DDS domains are held by other tests")
     try:
@@ -47,3 +53,13 @@ def _locked(number: int) -> int | None:
         os.close(lock)
         return None
     return lock
+
+
+def _empty(number: int) -> bool:
+    """Return whether no participant listens on the multicast port of the domain."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as port:
+        try:
+            port.bind(("", _PORTS + _PER_DOMAIN * number))
+        except OSError:
+            return False
+    return True

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, TWIN, Peer, connected
 from .programs import Executed, Forked, Program
 
 _TIMEOUT = 5.0  # [s] for a node to end after a signal
@@ -28,24 +29,30 @@ Start = Callable[..., Program]
 @pytest.fixture
 def start(domain: int, tmp_path: Path) -> Iterator[Start]:
     """Start a node with arguments; processes that still run at the end are ended."""
-    yield from _starting(Forked, tmp_path)
+    with starting(Forked, tmp_path) as run:
+        yield run
 
 
 @pytest.fixture
 def execute(domain: int, tmp_path: Path) -> Iterator[Start]:
     """Start a module with arguments, as users do: for tests of the start itself."""
-    yield from _starting(Executed, tmp_path)
+    with starting(Executed, tmp_path) as run:
+        yield run
 
 
-def _starting(kind: type[Executed | Forked], place: Path) -> Iterator[Start]:
+@contextmanager
+def starting(kind: type[Executed | Forked], place: Path) -> Iterator[Start]:
+    """Start modules in a folder; those that still run at the end, also a failed one, are ended."""
     processes: list[Program] = []
 
     def run(module: str, *arguments: str) -> Program:
         processes.append(kind(module, *arguments, cwd=place))
         return processes[-1]
 
-    yield run
-    _end(processes)
+    try:
+        yield run
+    finally:
+        _end(processes)
 
 
 def _end(processes: list[Program]) -> None:
@@ -93,13 +100,11 @@ def running_twin(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningTw
     place = tmp_path_factory.mktemp("running_twin")
     with private_domain() as domain, pytest.MonkeyPatch.context() as environment:
         environment.setenv("ROS_DOMAIN_ID", str(domain))
-        process = Forked("planetary_twin.simulation", cwd=place)
-        user = Peer()
-        points = user.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-        user.until(lambda: points)
-        yield RunningTwin(domain, user, points)
-        user.close()
-        _end([process])
+        with starting(Forked, place) as start, connected() as user:
+            start("planetary_twin.simulation")
+            points = user.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+            user.until(lambda: points)
+            yield RunningTwin(domain, user, points)
 
 
 @pytest.fixture
@@ -125,9 +130,8 @@ def points(
 @pytest.fixture
 def peer(domain: int) -> Iterator[Peer]:
     """Another participant, as a user's program."""
-    user = Peer()
-    yield user
-    user.close()
+    with connected() as user:
+        yield user
 
 
 @pytest.fixture

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import rclpy
@@ -115,6 +116,16 @@ class Peer:
         value = self.call(GetParameters, f"{node}/get_parameters", request).values[0]
         assert value.type == ParameterType.PARAMETER_DOUBLE
         return value.double_value
+
+
+@contextmanager
+def connected() -> Iterator[Peer]:
+    """A participant of the domain that the environment names."""
+    peer = Peer()
+    try:
+        yield peer
+    finally:
+        peer.close()
 
 
 def _typed(value: Any) -> ParameterValue:

@@ -32,9 +32,9 @@ from planetary_twin_py.following.measured_messages import (
 )
 from planetary_twin_py.following.sensors import read_sensors
 
-from .conftest import _end
-from .peer import TWIN, Peer
-from .programs import Forked
+from .conftest import starting
+from .peer import TWIN, connected
+from .programs import Forked, Program
 
 SENSORS = "learning: 8\n"  # hunting periods of a baseline, to be soon done
 ERRORS = """
@@ -71,17 +71,17 @@ def play(place: Path, hidden: str, duration: float) -> Iterator[Played]:
     (place / "sensors.yaml").write_text(SENSORS)
     with private_domain() as domain, pytest.MonkeyPatch.context() as environment:
         environment.setenv("ROS_DOMAIN_ID", str(domain))
-        user = Peer()
+        with starting(Forked, place) as begin, connected() as user:
 
-        def start(node: str, **given: Any) -> Forked:
-            words = [word for name, value in given.items() for word in ("-p", f"{name}:={value}")]
-            return Forked(f"planetary_twin.{node}", "--ros-args", *words, cwd=place)
+            def start(node: str, **given: Any) -> Program:
+                words = [f"{name}:={value}" for name, value in given.items()]
+                options = [option for word in words for option in ("-p", word)]
+                return begin(f"planetary_twin.{node}", "--ros-args", *options)
 
-        plant = start("plant", hidden="hidden.yaml", duration=duration,
-                      wait_for="[follower, logger]", autostart=False)  # fmt: skip
-        follower = start("follower", sensors="sensors.yaml")
-        logger = start("logger", name="rig")
-        try:
+            plant = start("plant", hidden="hidden.yaml", duration=duration,
+                          wait_for="[follower, logger]", autostart=False)  # fmt: skip
+            start("follower", sensors="sensors.yaml")
+            start("logger", name="rig")
             user.change_state(f"{TWIN}/plant", "configure")
             subscribers = [f"{TWIN}/measured/{name}" for name in ("joint_states", "encoders")]
             user.until(lambda: all(user.node.count_subscribers(n) == 2 for n in subscribers))
@@ -89,9 +89,6 @@ def play(place: Path, hidden: str, duration: float) -> Iterator[Played]:
             user.until(lambda: plant.poll() is not None)
             user.change_state(FOLLOWER, "deactivate")
             user.change_state(f"{TWIN}/logger", "deactivate")
-        finally:
-            user.close()
-            _end([plant, follower, logger])
     yield Played(place, recorded(place / "recordings" / "rig"))
 
 
