@@ -54,6 +54,7 @@ RECENT = 1_200  # bins from which the size of a step is estimated at most
 MARGIN = 5.0  # [s] by which a step may start before the sum of the CUSUM leaves zero
 MANY = 100.0  # ratio above which a step is not compared with a loss or a torque
 FREQUENT, UNSTEADY = 3, 60.0  # steps in so many seconds that no single cause explains
+BEND = 0.1  # largest error of a slope as the mean acceleration of a bin, over the change within it
 IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
 REFUSED = 1.0  # [s] of successive gated balances that are a step
@@ -132,6 +133,7 @@ class BalanceFollower:
         self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
         self._step_times: deque[float] = deque()  # [s], the latest last
         self._last_speed: tuple[float, float] | None = None  # time and speed
+        self._last_slope = 0.0  # [rad/s^2]
         self._variety = Variety(self.train)
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
@@ -242,7 +244,9 @@ class BalanceFollower:
                 )
             time_norm = self.period * math.sqrt(mean.readings / 12.0)
             noise = math.sqrt(self._scatter) / time_norm if math.isfinite(self._scatter) else 0.0
-            return mean.slope * factor, noise
+            slope = mean.slope * factor
+            change, self._last_slope = slope - self._last_slope, slope
+            return slope, math.hypot(noise, BEND * change)
         if previous is None or time - previous[0] > 10.0 * self.period:
             return 0.0, 0.0
         slope = (speed - previous[1]) / (time - previous[0])

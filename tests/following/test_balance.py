@@ -76,6 +76,14 @@ def test_a_changing_speed_determines_the_inertia():
     assert inertia.low < follower.train.inertia < inertia.high
 
 
+def test_the_inertia_is_not_biased_by_accelerations_that_change_within_a_bin():
+    errors = []
+    for seed in range(24):
+        _, follower = balance_of("varied", {}, 60.0, seed)
+        errors.append(named(follower)["inertia"].value / follower.train.inertia - 1.0)
+    assert abs(np.mean(errors)) < 5e-3  # of one run: 1e-2
+
+
 @pytest.mark.exhaustive
 def test_inertia_is_not_distinguished_from_the_noise_of_a_steady_speed():
     _, follower = balance_of("reversing", {}, 200.0, 5)
