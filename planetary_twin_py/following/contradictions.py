@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engineering_units import percent
+from .named_unit import named_unit
 from .sensors import Sensors, torque_gain, torque_zero
 from .train import FollowedTrain
 
@@ -166,6 +167,8 @@ class Contradictions:
         )
         if abs(loss) < abs(torque):
             line += f" or a gain that is wrong by {percent(abs(loss / torque))} at least"
+            if unit := named_unit(1.0 - loss / torque):
+                line += f"; {unit}"
         return line
 
     def _speeds(self, ratio: float) -> str:
@@ -218,10 +221,13 @@ class Contradictions:
                 return (
                     f"{statement}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
                 )
-        if abs(ratio * expected - 1.0) < 0.5:
-            return f"{statement}; input_torque and output_torque seem to be exchanged"
-        if abs(abs(ratio) - 1.0) < 0.5:
-            return f"{statement}; both torques seem to be referred to the same shaft"
+        for close in (0.1, 0.5):  # a unit is named where neither of these is close
+            if abs(ratio * expected - 1.0) < close:
+                return f"{statement}; input_torque and output_torque seem to be exchanged"
+            if abs(abs(ratio) - 1.0) < close:
+                return f"{statement}; both torques seem to be referred to the same shaft"
+            if unit := named_unit(share):
+                return f"{statement}; {unit}"
         return f"{statement}; no unit explains it"
 
 

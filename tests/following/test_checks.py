@@ -26,6 +26,21 @@ WRONG = {
     ),
     "torque in N mm": ({"output_torque": 1e3}, "output_torque is probably in N mm"),
     "torque in kN m": ({"input_torque": 1e-3}, "input_torque is probably in kN m"),
+    "output torque in lbf in": (
+        {"output_torque": 8.8507}, "in lbf in: scale output_torque by 0.11298",
+    ),
+    "input torque in lbf in": (
+        {"input_torque": 8.8507}, "in lbf in: scale input_torque by 0.11298",
+    ),
+    "input torque in lbf ft": (
+        {"input_torque": 0.73756}, "in lbf ft: scale input_torque by 1.3558",
+    ),
+    "output torque in kgf m": (
+        {"output_torque": 0.10197}, "in kgf m: scale output_torque by 9.8066",
+    ),
+    "input torque in kgf cm": (
+        {"input_torque": 10.197}, "in kgf cm: scale input_torque by 0.09806",
+    ),
     "both torques in N mm": (
         {"input_torque": 1e3, "output_torque": 1e3}, "if torques are in N mm, scale input_torque",
     ),
@@ -53,6 +68,14 @@ def test_it_is_refused_in_one_line(readings, what):
     with pytest.raises(InputError, match=said) as error:
         Follower(paper()).add(Readings(time, wrong))
     assert "\n" not in str(error.value)
+
+
+def test_a_unit_that_leaves_a_plausible_ratio_is_asked_for(readings):
+    time, columns = readings
+    follower = Follower(paper())
+    follower.add(Readings(time, columns | {"output_torque": 0.73756 * columns["output_torque"]}))
+    (line,) = (one for one in follower.estimate().remarks if "lbf" in one)
+    assert "output_torque is probably in lbf ft: scale output_torque by 1.3558" in line
 
 
 @pytest.mark.parametrize("what", ["reversed torque", "speed of the output in rpm"])
