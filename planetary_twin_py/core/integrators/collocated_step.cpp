@@ -50,10 +50,9 @@ void find_end_waves(Propagation& run, double h) {
     const std::int64_t last = run.nodes.count - 1;
     const double later = h - run.motion.step, phase = run.motion.fastest_rate * std::fabs(later);
     const Row<L> cosine(run.cosine[last]), sine(run.sine[last]);
-    if (phase <= HARDLY_SHIFTED)
-        shift_waves<L, TWO_TERMS>(run.motion, later, cosine, sine, run.end_cosine, run.end_sine);
-    else if (phase <= FEW_SHIFTED)
-        shift_waves<L, FEW_TERMS>(run.motion, later, cosine, sine, run.end_cosine, run.end_sine);
+    if (phase <= FURTHEST_SHIFT)
+        shift_waves<L>(run.motion, later, terms_of_shift(phase), cosine, sine, run.end_cosine,
+                       run.end_sine);
     else
         waves<L>(run.motion, h, run.end_cosine, run.end_sine);
 }

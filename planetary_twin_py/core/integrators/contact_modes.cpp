@@ -162,12 +162,16 @@ std::int64_t search(const Model& model, const State& state, ContactModes& known,
         known.last = 0;
     }
     std::int64_t n = known.count();
-    ContactState& modes = known.states.emplace_back();
-    modes = ContactState{};
+    ContactState& modes = known.states.add();
     modes.key = key;
     solve_modes(model, state, modes);
     known.places.emplace(key, n);
     return n;
+}
+
+// A number with the segment of one more mesh.
+std::int64_t append(std::int64_t number, std::int64_t segment) {
+    return number * (SEGMENTS + 1) + segment;
 }
 
 }  // namespace
@@ -179,11 +183,16 @@ ContactKey contact_key(const Model& model, const State& state) {
         key.sun = 2 * key.sun + (model.load.port[c] == BY_MOTION ? 1 : 0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t segment = state.side[i] != OPEN ? state.segment[i] + 1 : 0;
-        bool coast = only_side(train, i) == COAST_SIDE;
-        std::int64_t& sun = coast ? key.sun_coast : key.sun;
-        std::int64_t& ring = coast ? key.ring_coast : key.ring;
-        std::int64_t& own = train.kind[i] == 0 ? sun : ring;
-        own = own * (SEGMENTS + 1) + segment;
+        const bool coast = only_side(train, i) == COAST_SIDE, sun = train.kind[i] == 0;
+        // Not by reference to one of them: that would keep them in memory.
+        if (coast && sun)
+            key.sun_coast = append(key.sun_coast, segment);
+        else if (coast)
+            key.ring_coast = append(key.ring_coast, segment);
+        else if (sun)
+            key.sun = append(key.sun, segment);
+        else
+            key.ring = append(key.ring, segment);
     }
     return key;
 }

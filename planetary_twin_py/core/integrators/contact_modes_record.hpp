@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -143,13 +143,44 @@ struct alignas(64) ContactState {
     StoredIncrement increments[STORED_STEPS];  // likewise, see `predictor.hpp`
 };
 
-// Modes of all contact states so far. Their addresses do not change.
+// Contact states in the order of their first occurrence. Their addresses do not change, and each is
+// found by two loads; a copy has states of its own.
+class ContactStates {
+public:
+    ContactStates() = default;
+    ContactStates(ContactStates&&) = default;
+    ContactStates& operator=(ContactStates&&) = default;
+    ContactStates(const ContactStates& other) { copy(other); }
+    ContactStates& operator=(const ContactStates& other) {
+        if (this != &other) copy(other);
+        return *this;
+    }
+
+    ContactState& operator[](std::int64_t n) { return *each[static_cast<std::size_t>(n)]; }
+    const ContactState& operator[](std::int64_t n) const {
+        return *each[static_cast<std::size_t>(n)];
+    }
+    ContactState& at(std::size_t n) { return *each.at(n); }
+    std::int64_t size() const { return static_cast<std::int64_t>(each.size()); }
+    void clear() { each.clear(); }
+    ContactState& add() { return *each.emplace_back(std::make_unique<ContactState>()); }
+
+private:
+    void copy(const ContactStates& other) {
+        each.clear();
+        for (const auto& state : other.each) each.push_back(std::make_unique<ContactState>(*state));
+    }
+
+    std::vector<std::unique_ptr<ContactState>> each;
+};
+
+// Modes of all contact states so far.
 struct ContactModes {
-    std::deque<ContactState> states;
+    ContactStates states;
     std::unordered_map<ContactKey, std::int64_t, HashOfContacts> places;
     std::int64_t last = 0;  // index of the last state
 
-    std::int64_t count() const { return static_cast<std::int64_t>(states.size()); }
+    std::int64_t count() const { return states.size(); }
 };
 
 }  // namespace gearbox

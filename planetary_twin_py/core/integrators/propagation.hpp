@@ -27,10 +27,17 @@ inline constexpr double ROUNDED_UP = 1.0 + 1e-12;
 
 // Relative change of the damping times below which the damping of the modes is not updated.
 inline constexpr double DAMPING_KEPT = 5e-3;
-// Terms of the series of a free wave a short time later, and the phase up to which it is accurate
-// to eleven digits. Two terms are enough for steps between the same edges in a later mesh cycle.
-inline constexpr int TWO_TERMS = 2, FEW_TERMS = 5, MANY_TERMS = 9;
-inline constexpr double HARDLY_SHIFTED = 3e-4, FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
+// Number of terms of the series of a free wave a short time later, by its phase, that makes it
+// accurate to thirteen digits: the energy ledger has small differences of waves. Two terms, for
+// steps between the same edges in a later mesh cycle, to eleven.
+inline int terms_of_shift(double phase) {
+    if (phase <= 0.04) return phase <= 3e-4 ? 2 : phase <= 0.02 ? 5 : 6;
+    return phase <= 0.08 ? 7 : phase <= 0.15 ? 9 : 11;
+}
+inline constexpr double FURTHEST_SHIFT = 0.3;  // phase up to which the series is used
+inline constexpr double INVERSE[] = {0.0,       1.0,       1.0 / 2.0,  1.0 / 3.0,
+                                     1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0,  1.0 / 7.0,
+                                     1.0 / 8.0, 1.0 / 9.0, 1.0 / 10.0, 1.0 / 11.0};
 
 inline ContactState& contacts_of(Propagation& run) {
     return run.known.states[run.motion.modes];
@@ -84,14 +91,14 @@ void damp_modes(ContactState& contacts, const double* tau) {
 }
 
 // Free waves a short time later by Taylor series: C' = -w^2 S, S' = C - c S.
-template <int L, int TERMS>
-ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s,
-                               double* cosine, double* sine) {
+template <int L>
+ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, int terms, Row<L> c,
+                               Row<L> s, double* cosine, double* sine) {
     using V = Row<L>;
     V square(motion.square), damping(motion.damping);
     V sum_c = c, sum_s = s;
-    for (int k = 1; k <= TERMS; ++k) {
-        const double part = delay * (1.0 / k);
+    for (int k = 1; k <= terms; ++k) {
+        const double part = delay * INVERSE[k];
         V next_c = square * s * -part, next_s = fused(-damping, s, c) * part;
         c = next_c;
         s = next_s;
@@ -106,8 +113,8 @@ ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, Row<L> c
 template <int L>
 NOINLINE void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
     const double phase = motion.fastest_rate * std::fabs(t);
-    if (phase <= FEW_SHIFTED) return shift_waves<L, FEW_TERMS>(motion, t, 1.0, 0.0, cosine, sine);
-    if (phase <= MANY_SHIFTED) return shift_waves<L, MANY_TERMS>(motion, t, 1.0, 0.0, cosine, sine);
+    if (phase <= FURTHEST_SHIFT)
+        return shift_waves<L>(motion, t, terms_of_shift(phase), 1.0, 0.0, cosine, sine);
 #pragma GCC ivdep
     for (int m = 0; m < L; ++m) {
         Wave at = wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t);
@@ -139,11 +146,11 @@ ALWAYS_INLINE Waves<L> waves_after(const ModalMotion& motion, const Waves<L>& a,
 }
 
 // Free waves at the nodes of a step from stored ones of a shorter step.
-template <int L, int TERMS>
-void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer) {
+template <int L>
+void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer, int terms) {
     for (int n = 0; n < run.nodes.count; ++n)
-        shift_waves<L, TERMS>(run.motion, run.nodes.abscissa[n] * longer, Row<L>(stored.cosine[n]),
-                              Row<L>(stored.sine[n]), run.cosine[n], run.sine[n]);
+        shift_waves<L>(run.motion, run.nodes.abscissa[n] * longer, terms, Row<L>(stored.cosine[n]),
+                       Row<L>(stored.sine[n]), run.cosine[n], run.sine[n]);
 }
 
 // Free motions at the nodes of a step of h, from those of an equally long step if stored.
@@ -153,9 +160,8 @@ void find_waves(Propagation& run, double h) {
     StoredWaves* stored = place < STORED_STEPS ? &contacts_of(run).waves[place] : nullptr;
     if (stored && stored->step > 0.0 && stored->nodes == run.nodes.count) {
         const double longer = h - stored->step, phase = run.motion.fastest_rate * std::fabs(longer);
-        if (phase <= HARDLY_SHIFTED) return shift_all_waves<L, TWO_TERMS>(run, *stored, longer);
-        if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, *stored, longer);
-        if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, *stored, longer);
+        if (phase <= FURTHEST_SHIFT)
+            return shift_all_waves<L>(run, *stored, longer, terms_of_shift(phase));
     }
     for (int n = 0; n < run.nodes.count; ++n) {
         waves<L>(run.motion, run.nodes.abscissa[n] * h, run.cosine[n], run.sine[n]);

@@ -223,6 +223,14 @@ void sum_step(const Model& model, Integrator& integrator) {
     add_series(model.train, integrator.constants, integrator.sums.series, integrator.sums.step);
 }
 
+// Whether a mode turns by more than `phase` within h seconds.
+static bool has_phases_above(const Train& train, const ModalMotion& motion, double phase,
+                             double h) {
+    return with_lanes(train, [&]<int L>(std::integral_constant<int, L>) {
+        return !none(Row<L>(motion.rate) * h > phase);
+    });
+}
+
 // Nodes resolve one radian of a free wave each, and so do equidistant times. Waves below the
 // tolerance do not count.
 std::int64_t even_intervals(const Integrator& integrator, const Train& train, double h) {
@@ -230,6 +238,7 @@ std::int64_t even_intervals(const Integrator& integrator, const Train& train, do
     const ModalMotion& motion = run.motion;
     const MatrixRows magnitude = run.known.states[motion.modes].matrices.motion_magnitude();
     const double by_nodes = static_cast<double>(run.nodes.count);
+    if (!has_phases_above(train, motion, by_nodes, h)) return 0;
     double fastest = 0.0;
     for (std::int64_t m = 0; m < train.lanes; ++m) {
         double phase = motion.rate[m] * h;
