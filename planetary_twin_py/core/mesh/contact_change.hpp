@@ -70,7 +70,7 @@ inline void change_contact(const Model& model, State& state, StepConstants& step
 // Whether the stiffness of mesh i without faults jumps from a segment to the next.
 inline bool stiffness_jumps(const Train& train, std::int64_t i, std::int64_t segment,
                             std::int64_t after, bool forwards) {
-    constexpr double ROUNDING = 1e-9;
+    constexpr double ROUNDING = 1e-12;
     const double* edge = train.edge[train.kind[i]];
     double before = mesh_stiffness(train, i, segment, edge[forwards ? segment + 1 : segment]);
     double then = mesh_stiffness(train, i, after, edge[forwards ? after : after + 1]);
