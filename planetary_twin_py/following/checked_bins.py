@@ -36,7 +36,7 @@ class CheckedBins:
         self._checks = Checks(train, sensors, period)
         self._spacing = Spacing()
         self._dead_torques = DeadTorques(train, period)
-        self._unit_remarks = UnitRemarks(scene.operating_point, train.ratio)
+        self._unit_remarks = UnitRemarks(scene.operating_point)
 
     @property
     def counters(self) -> Counters:
@@ -86,10 +86,7 @@ class CheckedBins:
         values = {name: mean.value for name, mean in time_bin.means.items()}
         speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
         self._dead_torques.add(time_bin.number * self._period, values, speed)
-        input_torque, output_torque = (
-            values.get(name, math.nan) for name in ("input_torque", "output_torque")
-        )
-        self._unit_remarks.add(input_torque, output_torque, speed)
+        self._unit_remarks.add(values.get("input_torque", math.nan), speed)
         return time_bin
 
 

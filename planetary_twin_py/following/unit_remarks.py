@@ -7,12 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from ..scene import OperatingPoint
-from .named_unit import named_unit
 
 SMALL = 0.005  # share of the torque of the scene; an idle gearbox usually takes more
 FAST = 5.0  # multiple of the speed of the scene
 TURNING = 0.05  # share of the speed of the scene below which a bin is at standstill
-LOADED = 0.2  # share of the torque of the scene above which both torques are compared
 FEWEST = 50  # bins in which the gearbox turns, from which torque and speed are judged
 
 
@@ -20,28 +18,22 @@ FEWEST = 50  # bins in which the gearbox turns, from which torque and speed are 
 class UnitRemarks:
     """Compares torques and speeds of the input with the scene while the gearbox turns.
 
-    A unit that is wrong in both torques, or in both speeds, leaves their ratio correct. In some
-    units the ratio of the torques is one of a lossy gearbox.
+    A unit that is wrong in both torques, or in both speeds, leaves their ratio correct.
 
     Args:
         point: operating point of the scene; a torque or speed of zero is not compared.
-        ratio: output speed over input speed.
     """
 
     point: OperatingPoint
-    ratio: float
     _torque: float = field(default=0.0, init=False)  # [N m] largest magnitude
     _speeds: float = field(default=0.0, init=False)  # [rad/s] sum of magnitudes
     _count: int = field(default=0, init=False)
-    _transmitted: float = field(default=0.0, init=False)  # sum of ratios over that without loss
-    _loaded: int = field(default=0, init=False)
 
-    def add(self, torque: float, output_torque: float, speed: float) -> None:
+    def add(self, torque: float, speed: float) -> None:
         """Add the means of a bin.
 
         Args:
             torque: input torque [N m], NaN if it is missing.
-            output_torque: output torque [N m], NaN if it is missing.
             speed: input speed [rad/s], NaN if it is missing.
         """
         if not abs(speed) > TURNING * abs(self.point.input_speed):
@@ -50,19 +42,11 @@ class UnitRemarks:
         self._speeds += abs(speed)
         if not math.isnan(torque):
             self._torque = max(self._torque, abs(torque))
-        share = -self.ratio * output_torque / torque if torque else math.nan
-        if abs(torque) > LOADED * abs(self.point.input_torque) and math.isfinite(share):
-            self._transmitted += share
-            self._loaded += 1
 
     def remarks(self) -> Iterator[str]:
         """Lines that ask for the unit, if torques or speeds are far from those of the scene."""
         if self._count >= FEWEST:
             yield from unit_remarks(self.point, self._torque, self._speeds / self._count)
-        if self._loaded >= FEWEST:
-            share = self._transmitted / self._loaded
-            if unit := named_unit(share):
-                yield f"output_torque is {share:.3g} times that without loss: {unit}"
 
 
 def unit_remarks(point: OperatingPoint, torque: float, speed: float) -> Iterator[str]:

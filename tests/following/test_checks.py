@@ -78,6 +78,18 @@ def test_a_unit_that_leaves_a_plausible_ratio_is_asked_for(readings):
     assert "output_torque is probably in lbf ft: scale output_torque by 1.3558" in line
 
 
+def test_a_lossy_scene_is_not_taken_for_a_wrong_unit(readings):
+    time, columns = readings
+    drag = 0.27 * float(np.median(columns["input_torque"]))
+    scene = paper().replace(**{"losses.sun_drag.coulomb": drag})
+    lost = drag * np.sign(columns["input_speed"]) / followed_train(scene).ratio
+    lossy = columns | {"output_torque": columns["output_torque"] + lost}
+    assert 0.66 < np.median(lossy["output_torque"] / columns["output_torque"]) < 0.75
+    follower = Follower(scene)
+    follower.add(Readings(time, lossy))
+    assert not [line for line in follower.estimate().remarks if "lbf" in line]
+
+
 @pytest.mark.parametrize("what", ["reversed torque", "speed of the output in rpm"])
 def test_the_stated_correction_is_accepted(readings, what):
     factors, said = WRONG[what]
