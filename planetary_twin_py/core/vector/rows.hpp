@@ -299,17 +299,21 @@ struct MatrixRows {
     const double* operator[](std::int64_t m) const { return first + m * lanes; }
 };
 
-// Number m of a row in all lanes of a register, by a single permutation.
+// Number m of a row in all lanes of a register; in one of eight, from its half twice: this takes no
+// indices, and the numbers of a half share it.
 template <int M, int L>
 ALWAYS_INLINE Lanes spread(const Row<L>& row) {
     constexpr int K = M % WIDTH;
     const Lanes part = row.part[M / WIDTH];
-    if constexpr (WIDTH == 8)
-        return __builtin_shufflevector(part, part, K, K, K, K, K, K, K, K);
-    else if constexpr (WIDTH == 4)
-        return __builtin_shufflevector(part, part, K, K, K, K);
-    else
-        return __builtin_shufflevector(part, part, K, K);
+#if defined(__AVX512F__)
+    constexpr int HALF = K < 4 ? 0x44 : 0xEE, IN_HALF = (K % 4) * 0x55;
+    const Lanes half = _mm512_maskz_shuffle_f64x2(0xFF, part, part, HALF);
+    return _mm512_maskz_permutex_pd(0xFF, half, IN_HALF);
+#elif defined(__AVX__)
+    return __builtin_shufflevector(part, part, K, K, K, K);
+#else
+    return __builtin_shufflevector(part, part, K, K);
+#endif
 }
 
 // Add the row of L numbers at `row`, times a register with the same number in all lanes.
