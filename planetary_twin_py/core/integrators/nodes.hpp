@@ -9,6 +9,7 @@ struct alignas(64) Nodes {
     double abscissa[5];                    // in (0, 1], the last of which is 1
     alignas(64) double coefficient[5][5];  // of the powers of t (rows) from the values (columns)
     alignas(64) double legendre[5][5];     // of Legendre polynomials (rows), likewise
+    alignas(64) double integral[5][8];     // of the powers of t from t^1 in the integral up to t
     double smallest;  // bound on the product of the distances of t from all points
 };
 

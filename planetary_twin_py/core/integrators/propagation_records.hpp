@@ -53,7 +53,7 @@ struct alignas(64) Propagation {
     alignas(64) double before_d[MESHES];  // at the last node, one sweep earlier
     alignas(64) double before_rate[MESHES];
     alignas(64) double before_v[BODIES];
-    double weight[5];                // of the nodes in the integral over the accepted step [s]
+    alignas(64) double weight[8];    // of the nodes in the integral over the accepted step [s]
     std::int8_t may_change[MESHES];  // whether its contact may change within the step
     alignas(64) double scan_d[8][MESHES];  // at even times
     alignas(64) double scan_rate[8][MESHES];

@@ -79,6 +79,13 @@ void fill_legendre(Nodes& nodes, const long double* abscissa) {
     }
 }
 
+// Fill the matrix that maps values at the points to coefficients of the integral from 0 to t.
+void fill_integral(Nodes& nodes) {
+    for (std::int64_t k = 0; k < nodes.count; ++k)
+        for (std::int64_t n = 0; n < nodes.count; ++n)
+            nodes.integral[k][n] = nodes.coefficient[k][n] / static_cast<double>(k + 1);
+}
+
 }  // namespace
 
 void radau(int points, Nodes& nodes) {
@@ -96,6 +103,7 @@ void radau(int points, Nodes& nodes) {
     for (int n = 0; n < points; ++n) nodes.abscissa[n] = static_cast<double>(abscissa[n]);
     invert_powers(points, abscissa, nodes.coefficient);
     fill_legendre(nodes, abscissa);
+    fill_integral(nodes);
     for (int k = 0; k < SCANNED_POINTS; ++k) {
         double t = static_cast<double>(k) / (SCANNED_POINTS - 1), product = 1.0;
         for (int n = 0; n < points; ++n) product *= t - nodes.abscissa[n];
