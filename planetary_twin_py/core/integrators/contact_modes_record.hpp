@@ -65,6 +65,7 @@ struct alignas(64) StoredIncrement {
 struct alignas(64) WaveBounds {
     alignas(64) double displaced[BODIES];
     alignas(64) double moving[BODIES];  // [s]
+    alignas(64) double motion[BODIES];  // largest transmission error of a mesh in each mode
 };
 
 // Matrices of the modes of a contact state, with as few lanes as are used, so that they stay in the

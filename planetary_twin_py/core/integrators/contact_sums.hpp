@@ -75,8 +75,8 @@ template <int L>
 ALWAYS_INLINE void add_films(const Train& train, const Node& node, double weight,
                              ContactSums<L>& sums) {
     for (std::int64_t p = 0; p < train.slots; ++p)
-        sums.share += weight * Row<L>(node.meshes.share[p]);
-    sums.film += weight * Row<L>(node.friction.film);
+        sums.share = fused(weight, Row<L>(node.meshes.share[p]), sums.share);
+    sums.film = fused(weight, Row<L>(node.friction.film), sums.film);
 }
 
 // Add the results of `find_friction` at a node, times `weight` [s].
@@ -89,13 +89,14 @@ ALWAYS_INLINE void add_node(const Train& train, const Node& node, double weight,
     V normal_force(node.meshes.normal_force);
     Mask<L> loaded = normal_force > 0.0;
     sums.touching += select(normal_force == 0.0, 0.0, V(weight));
-    sums.rolled += rolling * select(loaded, normal_force, 0.0);
+    sums.rolled = fused(rolling, select(loaded, normal_force, 0.0), sums.rolled);
     if (!train.friction) return;
     add_films(train, node, weight, sums);
-    sums.boundary += weight * V(friction.boundary);
-    sums.viscous += weight * V(friction.viscous);
-    sums.lost += weight * V(friction.lost);
-    sums.clipped += select(loaded & (V(friction.viscous) == 0.0), V(weight), 0.0);
+    V viscous(friction.viscous);
+    sums.boundary = fused(weight, V(friction.boundary), sums.boundary);
+    sums.viscous = fused(weight, viscous, sums.viscous);
+    sums.lost = fused(weight, V(friction.lost), sums.lost);
+    sums.clipped += select(loaded & (viscous == 0.0), V(weight), 0.0);
 }
 
 // Write the sums into `out`, the integrals of a MeshSums.

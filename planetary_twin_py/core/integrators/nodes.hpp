@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "integrators/parabola.hpp"
+
 namespace gearbox {
 
 struct alignas(64) Nodes {
@@ -10,7 +12,8 @@ struct alignas(64) Nodes {
     alignas(64) double coefficient[5][5];  // of the powers of t (rows) from the values (columns)
     alignas(64) double legendre[5][5];     // of Legendre polynomials (rows), likewise
     alignas(64) double integral[5][8];     // of the powers of t from t^1 in the integral up to t
-    double smallest;  // bound on the product of the distances of t from all points
+    Neighbours neighbours[5];  // of each node but the last; before the first is the start
+    double smallest;           // bound on the product of the distances of t from all points
 };
 
 }  // namespace gearbox

@@ -65,6 +65,8 @@ WaveBounds bound_waves(const ContactState& contacts, double tau) {
     WaveBounds bounds;
     first.store(bounds.displaced);
     (longest + tau * (1.0 + DAMPING_KEPT)).store(bounds.moving);
+    const MatrixRows magnitude = contacts.matrices.motion_magnitude();
+    for (int m = 0; m < L; ++m) bounds.motion[m] = largest(Row<MESH_LANES<L>>(magnitude[m]));
     return bounds;
 }
 

@@ -86,6 +86,15 @@ void fill_integral(Nodes& nodes) {
             nodes.integral[k][n] = nodes.coefficient[k][n] / static_cast<double>(k + 1);
 }
 
+void fill_neighbours(Nodes& nodes) {
+    double before = 0.0;
+    for (std::int64_t n = 0; n < nodes.count - 1; ++n) {
+        const double here = nodes.abscissa[n];
+        nodes.neighbours[n] = neighbours_at(before - here, nodes.abscissa[n + 1] - here);
+        before = here;
+    }
+}
+
 }  // namespace
 
 void radau(int points, Nodes& nodes) {
@@ -104,6 +113,7 @@ void radau(int points, Nodes& nodes) {
     invert_powers(points, abscissa, nodes.coefficient);
     fill_legendre(nodes, abscissa);
     fill_integral(nodes);
+    fill_neighbours(nodes);
     for (int k = 0; k < SCANNED_POINTS; ++k) {
         double t = static_cast<double>(k) / (SCANNED_POINTS - 1), product = 1.0;
         for (int n = 0; n < points; ++n) product *= t - nodes.abscissa[n];

@@ -6,6 +6,7 @@
 
 #include "integrators/contact_sums.hpp"
 #include "integrators/node_forces.hpp"
+#include "integrators/parabola.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
 #include "mesh/deflection.hpp"
@@ -50,23 +51,6 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
         add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
 }
 
-// Fill the series at the start and the nodes of a collocation step.
-template <int M>
-void fill_at_nodes(Integrator& integrator) {
-    const Propagation& run = integrator.run;
-    Series& series = integrator.sums.series;
-    series.count = run.nodes.count + 1;
-    series.at[0] = series.weight[0] = 0.0;
-    copy<M>(run.start.d, series.d[0]);
-    copy<M>(run.start.meshes.normal_force, series.normal_force[0]);
-    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-        series.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
-        series.weight[n + 1] = run.weight[n];
-        copy<M>(run.node[n].d, series.d[n + 1]);
-        copy<M>(run.node[n].meshes.normal_force, series.normal_force[n + 1]);
-    }
-}
-
 // Fill the series at `intervals` + 1 equidistant times of a collocation step.
 template <int L>
 void fill_at_even_times(const Model& model, Integrator& integrator, std::int64_t intervals) {
@@ -83,30 +67,6 @@ void fill_at_even_times(const Model& model, Integrator& integrator, std::int64_t
         copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
         now = waves_after(motion, now, gap);
     }
-}
-
-// Fill the series of a collocation step, and sum up its contacts and friction.
-template <int L>
-void add_collocated(const Model& model, Integrator& integrator) {
-    const Train& train = model.train;
-    const Propagation& run = integrator.run;
-    const double h = integrator.control.step;
-    ContactSums<MESH_LANES<L>> contacts;
-    for (std::int64_t n = 0; n < run.nodes.count; ++n)
-        add_node(train, run.node[n], run.weight[n], contacts);
-    std::int64_t intervals = even_intervals(integrator, train, h);
-    if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
-        fill_at_even_times<L>(model, integrator, std::max(intervals, FEWEST));
-        contacts.share = contacts.film = 0.0;
-        add_films_of_cut_step<L>(model, integrator, contacts);
-    } else {
-        if (intervals == 0)
-            fill_at_nodes<MESH_LANES<L>>(integrator);
-        else
-            fill_at_even_times<L>(model, integrator, intervals);
-        if (!train.friction) add_films_of_nodes(model, integrator, contacts);
-    }
-    put_contacts(train, model.oil, contacts, integrator.sums.step.integral);
 }
 
 // Fill `sums.rates` with contacts and friction of an evaluation.
@@ -158,96 +118,137 @@ void add_ends(const Model& model, Integrator& integrator) {
     }
 }
 
-// Times of two values relative to the one between them, their inverses, and that of their distance.
-struct Neighbours {
-    double left, right, inverse_left, inverse_right, inverse_span;
+// Transmission errors and forces of a collocation step at its start and its nodes.
+struct AtNodes {
+    const Propagation& run;
+
+    std::int64_t count() const { return run.nodes.count + 1; }
+    const Node& at(std::int64_t n) const { return n == 0 ? run.start : run.node[n - 1]; }
+    double weight(std::int64_t n) const { return n == 0 ? 0.0 : run.weight[n - 1]; }
+    const double* d(std::int64_t n) const { return at(n).d; }
+    const double* normal_force(std::int64_t n) const { return at(n).meshes.normal_force; }
+    const Neighbours& around(std::int64_t n) const { return run.nodes.neighbours[n - 1]; }
 };
 
-// With one division for all.
-ALWAYS_INLINE Neighbours neighbours_at(double left, double right) {
-    const double span = right - left, product = left * right, inverse = 1.0 / (product * span);
-    return {left, right, right * span * inverse, left * span * inverse, product * inverse};
-}
+// The same of a series.
+struct AtEvenTimes {
+    const Series& series;
 
-// Vertex of the parabola through three values, if it lies between them; else the middle one.
-template <int L>
-ALWAYS_INLINE Row<L> vertex(const Neighbours& at, const double* before, const double* middle,
-                            const double* after) {
-    using V = Row<L>;
-    V here(middle), a = (V(before) - here) * at.inverse_left,
-                    b = (V(after) - here) * at.inverse_right;
-    V curve = (b - a) * at.inverse_span;
-    V slope = a - curve * at.left;
-    V place = -0.5 * slope / curve;
-    Mask<L> between = (place > at.left) & (place < at.right);
-    return select(between, here + 0.5 * slope * place, here);
-}
+    std::int64_t count() const { return series.count; }
+    double weight(std::int64_t n) const { return series.weight[n]; }
+    const double* d(std::int64_t n) const { return series.d[n]; }
+    const double* normal_force(std::int64_t n) const { return series.normal_force[n]; }
+    const Neighbours& around(std::int64_t) const { return EVEN; }
+};
 
-template <int L>
-void add_series_in_lanes(const StepConstants& constants, const Series& series, MeshSums& step) {
+template <int L, class Values>
+ALWAYS_INLINE void add_integrals(const StepConstants& constants, const Values& values,
+                                 MeshSums& step) {
     using V = Row<L>;
-    V mean(0.0), square(0.0), force_sum(0.0), dte(0.0), force_peak(0.0);
-    for (std::int64_t n = 0; n < series.count; ++n) {
-        double weight = series.weight[n];
-        V d(series.d[n]), force = larger(V(0.0), V(series.normal_force[n]));
-        mean += weight * d;
-        square += weight * d * d;
-        force_sum += weight * force;
-        dte = larger(dte, absolute(d));
-        force_peak = larger(force_peak, force);
-    }
-    for (std::int64_t n = 1; n < series.count - 1; ++n) {
-        const Neighbours at =
-            neighbours_at(series.at[n - 1] - series.at[n], series.at[n + 1] - series.at[n]);
-        V d = vertex<L>(at, series.d[n - 1], series.d[n], series.d[n + 1]);
-        dte = larger(dte, absolute(d));
-        V normal_force = vertex<L>(at, series.normal_force[n - 1], series.normal_force[n],
-                                   series.normal_force[n + 1]);
-        force_peak = larger(force_peak, normal_force);
+    V mean(0.0), square(0.0), force_sum(0.0);
+    for (std::int64_t n = 0; n < values.count(); ++n) {
+        V d(values.d(n)), part = values.weight(n) * d;
+        mean += part;
+        square = fused(part, d, square);
+        force_sum = fused(values.weight(n), larger(V(0.0), V(values.normal_force(n))), force_sum);
     }
     mean.store(step.integral[DTE]);
     square.store(step.integral[SQUARE]);
     (V(constants.side) * force_sum).store(step.integral[MESH_FORCE]);
+}
+
+// Largest values, and vertices of the parabolas through three neighbouring ones.
+template <int L, class Values>
+ALWAYS_INLINE void find_peaks(const Values& values, MeshSums& step) {
+    using V = Row<L>;
+    V d(values.d(0)), force(values.normal_force(0));
+    V dte = absolute(d), peak = larger(V(0.0), force);
+    for (std::int64_t n = 1; n < values.count(); ++n) {
+        V next_d(values.d(n)), next_force(values.normal_force(n));
+        dte = larger(dte, absolute(next_d));
+        peak = larger(peak, next_force);
+        if (n == values.count() - 1) break;
+        const Neighbours& around = values.around(n);
+        dte = larger(dte, absolute(vertex(around, d, next_d, V(values.d(n + 1)))));
+        peak = larger(peak, vertex(around, force, next_force, V(values.normal_force(n + 1))));
+        d = next_d;
+        force = next_force;
+    }
     dte.store(step.dte_peak);
-    force_peak.store(step.force_peak);
+    peak.store(step.force_peak);
+}
+
+template <int L, class Values>
+void add_values(const StepConstants& constants, const Values& values, MeshSums& step) {
+    add_integrals<L>(constants, values, step);
+    find_peaks<L>(values, step);
+}
+
+// Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
+template <int L>
+void add_contacts_of_nodes(const Model& model, Integrator& integrator, bool cut) {
+    const Propagation& run = integrator.run;
+    ContactSums<MESH_LANES<L>> contacts;
+    for (std::int64_t n = 0; n < run.nodes.count; ++n)
+        add_node(model.train, run.node[n], run.weight[n], contacts);
+    if (cut) {
+        contacts.share = contacts.film = 0.0;
+        add_films_of_cut_step<L>(model, integrator, contacts);
+    } else if (!model.train.friction) {
+        add_films_of_nodes(model, integrator, contacts);
+    }
+    put_contacts(model.train, model.oil, contacts, integrator.sums.step.integral);
+}
+
+// Sum up a collocation step.
+template <int L>
+void add_collocated(const Model& model, Integrator& integrator) {
+    const StepConstants& constants = integrator.constants;
+    const Propagation& run = integrator.run;
+    StepSums& sums = integrator.sums;
+    const double h = integrator.control.step;
+    const bool cut = std::fabs(h - run.motion.step) > NEAR * run.motion.step;
+    add_contacts_of_nodes<L>(model, integrator, cut);
+    std::int64_t intervals = even_intervals(integrator, model.train, h);
+    if (intervals == 0 && !cut)
+        return add_values<MESH_LANES<L>>(constants, AtNodes{run}, sums.step);
+    fill_at_even_times<L>(model, integrator, std::max(intervals, FEWEST));
+    add_series(model.train, constants, sums.series, sums.step);
 }
 
 }  // namespace
 
 void sum_step(const Model& model, Integrator& integrator) {
     integrator.sums.step.time = integrator.control.step;
-    if (integrator.control.collocated)
+    if (integrator.control.collocated) {
         with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, integrator); });
-    else
+    } else {
         add_ends(model, integrator);
-    add_series(model.train, integrator.constants, integrator.sums.series, integrator.sums.step);
+        add_series(model.train, integrator.constants, integrator.sums.series, integrator.sums.step);
+    }
 }
 
-// Whether a mode turns by more than `phase` within h seconds.
-static bool has_phases_above(const Train& train, const ModalMotion& motion, double phase,
-                             double h) {
-    return with_lanes(train, [&]<int L>(std::integral_constant<int, L>) {
-        return !none(Row<L>(motion.rate) * h > phase);
-    });
+// Largest phase of the waves that count within h seconds, if it is above `least`; else 0.
+template <int L>
+static double fastest_wave(const Integrator& integrator, double h, double least) {
+    using V = Row<L>;
+    const ModalMotion& motion = integrator.run.motion;
+    V rate(motion.rate), phase = rate * h;
+    Mask<L> fast = phase > least;
+    if (none(fast)) return 0.0;
+    V amplitude = absolute(V(motion.free[0])) + absolute(V(motion.free[1])) / rate;
+    V d = amplitude * V(contacts_of(integrator.run).bounds.motion);
+    Mask<L> counts =
+        fast & (V(motion.slow) == V(motion.fast)) & (d > integrator.control.tolerance_x);
+    return largest(select(counts, phase, 0.0));
 }
 
 // Nodes resolve one radian of a free wave each, and so do equidistant times. Waves below the
 // tolerance do not count.
 std::int64_t even_intervals(const Integrator& integrator, const Train& train, double h) {
-    const Propagation& run = integrator.run;
-    const ModalMotion& motion = run.motion;
-    const MatrixRows magnitude = run.known.states[motion.modes].matrices.motion_magnitude();
-    const double by_nodes = static_cast<double>(run.nodes.count);
-    if (!has_phases_above(train, motion, by_nodes, h)) return 0;
-    double fastest = 0.0;
-    for (std::int64_t m = 0; m < train.lanes; ++m) {
-        double phase = motion.rate[m] * h;
-        if (!(phase > std::max(fastest, by_nodes)) || motion.slow[m] != motion.fast[m]) continue;
-        double amplitude =
-            std::fabs(motion.free[0][m]) + std::fabs(motion.free[1][m]) / motion.rate[m];
-        double largest = *std::max_element(magnitude[m], magnitude[m] + train.meshes);
-        if (amplitude * largest > integrator.control.tolerance_x) fastest = phase;
-    }
+    const double by_nodes = static_cast<double>(integrator.run.nodes.count);
+    double fastest =
+        with_lanes(train, [&](auto lanes) { return fastest_wave<lanes>(integrator, h, by_nodes); });
     // Larger phases, and NaN, count as the largest number of intervals.
     double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(MOST_EVEN_TIMES)));
     return std::min(2 * static_cast<std::int64_t>(halves), MOST_EVEN_TIMES - 1);
@@ -266,7 +267,7 @@ void set_even_times(Series& series, double begin, double end, std::int64_t inter
 void add_series(const Train& train, const StepConstants& constants, const Series& series,
                 MeshSums& step) {
     with_mesh_lanes(train,
-                    [&](auto lanes) { add_series_in_lanes<lanes>(constants, series, step); });
+                    [&](auto lanes) { add_values<lanes>(constants, AtEvenTimes{series}, step); });
 }
 
 }  // namespace gearbox
