@@ -115,7 +115,8 @@ double difference(const Integrator& integrator) {
         largest(larger(absolute(d), V(integrator.constants.damping) * absolute(rate)));
     double change = std::max(of_meshes / integrator.control.tolerance_x,
                              largest(speed) / integrator.control.tolerance_v);
-    return std::isfinite(total(d + rate)) ? change : DIVERGED;  // a maximum may lose NaN
+    V sum = d + rate;  // a maximum may lose NaN
+    return none(!(sum - sum == 0.0)) ? change : DIVERGED;
 }
 
 // Local error of the speeds of the bodies in tolerances, from that of the modes.
