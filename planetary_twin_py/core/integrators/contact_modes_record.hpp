@@ -65,6 +65,9 @@ struct alignas(64) StoredIncrement {
 struct alignas(64) WaveBounds {
     alignas(64) double displaced[BODIES];
     alignas(64) double moving[BODIES];  // [s]
+    // The same for its second derivative [1/s^2], [1/s].
+    alignas(64) double displaced_bend[BODIES];
+    alignas(64) double moving_bend[BODIES];
     alignas(64) double motion[BODIES];  // largest transmission error of a mesh in each mode
 };
 

@@ -68,12 +68,12 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
-// Whether all meshes are closed and none has errors of form.
-bool all_closed(const Train& train, const State& state) {
+// Whether the gaps of all meshes follow from their transmission errors alone: without errors of
+// form, and of fixed axes if all are closed.
+template <int M>
+bool have_smooth_gaps(const Train& train, const StepConstants& constants) {
     if (train.lines[0] + train.lines[1] > 0) return false;
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        if (state.side[i] == OPEN) return false;
-    return true;
+    return MOVING || none(first_of_row<M>(train.meshes) & (Row<M>(constants.side) == 0.0));
 }
 
 // Sides of the meshes, which are all closed or have an entry for each flank.
@@ -111,53 +111,62 @@ ALWAYS_INLINE RowPair<L> free_waves(const Propagation& run, int n) {
     return {select(waves, c * u + s * w, 0.0), select(waves, rate, 0.0)};
 }
 
-// Bounds on the change of the gaps of the meshes by free waves [m].
+// Bounds on the free waves of the modes.
 template <int L>
-ALWAYS_INLINE Row<MESH_LANES<L>> wave_bounds(const Propagation& run) {
+ALWAYS_INLINE Row<L> wave_bounds(const Propagation& run) {
     using V = Row<L>;
-    const ContactState& contacts = contacts_of(run);
-    V bound = V(contacts.bounds.displaced) * absolute(V(run.motion.free[0])) +
-              V(contacts.bounds.moving) * absolute(V(run.motion.free[1]));
-    return sum_rows<MESH_LANES<L>>(contacts.matrices.motion_magnitude(),
-                                   select(has_waves<L>(run.motion), bound, 0.0));
+    const WaveBounds& bounds = contacts_of(run).bounds;
+    V bound = V(bounds.displaced) * absolute(V(run.motion.free[0])) +
+              V(bounds.moving) * absolute(V(run.motion.free[1]));
+    return select(has_waves<L>(run.motion), bound, 0.0);
 }
 
-// Whether all meshes are closed, have no errors of form, and have at every node a larger gap than
-// free waves can close between the nodes: a wave that increases the gap at a node may decrease it
-// by the same amount elsewhere.
+// Bounds on what the free waves take from gaps between two nodes: a wave that increases the gap at
+// a node may decrease it by the same amount elsewhere, but falls below the line through its values
+// by its curvature only.
 template <int L>
-bool loaded_throughout(const Model& model, const Integrator& integrator, const Row<L>& bound) {
+ALWAYS_INLINE Row<L> bends_between_nodes(const Propagation& run, const Row<L>& waves) {
     using V = Row<L>;
-    const Train& train = model.train;
-    const Propagation& run = integrator.run;
-    if (!all_closed(train, integrator.begin)) return false;
-    V side(integrator.constants.side), tau = model.load.release * V(integrator.constants.damping),
-                                       least(std::numeric_limits<double>::infinity());
-    for (int n = 0; n < run.nodes.count; ++n)
-        least = smaller(least, side * (V(run.node[n].d) + tau * V(run.node[n].rate)));
-    V left = least - model.load.half_backlash - 2.0 * bound - integrator.control.tolerance_x;
-    return none(first_of_row<L>(train.meshes) & !(left > 0.0));
+    const WaveBounds& bounds = contacts_of(run).bounds;
+    const double apart = run.nodes.widest * run.motion.step;
+    V bend = V(bounds.displaced_bend) * absolute(V(run.motion.free[0])) +
+             V(bounds.moving_bend) * absolute(V(run.motion.free[1]));
+    return smaller(2.0 * waves, bend * (apart * apart / 8.0));
 }
 
-// The same if each flank has an entry: whether no flank changes its contact. The gap of open flanks
-// is at least that of their deflection; damping increases it.
-template <int L>
-bool contacts_stay(const Model& model, const Integrator& integrator, const Row<L>& bound) {
-    using V = Row<L>;
-    const Train& train = model.train;
+// Least gaps of the meshes at the start and at the nodes, without errors of form. The gap of open
+// flanks is at least that of their deflection; damping increases it.
+template <int M>
+ALWAYS_INLINE Row<M> least_gaps(const Model& model, const Integrator& integrator) {
+    using V = Row<M>;
+    const StepConstants& constants = integrator.constants;
     const Propagation& run = integrator.run;
-    if (train.lines[0] + train.lines[1] > 0) return false;
-    V own = sides_of<L>(train, integrator.constants);
-    V tau = model.load.release * V(integrator.constants.damping);
-    const Mask<L> open = V(integrator.constants.side) == 0.0;
-    V least(std::numeric_limits<double>::infinity());
-    for (int n = 0; n < run.nodes.count; ++n) {
-        V d = own * V(run.node[n].d), normal_force = d + tau * own * V(run.node[n].rate);
-        V half(model.load.half_backlash);
-        least = smaller(least, select(open, half - d, normal_force - half));
-    }
-    V left = least - 2.0 * bound - integrator.control.tolerance_x;
-    return none(first_of_row<L>(train.meshes) & !(left > 0.0));
+    const double half = model.load.half_backlash;
+    V tau = model.load.release * V(constants.damping), side = sides_of<M>(model.train, constants);
+    const Mask<M> open = V(constants.side) == 0.0;
+    auto gap_at = [&](const Node& node) {
+        V d(node.d), gap = side * (d + tau * V(node.rate)) - half;
+        if constexpr (MOVING) return select(open, half - side * d, gap);
+        return gap;
+    };
+    V least = gap_at(run.start);
+    for (int n = 0; n < run.nodes.count; ++n) least = smaller(least, gap_at(run.node[n]));
+    return least;
+}
+
+// Whether the meshes have at the start and at every node a larger gap than free waves can close
+// between these. A bound for any mesh is usually enough.
+template <int L>
+bool gaps_stay(const Model& model, const Integrator& integrator, const Row<L>& waves) {
+    constexpr int M = MESH_LANES<L>;
+    const ContactState& contacts = contacts_of(integrator.run);
+    const Row<L> bends = bends_between_nodes<L>(integrator.run, waves);
+    const Row<M> sure = least_gaps<M>(model, integrator) - integrator.control.tolerance_x;
+    auto exceed = [&](const Row<M>& bound) {
+        return none(first_of_row<M>(model.train.meshes) & !(sure - bound > 0.0));
+    };
+    return exceed(total(bends * Row<L>(contacts.bounds.motion))) ||
+           exceed(sum_rows<M>(contacts.matrices.motion_magnitude(), bends));
 }
 
 // Mark the meshes whose contact may change within the step; return whether there are any.
@@ -171,16 +180,14 @@ bool flanks_may_change(const Model& model, Integrator& integrator) {
     Propagation& run = integrator.run;
     const ContactState& contacts = contacts_of(run);
     constexpr int M = MESH_LANES<L>;
-    const Row<M> bound = wave_bounds<L>(run);
-    if (MOVING ? contacts_stay<M>(model, integrator, bound)
-               : loaded_throughout<M>(model, integrator, bound))
-        return false;
-    const bool in_rows =
-        MOVING ? train.lines[0] + train.lines[1] == 0 : all_closed(train, integrator.begin);
+    const Row<L> of_modes = wave_bounds<L>(run);
+    const bool smooth = have_smooth_gaps<M>(train, integrator.constants);
+    if (smooth && gaps_stay<L>(model, integrator, of_modes)) return false;
+    const Row<M> bound = sum_rows<M>(contacts.matrices.motion_magnitude(), of_modes);
     Row<M> least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n) {
         const RowPair<M> waves = sum_rows<M>(contacts.matrices.motion(), free_waves<L>(run, n));
-        if (in_rows) {
+        if (smooth) {
             least = smaller(least, left_in_rows<M>(model, integrator, n, waves));
             continue;
         }

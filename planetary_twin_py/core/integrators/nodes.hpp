@@ -13,6 +13,7 @@ struct alignas(64) Nodes {
     alignas(64) double legendre[5][5];     // of Legendre polynomials (rows), likewise
     alignas(64) double integral[5][8];     // of the powers of t from t^1 in the integral up to t
     Neighbours neighbours[5];  // of each node but the last; before the first is the start
+    double widest;             // distance of two neighbours; before the first is the start
     double smallest;           // bound on the product of the distances of t from all points
 };
 

@@ -65,6 +65,11 @@ WaveBounds bound_waves(const ContactState& contacts, double tau) {
     WaveBounds bounds;
     first.store(bounds.displaced);
     (longest + tau * (1.0 + DAMPING_KEPT)).store(bounds.moving);
+    // u'^2 + w^2 u^2 falls, and u'' = -c u' - w^2 u.
+    V w = square_root(square), bend = damping + w;
+    bend += tau * (1.0 + DAMPING_KEPT) * (damping * bend + square);
+    (w * bend).store(bounds.displaced_bend);
+    bend.store(bounds.moving_bend);
     const MatrixRows magnitude = contacts.matrices.motion_magnitude();
     for (int m = 0; m < L; ++m) bounds.motion[m] = largest(Row<MESH_LANES<L>>(magnitude[m]));
     return bounds;

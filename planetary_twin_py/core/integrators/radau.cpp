@@ -91,8 +91,10 @@ void fill_neighbours(Nodes& nodes) {
     for (std::int64_t n = 0; n < nodes.count - 1; ++n) {
         const double here = nodes.abscissa[n];
         nodes.neighbours[n] = neighbours_at(before - here, nodes.abscissa[n + 1] - here);
+        nodes.widest = std::max(nodes.widest, here - before);
         before = here;
     }
+    nodes.widest = std::max(nodes.widest, 1.0 - before);
 }
 
 }  // namespace
