@@ -121,9 +121,10 @@ ALWAYS_INLINE Row<L> wave_bounds(const Propagation& run) {
     return select(has_waves<L>(run.motion), bound, 0.0);
 }
 
-// Bounds on what the free waves take from gaps between two nodes: a wave that increases the gap at
-// a node may decrease it by the same amount elsewhere, but falls below the line through its values
-// by its curvature only.
+// Bounds on what the free waves take from gaps between two nodes. A wave that increases the gap at
+// a node may decrease it by the same amount elsewhere. But it falls below the line through its
+// values by its curvature only, and so does the polynomial, which has about the opposite of a slow
+// wave.
 template <int L>
 ALWAYS_INLINE Row<L> bends_between_nodes(const Propagation& run, const Row<L>& waves) {
     using V = Row<L>;
@@ -131,7 +132,7 @@ ALWAYS_INLINE Row<L> bends_between_nodes(const Propagation& run, const Row<L>& w
     const double apart = run.nodes.widest * run.motion.step;
     V bend = V(bounds.displaced_bend) * absolute(V(run.motion.free[0])) +
              V(bounds.moving_bend) * absolute(V(run.motion.free[1]));
-    return smaller(2.0 * waves, bend * (apart * apart / 8.0));
+    return 2.0 * smaller(waves, bend * (apart * apart / 8.0));
 }
 
 // Least gaps of the meshes at the start and at the nodes, without errors of form. The gap of open
