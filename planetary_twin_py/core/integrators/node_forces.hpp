@@ -46,26 +46,47 @@ ALWAYS_INLINE void clear_bodies(const Train& train, double* force) {
     force[train.bodies] = 0.0;
 }
 
-// Friction and drag at a node in the modes.
+// Friction and drag at a node in the modes, by way of the forces on the bodies.
 template <int L>
-ALWAYS_INLINE void find_node_friction(const Model& model, const Integrator& integrator,
+ALWAYS_INLINE void find_body_friction(const Model& model, const Integrator& integrator,
                                       const ContactState& contacts, Node& node) {
-    using V = Row<L>;
+    if (model.train.printed_torque)
+        print_torques(model.train, integrator.constants, node.v, node.friction.drag);
+    alignas(64) double on_bodies[BODIES];
+    clear_bodies<L>(model.train, on_bodies);
+    find_friction_forces(model, integrator, node, on_bodies);
+    sum_rows<L>(contacts.matrices.shapes_transposed(), Row<L>(on_bodies))
+        .store(node.friction_force);
+}
+
+// The same at COUNT nodes where axes are fixed and only the meshes have friction. The nodes share
+// what is read of the matrices.
+template <int COUNT, int L>
+ALWAYS_INLINE void find_mesh_friction(const ContactState& contacts, Node* node) {
+    const MatrixRows first = contacts.matrices.torque_to_modes(0);
+    const MatrixRows second = contacts.matrices.torque_to_modes(1);
+    RowPair<L> force[COUNT];
+    for (RowPair<L>& of_node : force) of_node = {0.0, 0.0};
+    for (std::int64_t i = 0; i < first.count; ++i)
+        for (int n = 0; n < COUNT; ++n) {
+            const double (*torque)[MESHES] = node[n].friction.drag.torque;
+            add_row(first.first + i * L, torque[0][i] - Lanes{}, force[n].first);
+            add_row(second.first + i * L, torque[1][i] - Lanes{}, force[n].second);
+        }
+    for (int n = 0; n < COUNT; ++n)
+        (force[n].first + force[n].second).store(node[n].friction_force);
+}
+
+// Friction and drag at the first `count` nodes in the modes.
+template <int L>
+ALWAYS_INLINE void find_modal_friction(const Model& model, const Integrator& integrator,
+                                       const ContactState& contacts, int count, Node* node) {
     const Train& train = model.train;
-    if (train.printed_torque)
-        print_torques(train, integrator.constants, node.v, node.friction.drag);
-    V friction_force(0.0);
-    if (MOVING || train.printed_torque || train.joints + train.discs > 0) {
-        alignas(64) double on_bodies[BODIES];
-        clear_bodies<L>(train, on_bodies);
-        find_friction_forces(model, integrator, node, on_bodies);
-        friction_force = sum_rows<L>(contacts.matrices.shapes_transposed(), V(on_bodies));
-    } else if (train.friction) {
-        for (int g = 0; g < GEARS - 1; ++g)
-            friction_force += sum_rows<L>(contacts.matrices.torque_to_modes(g),
-                                          Row<MESH_LANES<L>>(node.friction.drag.torque[g]));
-    }
-    friction_force.store(node.friction_force);
+    int n = 0;
+    if (MOVING || !train.friction || train.printed_torque || train.joints + train.discs > 0)
+        for (; n < count; ++n) find_body_friction<L>(model, integrator, contacts, node[n]);
+    for (; n + 1 < count; n += 2) find_mesh_friction<2, L>(contacts, node + n);
+    if (n < count) find_mesh_friction<1, L>(contacts, node + n);
 }
 
 // Friction and drag at all nodes, from the forces of the meshes there.
@@ -84,8 +105,7 @@ void find_friction_of_nodes(const Model& model, Integrator& integrator) {
         find_friction(model, integrator.constants, instants, count,
                       integrator.control.tolerance >= SINGLE_PRECISION);
     }
-    const ContactState& contacts = contacts_of(run);
-    for (int n = 0; n < count; ++n) find_node_friction<L>(model, integrator, contacts, run.node[n]);
+    find_modal_friction<L>(model, integrator, contacts_of(run), count, run.node);
 }
 
 // Forces of meshes, friction and machines at a node, in the modes.
