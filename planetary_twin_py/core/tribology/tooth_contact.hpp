@@ -152,21 +152,25 @@ ALWAYS_INLINE SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& r
     return {u1 + u2, u1 - u2};
 }
 
-// `line_length` is that of the contact line in face widths. `slowest_rolling` [m/s] sets the least
-// width of the layer in which friction reverses.
+// Sum of the radii of both flanks, of an internal mesh their difference [m]: the same everywhere on
+// the path of contact.
 template <class Real>
-ALWAYS_INLINE Flanks<Real> flanks_of(Real rho1, Real rho2, Real external,
-                                     const SurfaceSpeeds<Real>& speeds, Real load,
-                                     double line_length, double sliding_threshold,
-                                     double slowest_rolling) {
-    // One division for three, since divisions are the slowest operations of the loop over pairs.
-    Real distance = rho2 + external * rho1, loaded = load + LIGHTEST_LOAD;
+ALWAYS_INLINE Real distance_of(const Real& rho1, const Real& rho2, const Real& external) {
+    return rho2 + external * rho1;
+}
+
+// `radius` is the reduced one of the contact line [m]. `slowest_rolling` [m/s] sets the least width
+// of the layer in which friction reverses.
+template <class Real>
+ALWAYS_INLINE Flanks<Real> flanks_of(Real radius, const SurfaceSpeeds<Real>& speeds, Real load,
+                                     double sliding_threshold, double slowest_rolling) {
+    // One division for two, since divisions are the slowest operations of the loop over pairs.
+    Real loaded = load + LIGHTEST_LOAD;
     Real threshold = sliding_threshold * at_least(magnitude(0.5 * speeds.sum), slowest_rolling);
-    Real inverse = 1.0 / (distance * loaded * threshold);
-    return {speeds.sliding, speeds.sum, rho1 * rho2 * (loaded * threshold * inverse) * line_length,
-            at_least(load, LIGHTEST_LOAD), distance * loaded * inverse,
+    Real inverse = 1.0 / (loaded * threshold);
+    return {speeds.sliding, speeds.sum, radius, at_least(load, LIGHTEST_LOAD), loaded * inverse,
             // A jump at the start of contact would cause chatter: repeated short contacts.
-            load * (distance * threshold * inverse)};
+            load * (threshold * inverse)};
 }
 
 template <class Real>
@@ -174,7 +178,8 @@ ALWAYS_INLINE Flanks<Real> flanks_of(const PairMotion<Real>& pair, const Oil& oi
                                      double slowest_rolling) {
     SurfaceSpeeds<Real> speeds =
         surface_speeds(pair.rho1, pair.rho2, pair.external, pair.speed1, pair.speed2);
-    return flanks_of(pair.rho1, pair.rho2, pair.external, speeds, pair.load, oil.line_length,
+    Real distance = distance_of(pair.rho1, pair.rho2, pair.external);
+    return flanks_of(pair.rho1 * pair.rho2 * (oil.line_length / distance), speeds, pair.load,
                      oil.sliding_threshold, slowest_rolling);
 }
 
