@@ -15,6 +15,9 @@ inline constexpr double SINGLE_PRECISION = 1e-5;
 // required by the polynomials of `cycle_samples.cpp`.
 inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 
+// Number of nodes of most steps.
+inline constexpr int TOGETHER = 4;
+
 // Forces of the meshes at a node.
 template <int L>
 NOINLINE void find_forces_at_node(const Model& model, const Integrator& integrator, Node& node,
@@ -85,8 +88,9 @@ ALWAYS_INLINE void find_modal_friction(const Model& model, const Integrator& int
     int n = 0;
     if (MOVING || !train.friction || train.printed_torque || train.joints + train.discs > 0)
         for (; n < count; ++n) find_body_friction<L>(model, integrator, contacts, node[n]);
-    for (; n + 1 < count; n += 2) find_mesh_friction<2, L>(contacts, node + n);
-    if (n < count) find_mesh_friction<1, L>(contacts, node + n);
+    for (; n + TOGETHER <= count; n += TOGETHER)
+        find_mesh_friction<TOGETHER, L>(contacts, node + n);
+    for (; n < count; ++n) find_mesh_friction<1, L>(contacts, node + n);
 }
 
 // Friction and drag at all nodes, from the forces of the meshes there.
