@@ -190,7 +190,14 @@ void bind_contact(nb::module_& m) {
         "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "position"_a,
         "Gap [m] left to mesh i before its contact changes; negative: it has changed.");
     m.def("change_contact", &change_contact, "model"_a, "state"_a, "step"_a, "i"_a);
-    m.def("change_segment", &change_segment, "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
+    m.def(
+        "change_segment",
+        [](const Model& model, State& state, StepConstants& step, std::int64_t i,
+           std::int64_t direction) {
+            const double cycle = mesh_cycle(model.train, state, i, state.side[i]);
+            change_segment(model, state, step, i, direction, cycle);
+        },
+        "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
     m.def("force_time_derivative", &force_time_derivative, "model"_a, "state"_a, "step"_a, "i"_a,
           "cycle_rate"_a);
     m.def("stored_energy", &stored_energy, "model"_a, "state"_a, "step"_a, "i"_a);

@@ -18,6 +18,19 @@ constexpr double STICKING = 0.5;
 constexpr double SWINGING = 0.2;
 constexpr double ROUNDING = 1e-9;  // of the speeds of two motors, in their difference
 
+// Whether no body vibrates so fast that it could reduce the speed of a gear relative to the carrier
+// by half: a bound that spares `vibration_slows`.
+bool vibration_is_slow(const Train& train, const State& state, const StepConstants& step) {
+    static_assert(STICKING == 0.5);
+    return with_lanes(train, [&]<int L>(std::integral_constant<int, L>) {
+        using OfMeshes = Row<MESH_LANES<L>>;
+        const double vibration = largest(absolute(Row<L>(state.v) * Row<L>(train.inverse_radius)));
+        OfMeshes slowest =
+            smaller(absolute(OfMeshes(step.spin[0])), absolute(OfMeshes(step.spin[1])));
+        return none(first_of_row<MESH_LANES<L>>(train.meshes) & !(slowest > 4.0 * vibration));
+    });
+}
+
 // Whether vibration reduces the speed of a gear relative to the carrier by more than this part of
 // its rigid speed.
 bool vibration_slows(const Train& train, const double* v, const double* rigid, double part) {
@@ -79,7 +92,9 @@ void avoid_reversals(const Model& model, Integrator& integrator) {
     const double* rigid = integrator.constants.rigid;
     if (control.creeping) {
         control.reversals += creep_swings(model, integrator);
-    } else if (control.slow && vibration_slows(model.train, integrator.begin.v, rigid, STICKING)) {
+    } else if (control.slow &&
+               !vibration_is_slow(model.train, integrator.begin, integrator.constants) &&
+               vibration_slows(model.train, integrator.begin.v, rigid, STICKING)) {
         control.fallback_steps = FALLBACK_STEPS;
         ++control.reversals;
     }

@@ -4,6 +4,7 @@
 // cycle, see `mesh/tooth_pairs.py`: prediction of their times, and changes of segment.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -24,15 +25,18 @@ struct NextEvent {
     std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
 };
 
-// Times [s] until the meshes reach the edges of their segments at constant cycle rate.
+// The first mesh that reaches the edge of its segment at constant cycle rate, and the time until
+// then.
 template <int L>
-ALWAYS_INLINE void times_to_edges(const StepConstants& constants, double cycle_rate,
-                                  double* times) {
+ALWAYS_INLINE NextEvent first_edge(const StepConstants& constants, double cycle_rate) {
     using V = Row<L>;
+    constexpr double NEVER = std::numeric_limits<double>::infinity();
     V rate = V(constants.side) * cycle_rate;
     V edge = select(rate > 0.0, V(constants.high), V(constants.low));
-    V time = (edge - V(constants.start)) / rate;
-    select(rate == 0.0, std::numeric_limits<double>::infinity(), time).store(times);
+    V time = select(rate == 0.0, NEVER, (edge - V(constants.start)) / rate);
+    const double least = -largest(-time);
+    if (!(least < NEVER)) return {NEVER, NO_MESH};
+    return {least, std::countr_zero(places(time == least))};
 }
 
 // Time to the next tooth pair event or change of the set-point's slope, and the mesh.
@@ -40,12 +44,9 @@ inline NextEvent next_event(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     const State& state = integrator.begin;
     const StepConstants& constants = integrator.constants;
-    double cycle_rate = constants.cycle_rate + cycle_shift(train, state.v), times[MESHES];
-    NextEvent nearest{std::numeric_limits<double>::infinity(), NO_MESH};
-    with_mesh_lanes(train,
-                    [&](auto lanes) { times_to_edges<lanes>(constants, cycle_rate, times); });
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        if (times[i] < nearest.time) nearest = {times[i], i};
+    const double cycle_rate = constants.cycle_rate + cycle_shift(train, state.v);
+    NextEvent nearest = with_mesh_lanes(
+        train, [&](auto lanes) { return first_edge<lanes>(constants, cycle_rate); });
     for (std::int64_t a = 0; a < train.axes; ++a) {
         if (constants.slew[a] == 0.0) continue;
         double time = (model.load.target_speed[a] - state.set_speed[a]) / constants.slew[a];
@@ -79,43 +80,43 @@ inline double time_to_edge(const Model& model, const Integrator& integrator, std
     return (left - side * cycles_of_step(train, integrator)) / rate;
 }
 
-// Whether mesh i has reached the edge of its segment in this direction after `cycles` of the train.
-inline bool at_edge(const Train& train, const State& end, std::int64_t i, int direction,
-                    double cycles) {
-    std::int64_t kind = train.kind[i], segment = end.segment[i];
-    double cycle = cycle_on_side(train, i, end.side[i], cycles, 1);
-    cycle = nearest_to_segment(train, kind, segment, cycle);
-    if (direction > 0) return cycle >= train.edge[kind][segment + 1] - EDGE;
-    return cycle <= train.edge[kind][segment] + EDGE;
-}
-
-// Change the segment of mesh i until it is no longer at the edge of its segment.
-inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i, int direction) {
+// Change the segment of mesh i, `cycle` cycles along, until it is no longer at the edge of its
+// segment in this direction.
+NOINLINE inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i,
+                               int direction, double cycle) {
     const Train& train = model.train;
-    const State& end = integrator.end;
-    const double cycles = frame_cycle(train, end, 1) + cycle_shift(train, end.x);
-    for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
-        if (end.side[i] == OPEN || !at_edge(train, end, i, direction, cycles)) return;
+    const std::int64_t kind = train.kind[i];
+    std::int64_t& segment = integrator.end.segment[i];
+    for (std::int64_t k = 0; k < train.segments[kind]; ++k) {
+        const double place = nearest_to_segment(train, kind, segment, cycle);
+        const double* edge = &train.edge[kind][segment];
+        if (direction > 0 ? place < edge[1] - EDGE : place > edge[0] + EDGE) return;
         if (integrator.control.creeping)
-            pass_bristles(train, integrator.end.bristle, i, end.segment[i], direction);
-        change_segment(model, integrator.end, integrator.scratch, i, direction);
+            pass_bristles(train, integrator.end.bristle, i, segment, direction);
+        change_segment(model, integrator.end, integrator.scratch, i, direction, cycle);
         integrator.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
         integrator.control.changed = true;
     }
 }
 
-// Change the segment of every mesh that has reached the edge of its segment.
-inline void pass_edges(const Model& model, Integrator& integrator) {
+// Change the segment of every mesh that has reached the edge of its segment; those that have just
+// separated keep theirs.
+template <int L>
+void pass_edges(const Model& model, Integrator& integrator) {
+    using V = Row<L>;
     const Train& train = model.train;
     const StepConstants& constants = integrator.constants;
-    double advance = cycles_of_step(train, integrator);
-    double cycle_rate = constants.cycle_rate + cycle_shift(train, integrator.end.v);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double side = constants.side[i], cycle = constants.start[i] + side * advance;
-        bool forwards = side * cycle_rate > 0.0;
-        bool above = cycle >= constants.high[i] - EDGE, below = cycle <= constants.low[i] + EDGE;
-        if (forwards && above) pass_edge(model, integrator, i, 1);
-        if (side * cycle_rate < 0.0 && below) pass_edge(model, integrator, i, -1);
+    const double cycle_rate = constants.cycle_rate + cycle_shift(train, integrator.end.v);
+    const V side(constants.side), speed = side * cycle_rate;
+    const V cycle = V(constants.start) + side * cycles_of_step(train, integrator);
+    alignas(64) double at[L];
+    cycle.store(at);
+    const auto ahead = places((speed > 0.0) & (cycle > V(constants.high) - EDGE)),
+               behind = places((speed < 0.0) & (cycle < V(constants.low) + EDGE));
+    for (auto left = ahead | behind; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        if (integrator.end.side[i] == OPEN) continue;
+        pass_edge(model, integrator, i, (ahead >> i) % 2 != 0 ? 1 : -1, at[i]);
     }
 }
 

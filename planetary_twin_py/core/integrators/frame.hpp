@@ -23,15 +23,17 @@ inline void turn_frame(State& state, std::int64_t a, double turns) {
 }
 
 // Move the frame to the motors, whose x and v become zero.
-inline void rebase(const Train& train, State& state) {
+template <int L>
+void rebase(const Train& train, State& state) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
-        double angle = state.x[motor] / train.radius[motor];
-        double rate = state.v[motor] / train.radius[motor];
-        for (std::int64_t j = 0; j < train.bodies; ++j) {
-            state.x[j] -= train.ratio[j][a] * train.radius[j] * angle;
-            state.v[j] -= train.ratio[j][a] * train.radius[j] * rate;
-        }
+        double angle = state.x[motor] * train.inverse_radius[motor];
+        double rate = state.v[motor] * train.inverse_radius[motor];
+        // Entries beyond the bodies, the ground and the frame, stay zero.
+        const Row<L> moved = select(first_of_row<L>(train.bodies),
+                                    Row<L>(train.ratio_of[a]) * Row<L>(train.radius), 0.0);
+        (Row<L>(state.x) - moved * angle).store(state.x);
+        (Row<L>(state.v) - moved * rate).store(state.v);
         state.x[motor] = 0.0;
         state.v[motor] = 0.0;
         if constexpr (MOVING) {

@@ -90,7 +90,7 @@ void begin_step(const Model& model, Integrator& integrator) {
         integrator.begin = integrator.end;
     else
         copy_without_bristles(integrator.end, integrator.begin);
-    rebase(model.train, integrator.begin);
+    with_lanes(model.train, [&](auto lanes) { rebase<lanes>(model.train, integrator.begin); });
     set_step_constants(model, integrator.begin, integrator.constants);
     select_friction_model(model, integrator);
     set_tolerances(model, integrator);
@@ -123,7 +123,7 @@ void accept(const Model& model, Integrator& integrator, std::int64_t mesh) {
         integrator.control.flank_events += static_cast<std::int64_t>(model.train.copies[mesh]);
         integrator.control.changed = true;
     }
-    pass_edges(model, integrator);
+    with_mesh_lanes(model.train, [&](auto lanes) { pass_edges<lanes>(model, integrator); });
     end_slews(model, integrator);
     ++integrator.control.steps;
 }

@@ -15,6 +15,9 @@ namespace gearbox {
 inline bool both_flanks_touch(const Model& model, const State& state, const StepConstants& step) {
     if constexpr (MOVING) return false;  // each flank has its own force
     const Train& train = model.train;
+    const bool turned_only =
+        train.lines[0] == train.harmonics[0] && train.lines[1] == train.harmonics[1];
+    if (turned_only) return false;  // the errors have no radial part
     const double half = model.load.half_backlash;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t kind = train.kind[i];

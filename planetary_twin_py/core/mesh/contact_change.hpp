@@ -12,15 +12,14 @@
 
 namespace gearbox {
 
-// Elastic energy [J] of mesh i and its copies after `cycles` of the train; `step` is work space for
-// the position of the mesh.
-inline double energy_at(const Model& model, const State& state, StepConstants& step, std::int64_t i,
-                        double cycles) {
+// Elastic energy [J] of mesh i and its copies; `step` is work space for the position of the mesh.
+NOINLINE inline double stored_energy(const Model& model, const State& state, StepConstants& step,
+                                     std::int64_t i) {
     if (state.side[i] == OPEN) return 0.0;
     const Train& train = model.train;
     double side = static_cast<double>(state.side[i]);
     std::int64_t kind = train.kind[i], segment = state.segment[i];
-    place_mesh(train, state, step, i, cycles);
+    place_mesh(train, state, step, i, frame_cycle(train, state, 1) + cycle_shift(train, state.x));
     double u = step.start[i] - step.low[i];
     double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
     double energy = 0.0, stiffness = 0.0;
@@ -35,20 +34,13 @@ inline double energy_at(const Model& model, const State& state, StepConstants& s
     return train.copies[i] * energy;
 }
 
-// The same at the cycles of the state.
-inline double stored_energy(const Model& model, const State& state, StepConstants& step,
-                            std::int64_t i) {
-    const Train& train = model.train;
-    double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
-    return energy_at(model, state, step, i, cycles);
-}
-
 // Close an open mesh on the side where contact starts, or open a closed one.
 //
 // Flanks separate at d > b and come into contact again without compression. The elastic energy that
 // is stored when they separate is lost in the material. `step` is work space for the position of
 // the mesh.
-inline void change_contact(const Model& model, State& state, StepConstants& step, std::int64_t i) {
+NOINLINE inline void change_contact(const Model& model, State& state, StepConstants& step,
+                                    std::int64_t i) {
     const Train& train = model.train;
     double before = stored_energy(model, state, step, i);
     if (state.side[i] == OPEN) {
@@ -67,30 +59,61 @@ inline void change_contact(const Model& model, State& state, StepConstants& step
     state.energy[DAMPING] += before - stored_energy(model, state, step, i);
 }
 
-// Whether the stiffness of mesh i without faults jumps from a segment to the next.
-inline bool stiffness_jumps(const Train& train, std::int64_t i, std::int64_t segment,
-                            std::int64_t after, bool forwards) {
-    constexpr double ROUNDING = 1e-12;
-    const double* edge = train.edge[train.kind[i]];
-    double before = mesh_stiffness(train, i, segment, edge[forwards ? segment + 1 : segment]);
-    double then = mesh_stiffness(train, i, after, edge[forwards ? after : after + 1]);
-    return std::abs(then - before) > ROUNDING * before;
+// Deflection q of closed mesh i on its side; `step` is work space for its errors of form.
+inline double squeeze(const Model& model, const State& state, StepConstants& step, std::int64_t i) {
+    const Train& train = model.train;
+    const double side = static_cast<double>(state.side[i]);
+    double d = mesh_motion(train, i, state.x);
+    if (train.lines[train.kind[i]] > 0) {
+        place_lines(train, state, i, step.line_angle);
+        d -= form_error(train, i, side, step.line_angle, 0.0, 0.0).length;
+    }
+    return side * d - model.load.offset;
 }
 
-// Move mesh i to the next segment; a jump of the stiffness does work on the train.
-inline void change_segment(const Model& model, State& state, StepConstants& step, std::int64_t i,
-                           std::int64_t direction) {
-    const Train& train = model.train;
-    const std::int64_t kind = train.kind[i], segment = state.segment[i];
-    const std::int64_t count = train.segments[kind], after = (segment + direction + count) % count;
-    if (train.faults == 0 && !stiffness_jumps(train, i, segment, after, direction > 0)) {
-        state.segment[i] = after;
-        return;
-    }
-    double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
-    double before = energy_at(model, state, step, i, cycles);
+// Work on the train as closed mesh i without faults, and its copies, become stiffer by `stiffer`
+// [N/m] at once.
+inline double work_of_jump(const Model& model, const State& state, StepConstants& step,
+                           std::int64_t i, double stiffer) {
+    const double q = squeeze(model, state, step, i);
+    double work = 0.5 * stiffer * (q * q - model.load.inner_squared);
+    if (tilts(model.train)) work += slope_energy(model.train, i, stiffer, state.x);
+    return model.train.copies[i] * work;
+}
+
+// The same for a mesh with faults, which enters segment `after`.
+COLD inline double work_of_faulty_jump(const Model& model, State& state, StepConstants& step,
+                                       std::int64_t i, std::int64_t after) {
+    const std::int64_t segment = state.segment[i];
+    const double before = stored_energy(model, state, step, i);
     state.segment[i] = after;
-    state.energy[STIFFNESS_WORK] += energy_at(model, state, step, i, cycles) - before;
+    const double work = stored_energy(model, state, step, i) - before;
+    state.segment[i] = segment;
+    return work;
+}
+
+// Stiffness [N/m] of mesh i without faults at a position in its cycle, by the law of a segment.
+inline double stiffness_by(const Train& train, std::int64_t i, std::int64_t segment, double cycle) {
+    return mesh_stiffness(train, i, segment,
+                          nearest_to_segment(train, train.kind[i], segment, cycle));
+}
+
+// Move mesh i, at this position in its cycle, to the next segment in this direction; a jump of its
+// stiffness does work on the train. `step` is work space for the position of the mesh.
+inline void change_segment(const Model& model, State& state, StepConstants& step, std::int64_t i,
+                           std::int64_t direction, double cycle) {
+    const Train& train = model.train;
+    const std::int64_t segment = state.segment[i], last = train.segments[train.kind[i]] - 1;
+    const std::int64_t after =
+        direction > 0 ? (segment < last ? segment + 1 : 0) : (segment > 0 ? segment - 1 : last);
+    if (train.faults > 0) {
+        state.energy[STIFFNESS_WORK] += work_of_faulty_jump(model, state, step, i, after);
+    } else if (state.side[i] != OPEN) {
+        const double stiffer =
+            stiffness_by(train, i, after, cycle) - stiffness_by(train, i, segment, cycle);
+        state.energy[STIFFNESS_WORK] += work_of_jump(model, state, step, i, stiffer);
+    }
+    state.segment[i] = after;
 }
 
 }  // namespace gearbox

@@ -89,20 +89,11 @@ ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const 
     const Train& train = model.train;
     const Load& load = model.load;
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t body = train.coupling[c][0];
-        double speed = body_speed(train, state, v, body);
-        double torque = step.torque[c] + load.torque_rate[c] * delay;
+        const std::int64_t body = train.coupling[c][0];
+        const Drive& drive = step.drive[c];
+        const double spin = v[body] * train.inverse_radius[body], speed = step.rigid[body] + spin;
+        double torque = drive.torque + drive.rate * delay - drive.gain * spin;
         for (std::int64_t a = 0; a < train.axes; ++a) torque += load.trim_gain[c][a] * trim[a];
-        if (c != LOAD_MACHINE) {
-            std::int64_t own = c / 2;
-            double set_speed = state.set_speed[own] + step.slew[own] * delay;
-            torque += load.proportional[own] * (set_speed - speed);
-            for (std::int64_t a = 0; a < train.axes; ++a)
-                torque += load.inertia[own][a] * step.slew[a];
-        } else if (load.load_proportional != 0.0) {
-            double set_speed = state.set_speed[0] + step.slew[0] * delay;
-            torque += load.load_proportional * (train.ratio[body][0] * set_speed - speed);
-        }
         if (c == MOTOR && load.ripple != 0.0) {
             double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
             angle += x[body] / train.radius[body];

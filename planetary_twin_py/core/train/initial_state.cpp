@@ -234,6 +234,7 @@ void balance_at_angle(Start& start) {
 void forces_at_constant_speed(const Model& model, Start& start) {
     State& state = start.state;
     std::fill(start.step.slew, start.step.slew + AXES, 0.0);
+    place_drives(model, state, start.step);
     forces(model, state, start.step, state.x, state.v, 0.0, state.trim, start.balance.evaluation);
 }
 

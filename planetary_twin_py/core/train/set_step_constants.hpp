@@ -9,6 +9,7 @@
 #include "mesh/damping.hpp"
 #include "mesh/faults.hpp"
 #include "mesh/form_errors.hpp"
+#include "train/body_speed.hpp"
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
 #include "vector/rows.hpp"
@@ -16,8 +17,8 @@
 namespace gearbox {
 
 // Copy side and segment of mesh i from the tables; those of an open mesh have no stiffness.
-inline void copy_segment(const Train& train, const State& state, StepConstants& step,
-                         std::int64_t i) {
+NOINLINE inline void copy_segment(const Train& train, const State& state, StepConstants& step,
+                                  std::int64_t i) {
     std::int64_t kind = train.kind[i], segment = state.segment[i], side = state.side[i];
     step.side[i] = static_cast<double>(side);
     step.segment[i] = segment + 1;
@@ -98,6 +99,49 @@ inline void place_torques(const Load& load, const State& state, StepConstants& s
         step.torque[c] = load.torque[c] + load.torque_rate[c] * passed;
 }
 
+// Torques of the machines: of the load, and of the motors and the load that control their speeds.
+inline void place_drives(const Model& model, const State& state, StepConstants& step) {
+    const Train& train = model.train;
+    const Load& load = model.load;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        const std::int64_t body = train.coupling[c][0], own = c / 2;
+        Drive& drive = step.drive[c];
+        const bool controls = c != LOAD_MACHINE;
+        const double ratio = controls ? 1.0 : train.ratio[body][0];
+        drive.gain = controls ? load.proportional[own] : load.load_proportional;
+        drive.torque = step.torque[c] + drive.gain * (ratio * state.set_speed[own] -
+                                                      rigid_speed(train, state, body));
+        drive.rate = load.torque_rate[c] + drive.gain * ratio * step.slew[own];
+        for (std::int64_t a = 0; controls && a < train.axes; ++a)
+            drive.torque += load.inertia[own][a] * step.slew[a];
+    }
+}
+
+// Speeds of the bodies and gears with the frame.
+template <int L>
+void place_frame(const Train& train, const State& state, StepConstants& step) {
+    auto with_motors = [&]<int N>(const double (*ratio)[N], double* speed, auto lanes) {
+        constexpr int M = decltype(lanes)::value;
+        (Row<M>(ratio[0]) * state.speed[0] + Row<M>(ratio[1]) * state.speed[1]).store(speed);
+    };
+    with_motors(train.ratio_of, step.rigid, std::integral_constant<int, L>{});
+    if constexpr (MOVING) {  // the frame follows the bodies, perhaps beyond their lanes
+        const std::int64_t frame = train.moving.frame;
+        step.rigid[frame] = rigid_speed(train, state, frame);
+    }
+    for (int g = 0; g < GEARS - 1; ++g)
+        with_motors(train.spin_ratio[g], step.spin[g],
+                    std::integral_constant<int, MESH_LANES<L>>{});
+}
+
+// Damping times of the meshes, whose teeth pass at this rate [1/s].
+template <int L>
+void place_damping(const Train& train, double rate, StepConstants& step) {
+    const double following = train.damping_cycles / at_least(rate, train.lowest_frequency);
+    for (int kind = 0; kind < KINDS; ++kind) step.tau[kind] = train.damping_time[kind] + following;
+    (Row<L>(step.fixed) + following).store(step.damping);
+}
+
 // Fill `step` for a step that begins at `state`.
 inline void set_step_constants(const Model& model, const State& state, StepConstants& step) {
     const Train& train = model.train;
@@ -107,17 +151,14 @@ inline void set_step_constants(const Model& model, const State& state, StepConst
         step.slew[a] = gap != 0.0 ? std::copysign(model.load.slew_rate, gap) : 0.0;
     }
     place_torques(model.load, state, step);
-    for (int j = 0; j < BODIES; ++j)
-        step.rigid[j] = train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        for (int g = 0; g < GEARS - 1; ++g)
-            step.spin[g][i] = step.rigid[train.body[i][g]] - step.rigid[train.body[i][2]];
-    double rate = passing_rate(train, step, state.v);
-    for (int kind = 0; kind < KINDS; ++kind) step.tau[kind] = damping_time(train, kind, rate);
-    for (std::int64_t i = 0; i < train.meshes; ++i) step.damping[i] = step.tau[train.kind[i]];
+    place_drives(model, state, step);
+    with_lanes(train, [&](auto lanes) { place_frame<lanes>(train, state, step); });
     double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
-    with_mesh_lanes(train,
-                    [&](auto lanes) { place_all_meshes<lanes>(train, state, step, cycles); });
+    double rate = passing_rate(train, step, state.v);
+    with_mesh_lanes(train, [&](auto lanes) {
+        place_all_meshes<lanes>(train, state, step, cycles);
+        place_damping<lanes>(train, rate, step);
+    });
 }
 
 }  // namespace gearbox

@@ -6,6 +6,12 @@
 
 namespace gearbox {
 
+// Torque of a machine within a step: `torque + rate t` where it turns with the frame [N m, N m/s],
+// less `gain` times its speed relative to that [N m s/rad].
+struct Drive {
+    double torque, rate, gain;
+};
+
 struct alignas(64) StepConstants {
     alignas(64) double start[MESHES];  // fraction of the mesh cycle at the start of the step
     alignas(64) double side[MESHES];   // +1, -1, or 0: open
@@ -28,9 +34,10 @@ struct alignas(64) StepConstants {
     double tau[KINDS];                 // damping time of each kind of mesh at the start [s]
     double cycle_rate;                 // mesh cycles per second of the frame, signed
     alignas(64) double rigid[BODIES];  // speeds of the frame [rad/s]
-    alignas(64) double spin[GEARS - 1][MESHES];    // of the gears with the frame [rad/s]
-    double slew[AXES];                             // of the speed set-points [rad/s^2]
-    double torque[MACHINES];                       // of the load at the start [N m]
+    alignas(64) double spin[GEARS - 1][MESHES];  // of the gears with the frame [rad/s]
+    double slew[AXES];                           // of the speed set-points [rad/s^2]
+    double torque[MACHINES];                     // of the load at the start [N m]
+    Drive drive[MACHINES];
     alignas(64) double line_angle[MESHES][LINES];  // of the errors of form at the start [rad]
     alignas(64) std::int8_t faulty[MESHES][PAIRS][FAULTS];  // whether a tooth pair has a fault
 };

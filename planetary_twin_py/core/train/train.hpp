@@ -16,6 +16,9 @@ struct alignas(64) Train {
     alignas(64) double radius[BODIES];          // r of x = r theta [m]
     alignas(64) double inverse_radius[BODIES];  // 1/r [1/m]
     alignas(64) double ratio[BODIES][AXES];     // rigid speed per speed of each input [-]
+    alignas(64) double ratio_of[AXES][BODIES];  // the same, a row for each input
+    // Rigid speeds of both gears of a mesh relative to its carrier, per speed of each input [-].
+    alignas(64) double spin_ratio[GEARS - 1][AXES][MESHES];
     std::int64_t machines;
     std::int64_t coupling[MACHINES][2];   // machine and member
     double coupling_stiffness[MACHINES];  // in coordinates x [N/m]

@@ -162,6 +162,17 @@ ALWAYS_INLINE bool is_zero(LanesBits x) {
 #endif
 }
 
+// The first bit of each lane.
+ALWAYS_INLINE unsigned sign_bits(LanesBits x) {
+#if defined(__AVX512F__)
+    return _mm512_movepi64_mask(std::bit_cast<__m512i>(x));
+#elif defined(__AVX__)
+    return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(x)));
+#else
+    return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(x)));
+#endif
+}
+
 // The largest whole number that is not above x, for magnitudes below 2^51. Adding 1.5 * 2^52 rounds
 // to a whole number.
 template <class Real>

@@ -138,6 +138,15 @@ ALWAYS_INLINE bool none(const Mask<L>& a) {
     return is_zero(std::bit_cast<LanesBits>(any));
 }
 
+// The numbers for which a condition holds, as bits.
+template <int L>
+ALWAYS_INLINE std::uint64_t places(const Mask<L>& a) {
+    std::uint64_t bits = 0;
+    for (int k = 0; k < L / WIDTH; ++k)
+        bits |= std::uint64_t{sign_bits(std::bit_cast<LanesBits>(a.part[k]))} << (k * WIDTH);
+    return bits;
+}
+
 struct Places {
     alignas(64) double number[BODIES];
 
@@ -299,16 +308,18 @@ struct MatrixRows {
     const double* operator[](std::int64_t m) const { return first + m * lanes; }
 };
 
-// Number m of a row in all lanes of a register; in one of eight, from its half twice: this takes no
-// indices, and the numbers of a half share it.
+// Number m of a row in all lanes of a register.
+//
+// Of eight lanes, by two permutations with constants, the first of which serves four numbers: for a
+// general one gcc builds the places in a register of integers, three instructions each time.
 template <int M, int L>
 ALWAYS_INLINE Lanes spread(const Row<L>& row) {
     constexpr int K = M % WIDTH;
     const Lanes part = row.part[M / WIDTH];
 #if defined(__AVX512F__)
-    constexpr int HALF = K < 4 ? 0x44 : 0xEE, IN_HALF = (K % 4) * 0x55;
-    const Lanes half = _mm512_maskz_shuffle_f64x2(0xFF, part, part, HALF);
-    return _mm512_maskz_permutex_pd(0xFF, half, IN_HALF);
+    constexpr int BOTH = K < 4 ? 0x44 : 0xEE, EACH = 0x55 * (K % 4);
+    const Lanes halves = _mm512_maskz_shuffle_f64x2(0xFF, part, part, BOTH);
+    return _mm512_maskz_permutex_pd(0xFF, halves, EACH);
 #elif defined(__AVX__)
     return __builtin_shufflevector(part, part, K, K, K, K);
 #else

@@ -100,6 +100,8 @@ void bind_train_records(nb::module_& m) {
         .FIELD(Train, radius)
         .FIELD(Train, inverse_radius)
         .FIELD(Train, ratio)
+        .FIELD(Train, ratio_of)
+        .FIELD(Train, spin_ratio)
         .FIELD(Train, machines)
         .FIELD(Train, coupling)
         .FIELD(Train, coupling_stiffness)
