@@ -49,10 +49,9 @@ template <int L>
 void find_end_waves(Propagation& run, double h) {
     const std::int64_t last = run.nodes.count - 1;
     const double later = h - run.motion.step, phase = run.motion.fastest_rate * std::fabs(later);
-    const Row<L> cosine(run.cosine[last]), sine(run.sine[last]);
     if (phase <= FURTHEST_SHIFT)
-        shift_waves<L>(run.motion, later, terms_of_shift(phase), cosine, sine, run.end_cosine,
-                       run.end_sine);
+        shift_waves<L>(run.motion, later, terms_of_shift(phase), run.cosine[last], run.sine[last],
+                       run.end_cosine, run.end_sine);
     else
         waves<L>(run.motion, h, run.end_cosine, run.end_sine);
 }
@@ -140,12 +139,13 @@ bool repeats(Propagation& run, double event) {
 
 // First trial: what was planned for this step in the last mesh cycle, or the step that follows from
 // the last one. Shorter ones than those that are resolved are not tried.
+template <int L>
 double first_trial(Integrator& integrator, std::int64_t bodies, double longest, double event) {
     const StoredIncrement* past = stored_increment(integrator.run);
     const bool first = integrator.control.changed && past->step > 0.0;
     const bool planned_before = first || repeats(integrator.run, event);
     double h = planned_before ? past->next : integrator.control.next_step;
-    h = shortest_resolved(integrator.run, bodies, h);
+    h = shortest_resolved<L>(integrator.run, bodies, h);
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
 }
 
@@ -183,7 +183,7 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double first,
     int unconverged = 0;
     double refused = LONGEST;
     while (true) {
-        if (control.method != COLLOCATION && !resolves(integrator.run, model.train.bodies, h))
+        if (control.method != COLLOCATION && !resolves<L>(integrator.run, h))
             return {0.0, 0.0, h < first ? FALLBACK_STEPS : BRIEF_FALLBACK_STEPS};
         Outcome tried = collocate<L>(model, integrator, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < DIVERGED))
@@ -199,16 +199,20 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double first,
     }
 }
 
-// Store powers and friction at the last node, which the next step uses at its start.
-void store_last_forces(const Model& model, const Integrator& integrator, Node& node,
-                       Evaluation& last) {
-    for (double& force : last.friction_force) force = 0.0;
-    find_friction_forces(model, integrator, node, last.friction_force);
+// Store powers and friction at the last node, which the next step uses at its start. The modes have
+// unit mass, so the forces on the bodies follow from those in the modes.
+template <int L>
+void store_last_forces(const Train& train, const Propagation& run, Evaluation& last) {
+    const Node& node = run.node[run.nodes.count - 1];
+    (Row<L>(train.mass) *
+     sum_rows<L>(contacts_of(run).matrices.shapes(), Row<L>(node.friction_force)))
+        .store(last.friction_force);
     std::memcpy(last.power, node.power, sizeof last.power);
-    last.power[STIFFNESS_WORK] = 0.0;
-    add_mesh_power(model.train, node.meshes, last.power);
+    using OfMeshes = Row<MESH_LANES<L>>;
+    last.power[DAMPING] += sum_of_meshes(train, OfMeshes(node.meshes.lost));
+    last.power[STIFFNESS_WORK] = sum_of_meshes(train, OfMeshes(node.meshes.work));
     last.power[FRICTION] =
-        model.train.friction ? friction_power(model.train, node.friction.drag) : 0.0;
+        train.friction ? sum_of_meshes(train, OfMeshes(node.friction.drag.power)) : 0.0;
 }
 
 template <int L>
@@ -216,11 +220,10 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
                        const NextEvent& event) {
     Control& control = integrator.control;
     Propagation& run = integrator.run;
-    const std::int64_t last = run.nodes.count - 1;
     enter<L>(model, integrator);
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
-    double first = first_trial(integrator, model.train.bodies, longest, event.time);
+    double first = first_trial<L>(integrator, model.train.bodies, longest, event.time);
     auto [h, error, fallback_steps, refused] = accepted_step<L>(model, integrator, first, fresh);
     if (h == 0.0) {
         control.fallback_steps = fallback_steps;
@@ -245,7 +248,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     place_end<L>(model, integrator, h);
     if (event.mesh != NO_MESH && h == event.time)
         end_step_at_edge<L>(model, integrator, event.mesh, h);
-    store_last_forces(model, integrator, run.node[last], integrator.last);
+    store_last_forces<L>(model.train, run, integrator.last);
     std::int64_t changing = end_on_flank_event<L>(model, integrator, h);
     finish_end<L>(model, integrator);
     run.past.end_seconds = integrator.end.seconds;

@@ -148,8 +148,8 @@ double tail_error(Integrator& integrator) {
                                                    missed / stiff)) /
                    integrator.control.tolerance_x;
     if (!integrator.control.slow) return error;
-    return std::max(error,
-                    tail_of_speeds<L>(integrator, missed / larger(square_root(stiff), damper)));
+    V fastest = larger(V(contacts_of(run).natural), V(std::sqrt(settling)));
+    return std::max(error, tail_of_speeds<L>(integrator, missed / larger(fastest, damper)));
 }
 
 // Sweep with unchanged friction: if the stiffness changes fast, this saves evaluations of friction.

@@ -146,6 +146,8 @@ void solve_modes(const Model& model, const State& state, ContactState& modes) {
     ModeMatrices& matrices = modes.matrices;
     for (std::int64_t m = 0; m < train.bodies; ++m) {
         modes.square[m] = std::max(squares[m], 0.0);
+        modes.natural[m] = std::sqrt(modes.square[m]);
+        modes.flexibility[m] = 1.0 / modes.square[m];
         for (std::int64_t j = 0; j < train.bodies; ++j)
             matrices.entry(matrices.shapes(), m, j) =
                 matrices.entry(matrices.shapes_transposed(), j, m) = matrix[j][m] * scale[j];

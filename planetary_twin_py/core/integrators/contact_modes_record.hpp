@@ -135,6 +135,8 @@ struct alignas(64) ContactState {
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     ModeMatrices matrices;
     alignas(64) double square[BODIES];           // w^2 [1/s^2]
+    alignas(64) double natural[BODIES];          // w [1/s]
+    alignas(64) double flexibility[BODIES];      // 1/w^2 [s^2]
     alignas(64) double shaft_damping[BODIES];    // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]
     double tau[2] = {-1.0, -1.0};  // damping times of both kinds of mesh, below 0: none yet [s]

@@ -97,13 +97,16 @@ void damp_modes(ContactState& contacts, const double* tau) {
     contacts.bounds = bound_waves<L>(contacts, std::max(tau[0], tau[1]));
 }
 
-// Free waves a short time later by Taylor series: C' = -w^2 S, S' = C - c S.
+// Free waves `delay` seconds after those with this cosine and sine by Taylor series: C' = -w^2 S,
+// S' = C - c S.
 template <int L>
-ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, int terms, Row<L> c,
-                               Row<L> s, double* cosine, double* sine) {
+NOINLINE void shift_waves(const ModalMotion& motion, double delay, int terms,
+                          const double* from_cosine, const double* from_sine, double* cosine,
+                          double* sine) {
     using V = Row<L>;
-    V square(motion.square), damping(motion.damping);
+    V square(motion.square), damping(motion.damping), c(from_cosine), s(from_sine);
     V sum_c = c, sum_s = s;
+#pragma GCC unroll 1
     for (int k = 1; k <= terms; ++k) {
         const double part = delay * INVERSE[k];
         V next_c = square * s * -part, next_s = fused(-damping, s, c) * part;
@@ -116,12 +119,24 @@ ALWAYS_INLINE void shift_waves(const ModalMotion& motion, double delay, int term
     sum_s.store(sine);
 }
 
+// Cosines and sines at time zero.
+struct AtStart {
+    alignas(64) double one[BODIES];
+    alignas(64) double zero[BODIES];
+
+    constexpr AtStart() : one{}, zero{} {
+        for (double& value : one) value = 1.0;
+    }
+};
+inline constexpr AtStart AT_START;
+
 // `wave` of all modes; by its series for times much shorter than all periods and decay times.
 template <int L>
 NOINLINE void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
     const double phase = motion.fastest_rate * std::fabs(t);
     if (phase <= FURTHEST_SHIFT)
-        return shift_waves<L>(motion, t, terms_of_shift(phase), 1.0, 0.0, cosine, sine);
+        return shift_waves<L>(motion, t, terms_of_shift(phase), AT_START.one, AT_START.zero, cosine,
+                              sine);
 #pragma GCC ivdep
     for (int m = 0; m < L; ++m) {
         Wave at = wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t);
@@ -156,8 +171,8 @@ ALWAYS_INLINE Waves<L> waves_after(const ModalMotion& motion, const Waves<L>& a,
 template <int L>
 void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer, int terms) {
     for (int n = 0; n < run.nodes.count; ++n)
-        shift_waves<L>(run.motion, run.nodes.abscissa[n] * longer, terms, Row<L>(stored.cosine[n]),
-                       Row<L>(stored.sine[n]), run.cosine[n], run.sine[n]);
+        shift_waves<L>(run.motion, run.nodes.abscissa[n] * longer, terms, stored.cosine[n],
+                       stored.sine[n], run.cosine[n], run.sine[n]);
 }
 
 // Free motions at the nodes of a step of h, from those of an equally long step if stored.
@@ -189,12 +204,13 @@ void set_step(Propagation& run, double h) {
     run.motion.per_step = 1.0 / h;
     V square(run.motion.square), damping(run.motion.damping);
     Mask<L> free = square * h * h + damping * h < FREE_MASS;
+    const ContactState& contacts = contacts_of(run);
     V spring = select(free, 0.0, square), damper = select(free, 0.0, damping);
     V remainder = V(run.force) + damper * V(run.start.p) + spring * V(run.start.q);
     spring.store(run.spring);
     damper.store(run.damper);
-    (1.0 / select(spring + damper == 0.0, 1.0, spring)).store(run.flexibility);
-    run.motion.fastest_rate = largest(square_root(spring) + damper);
+    select(spring + damper == 0.0, 1.0, V(contacts.flexibility)).store(run.flexibility);
+    run.motion.fastest_rate = largest(select(free, 0.0, V(contacts.natural) + damper));
     find_waves<L>(run, h);
     for (int n = 0; n < run.nodes.count; ++n) {
         remainder.store(run.remainder[n]);
@@ -205,16 +221,18 @@ void set_step(Propagation& run, double h) {
 // Whether a step of h loses no accuracy by cancellation. The motion of a mode with a decay time
 // much longer than the step is a small difference of a polynomial and a wave, both larger by the
 // square of that ratio.
-inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
-    for (std::int64_t m = 0; m < bodies; ++m) {
-        double square = run.motion.square[m], damping = run.motion.damping[m];
-        if (!is_free(square, damping, h) && damping > LONGEST_MEMORY * square * h) return false;
-    }
-    return true;
+template <int L>
+bool resolves(const Propagation& run, double h) {
+    Row<L> square(run.motion.square), damping(run.motion.damping);
+    Mask<L> free = square * h * h + damping * h < FREE_MASS;
+    Mask<L> cancels = damping > LONGEST_MEMORY * square * h;
+    return none(cancels & !free);
 }
 
 // The shortest step of at least h seconds that loses no accuracy by cancellation.
-inline double shortest_resolved(const Propagation& run, std::int64_t bodies, double h) {
+template <int L>
+double shortest_resolved(const Propagation& run, std::int64_t bodies, double h) {
+    if (resolves<L>(run, h)) return h;
     for (std::int64_t m = 0; m < bodies; ++m) {
         double square = run.motion.square[m], damping = run.motion.damping[m];
         if (!is_free(square, damping, h))
@@ -336,9 +354,9 @@ template <int L>
 NOINLINE void move_node(const Model& model, const Integrator& integrator, double delay,
                         const Row<L>& cosine, const Row<L>& sine, Node& node) {
     constexpr int M = MESH_LANES<L>;
-    const Propagation& run = integrator.run;
-    const ModeMatrices& matrices = contacts_of(run).matrices;
-    RowPair<L> modes = modal_states<L>(run.motion, delay * run.motion.per_step, cosine, sine);
+    const ModalMotion& motion = integrator.run.motion;
+    const ModeMatrices& matrices = contacts_of(integrator.run).matrices;
+    RowPair<L> modes = modal_states<L>(motion, delay * motion.per_step, cosine, sine);
     RowPair<M> meshes = sum_rows<M>(matrices.motion(), modes);
     RowPair<L> bodies = sum_rows<L>(matrices.shapes(), modes);
     modes.first.store(node.q);
