@@ -85,7 +85,7 @@ def _built(scene: Scene) -> Train:
 
 
 def _ratios_by_input(fields: dict[str, Any]) -> dict[str, Any]:
-    """Rigid speeds of the bodies, and of the gears relative to the carrier, a row for each input."""
+    """Rigid speeds of bodies, and of gears relative to the carrier, a row for each input."""
     ratio, body = np.asarray(fields["ratio"]), np.asarray(fields["body"])
     spin = ratio[body[:, :2]] - ratio[body[:, 2:3]]
     return {"ratio_of": ratio.T, "spin_ratio": spin.transpose(1, 2, 0)}
