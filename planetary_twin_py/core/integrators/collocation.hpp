@@ -54,6 +54,7 @@ void enter(const Model& model, Integrator& integrator) {
     motion.modes = find_modes(model, integrator.begin, run.known);
     ContactState& contacts = contacts_of(run);
     damp_modes<L>(contacts, integrator.constants.tau);
+    motion.fastest_rate = contacts.fastest_rate;
     copy<L>(contacts.square, motion.square);
     copy<L>(contacts.damping, motion.damping);
     copy<L>(contacts.rate, motion.rate);

@@ -144,6 +144,7 @@ struct alignas(64) ContactState {
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];
     alignas(64) double fast[BODIES];
+    double fastest_rate;                       // largest w + c [1/s]
     WaveBounds bounds;                         // with the damping time of either kind of mesh
     StoredWaves waves[STORED_STEPS];           // of the first steps in such a state
     StoredIncrement increments[STORED_STEPS];  // likewise, see `predictor.hpp`

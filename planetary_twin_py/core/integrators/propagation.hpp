@@ -94,6 +94,7 @@ void damp_modes(ContactState& contacts, const double* tau) {
         contacts.slow[m] = rates.slow;
         contacts.fast[m] = rates.fast;
     }
+    contacts.fastest_rate = largest(Row<L>(contacts.natural) + Row<L>(contacts.damping));
     contacts.bounds = bound_waves<L>(contacts, std::max(tau[0], tau[1]));
 }
 
@@ -210,7 +211,6 @@ void set_step(Propagation& run, double h) {
     spring.store(run.spring);
     damper.store(run.damper);
     select(spring + damper == 0.0, 1.0, V(contacts.flexibility)).store(run.flexibility);
-    run.motion.fastest_rate = largest(select(free, 0.0, V(contacts.natural) + damper));
     find_waves<L>(run, h);
     for (int n = 0; n < run.nodes.count; ++n) {
         remainder.store(run.remainder[n]);

@@ -12,7 +12,7 @@ struct alignas(64) ModalMotion {
     std::int64_t modes;                  // place in `known`
     double step;                         // [s]
     double per_step;                     // its inverse
-    double fastest_rate;                 // of the fastest mode, w + c, without free masses [1/s]
+    double fastest_rate;                 // largest w + c of the modes [1/s]
     alignas(64) double square[BODIES];   // w^2 [1/s^2]
     alignas(64) double damping[BODIES];  // c [1/s]
     alignas(64) double rate[BODIES];     // see `oscillator.decay_rates`
