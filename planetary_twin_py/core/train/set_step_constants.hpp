@@ -117,21 +117,23 @@ inline void place_drives(const Model& model, const State& state, StepConstants& 
     }
 }
 
-// Speeds of the bodies and gears with the frame.
+// Speeds with the frame, from their ratios to those of the motors.
+template <int L, int N>
+ALWAYS_INLINE void turn_with_motors(const State& state, const double (&ratio)[AXES][N],
+                                    double* speed) {
+    (Row<L>(ratio[0]) * state.speed[0] + Row<L>(ratio[1]) * state.speed[1]).store(speed);
+}
+
+// The same of the bodies, and of the gears relative to the carrier.
 template <int L>
 void place_frame(const Train& train, const State& state, StepConstants& step) {
-    auto with_motors = [&]<int N>(const double (*ratio)[N], double* speed, auto lanes) {
-        constexpr int M = decltype(lanes)::value;
-        (Row<M>(ratio[0]) * state.speed[0] + Row<M>(ratio[1]) * state.speed[1]).store(speed);
-    };
-    with_motors(train.ratio_of, step.rigid, std::integral_constant<int, L>{});
+    turn_with_motors<L>(state, train.ratio_of, step.rigid);
     if constexpr (MOVING) {  // the frame follows the bodies, perhaps beyond their lanes
         const std::int64_t frame = train.moving.frame;
         step.rigid[frame] = rigid_speed(train, state, frame);
     }
     for (int g = 0; g < GEARS - 1; ++g)
-        with_motors(train.spin_ratio[g], step.spin[g],
-                    std::integral_constant<int, MESH_LANES<L>>{});
+        turn_with_motors<MESH_LANES<L>>(state, train.spin_ratio[g], step.spin[g]);
 }
 
 // Damping times of the meshes, whose teeth pass at this rate [1/s].
