@@ -121,10 +121,13 @@ ALWAYS_INLINE Row<L> wave_bounds(const Propagation& run) {
     return select(has_waves<L>(run.motion), bound, 0.0);
 }
 
-// Bounds on what the free waves take from gaps between two nodes. A wave that increases the gap at
-// a node may decrease it by the same amount elsewhere. But it falls below the line through its
-// values by its curvature only, and so does the polynomial, which has about the opposite of a slow
-// wave.
+// Bounds on the decrease of a gap between two nodes, below its values at both, by each mode.
+//
+// A fast wave may increase the gap at a node and decrease it by the same amount between nodes:
+// twice its amplitude. A slow wave stays above the line through its values at the nodes, less its
+// largest curvature times the square of their distance over 8; twice that, because the polynomial
+// has about the same curvature with the opposite sign. This is an estimate of the polynomial, not a
+// bound.
 template <int L>
 ALWAYS_INLINE Row<L> bends_between_nodes(const Propagation& run, const Row<L>& waves) {
     using V = Row<L>;

@@ -19,7 +19,7 @@ inline constexpr int START = MOST_NODES;  // row of the values at the start
 // Whether given torques or motions at the ports change within a step.
 inline bool given_changes(const Model& model, const State& begin) {
     const std::int64_t* port = model.load.port;
-    if ((port[0] | port[1] | port[2]) == BY_MACHINE) return false;
+    if ((port[0] | port[1] | port[2]) == BY_MACHINE) return false;  // no input is given
     bool changes = false;
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
         changes |= model.load.torque_rate[c] != 0.0;

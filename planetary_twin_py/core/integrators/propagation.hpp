@@ -66,7 +66,7 @@ WaveBounds bound_waves(const ContactState& contacts, double tau) {
     first.store(bounds.displaced);
     (longest + tau * (1.0 + DAMPING_KEPT)).store(bounds.moving);
     // u'^2 + w^2 u^2 falls, and u'' = -c u' - w^2 u.
-    V w = square_root(square), bend = damping + w;
+    V w(contacts.natural), bend = damping + w;
     bend += tau * (1.0 + DAMPING_KEPT) * (damping * bend + square);
     (w * bend).store(bounds.displaced_bend);
     bend.store(bounds.moving_bend);
