@@ -17,7 +17,7 @@ namespace gearbox {
 constexpr int VARIABLES = 96;    // largest number; with 7 planets there are 64
 constexpr int NAME = 64;         // characters of a name, with the final zero
 constexpr int DIGEST = 64;       // characters before the record, padded with zeros
-constexpr int NODE_CHOICES = 3;  // numbers of collocation points
+constexpr int NODE_CHOICES = 2;  // numbers of collocation points
 
 // Kinds of variables.
 constexpr std::int64_t TIME = 0, ANGLE = 1, SPEED = 2, TORQUE = 3, MESH_DTE = 4, MESH_LOAD = 5,

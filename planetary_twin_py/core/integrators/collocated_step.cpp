@@ -28,13 +28,11 @@ constexpr double SHORTEN = 0.95, LENGTHEN = 1.3;  // factors by which a step is 
 constexpr double FORGET = 1.002;                  // factor per mesh cycle on a length that failed
 constexpr double LONGEST = std::numeric_limits<double>::infinity();
 
-// Whether Rosenbrock's method replaces collocation over h seconds: if the sweeps do not converge,
-// or if friction reverses so fast that steps of Rosenbrock's method are longer. Otherwise, short
-// steps are necessary for the accuracy.
-bool rosenbrock_is_faster(const Control& control, double h, bool converged, int unconverged) {
-    if (control.method == COLLOCATION) return false;
-    if (!converged && (unconverged > 1 || h < control.next_stiff)) return true;
-    return control.slow && h < control.next_stiff;
+// Whether Rosenbrock's method replaces collocation, the sweeps of which did not converge; the next
+// trial would take h seconds. Where they converge, collocation costs less, also in steps that its
+// error keeps shorter than those of Rosenbrock's method.
+bool rosenbrock_is_faster(const Control& control, double h, int unconverged) {
+    return control.method != COLLOCATION && (unconverged > 1 || h < control.next_stiff);
 }
 
 // Whether the teeth are helical: then a contact moves by other than one base pitch per mesh cycle.
@@ -191,7 +189,7 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double first,
         unconverged += tried.converged ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
         if (h <= SHORTEST_STEP ||
-            rosenbrock_is_faster(control, shorter, tried.converged, unconverged))
+            (!tried.converged && rosenbrock_is_faster(control, shorter, unconverged)))
             return {0.0, 0.0, FALLBACK_STEPS};
         ++control.rejected;
         refused = h;
@@ -231,16 +229,11 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
     // A step between close edges of helical teeth does not predict the length of later steps.
-    const bool helical = has_contact_lines(model.train);
-    const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
+    const bool cut_short = has_contact_lines(model.train) && h == event.time &&
+                           h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     plan_next_cycle(run, h, control.next_step, refused, event.time);
     store_increment<L>(model, integrator);
-    // For helical teeth, a step whose error allows a longer one was short because of its trial
-    // length after close edges, not because of its error.
-    const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);
-    if (held_back && rosenbrock_is_faster(control, h, true, 0))
-        control.fallback_steps = FALLBACK_STEPS;
     store_step<L>(run);
     control.collocated = true;
     control.changed = false;
