@@ -1,12 +1,12 @@
 #include "integrators/interpolant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "integrators/frame.hpp"
 #include "integrators/node_forces.hpp"
 #include "run/sample_axes.hpp"
-#include "train/body_speed.hpp"
 #include "train/drag.hpp"
 #include "train/observe.hpp"
 #include "tribology/bristles.hpp"
@@ -26,43 +26,71 @@ void sample_drag(const Model& model, Integrator& integrator, const double* v,
     out[1] = work.power[CHURNING];
 }
 
-// Update a largest magnitude; NaN is kept.
-void note_peak(double value, double& peak) {
-    if (std::fabs(value) > peak || std::isnan(value)) peak = std::fabs(value);
+// Update largest magnitudes; NaN is kept.
+template <int L>
+void note_peaks(const Row<L>& values, double* peaks) {
+    const Row<L> largest_yet = larger(Row<L>(peaks), absolute(values));
+    select(values == values, largest_yet, values).store(peaks);
 }
 
-void note_peaks(const Train& train, const State& begin, const double (*shown)[MESHES],
-                const double* v, Peaks& peaks) {
-    for (std::int64_t i = 0; i < train.meshes; ++i) note_peak(shown[DTE][i], peaks.dte[i]);
-    for (std::int64_t j = 0; j < train.bodies; ++j)
-        note_peak(body_speed(train, begin, v, j), peaks.speed[j]);
-}
-
-void sample_bodies(const Train& train, const State& begin, const double* x, const double* v,
-                   double delay, const Samples& out, std::int64_t row) {
-    for (int a = 0; a < AXES; ++a) out.turns[row * out.axes + a] = begin.turns[a];
-    for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double angle = x[j] / train.radius[j];
-        for (std::int64_t a = 0; a < train.axes; ++a)
-            angle += train.ratio[j][a] * (TURN * begin.fraction[a] + begin.speed[a] * delay);
-        out.angle[row * out.bodies + j] = angle;
-        out.speed[row * out.bodies + j] = body_speed(train, begin, v, j);
+// Write the first `count` numbers of each row, one row after the other. Where there is room for
+// whole registers, the next row overwrites what they hold beyond these numbers.
+template <int L>
+void put_rows(const double (*rows)[MESHES], std::int64_t number, std::int64_t count, double* out) {
+    for (std::int64_t q = 0; q < number; ++q, out += count) {
+        if ((number - q) * count >= L)
+            Row<L>(rows[q]).store(out);
+        else
+            std::copy_n(rows[q], count, out);
     }
 }
 
+template <int L>
+void put_row(const Row<L>& row, std::int64_t count, double* out) {
+    alignas(64) double numbers[L];
+    row.store(numbers);
+    std::copy_n(numbers, count, out);
+}
+
+// Absolute speeds of the bodies [rad/s].
+template <int L>
+Row<L> body_speeds(const Train& train, const State& begin, const double* v) {
+    using V = Row<L>;
+    V rigid = V(train.ratio_of[0]) * begin.speed[0] + V(train.ratio_of[1]) * begin.speed[1];
+    return rigid + V(v) * V(train.inverse_radius);
+}
+
+template <int L>
+void sample_angles(const Train& train, const State& begin, const double* x, double delay,
+                   const Samples& out, std::int64_t row) {
+    using V = Row<L>;
+    for (int a = 0; a < AXES; ++a) out.turns[row * out.axes + a] = begin.turns[a];
+    V angle = V(x) / V(train.radius);
+    for (std::int64_t a = 0; a < train.axes; ++a)
+        angle += V(train.ratio_of[a]) * (TURN * begin.fraction[a] + begin.speed[a] * delay);
+    put_row(angle, train.bodies, out.angle + row * out.bodies);
+}
+
 // Write a sample from the quantities of the meshes and the motion of the bodies.
+template <int L>
 void write_sample(const Model& model, Integrator& integrator, const double (*shown)[MESHES],
                   const double* x, const double* v, double delay, const Samples& out,
                   std::int64_t row) {
     const Train& train = model.train;
-    double* mesh = out.mesh_row(row);
-    for (std::int64_t q = 0; q < out.quantities; ++q)
-        for (std::int64_t i = 0; i < train.meshes; ++i) mesh[q * out.meshes + i] = shown[q][i];
-    if (out.peaks) note_peaks(train, integrator.begin, shown, v, *out.peaks);
+    const State& begin = integrator.begin;
+    put_rows<MESH_LANES<L>>(shown, out.quantities, train.meshes, out.mesh_row(row));
+    const Row<L> speed = body_speeds<L>(train, begin, v);
+    if (out.peaks) {
+        note_peaks(Row<MESH_LANES<L>>(shown[DTE]), out.peaks->dte);
+        note_peaks(speed, out.peaks->speed);
+    }
     if (out.drag && train.joints + train.discs > 0)
         sample_drag(model, integrator, v, shown, out.drag + row * SAMPLE_DRAGS);
-    if (out.turns) sample_bodies(train, integrator.begin, x, v, delay, out, row);
-    if constexpr (MOVING) sample_axes(train, integrator.begin, x, v, out, row);
+    if (out.turns) {
+        sample_angles<L>(train, begin, x, delay, out, row);
+        put_row(speed, train.bodies, out.speed + row * out.bodies);
+    }
+    if constexpr (MOVING) sample_axes(train, begin, x, v, out, row);
 }
 
 // The quantities of `observe`, from a node and its friction.
@@ -99,7 +127,7 @@ void sample_collocated(const Model& model, Integrator& integrator, const double*
         const Node& node = integrator.run.shown[n];
         alignas(64) double shown[QUANTITIES][MESHES];
         show_node<MESH_LANES<L>>(model, integrator, node, shown);
-        write_sample(model, integrator, shown, node.x, node.v, delays[n], out, row + n);
+        write_sample<L>(model, integrator, shown, node.x, node.v, delays[n], out, row + n);
     }
 }
 
@@ -109,10 +137,12 @@ void sample_stiff(const Model& model, Integrator& integrator, double delay, cons
     interpolate(model, integrator, delay);
     Evaluation& work = integrator.work.evaluation;
     place_bristles(work.pairs, dense.bristle);
-    alignas(64) double shown[QUANTITIES][MESHES];
+    alignas(64) double shown[QUANTITIES][MESHES] = {};
     observe(model, integrator.begin, integrator.constants, dense.x, dense.v, delay, work, shown,
             out.quantities > FILM);
-    write_sample(model, integrator, shown, dense.x, dense.v, delay, out, row);
+    with_lanes(model.train, [&](auto lanes) {
+        write_sample<lanes>(model, integrator, shown, dense.x, dense.v, delay, out, row);
+    });
 }
 
 }  // namespace
