@@ -78,17 +78,17 @@ def _built(scene: Scene) -> Train:
     }
     if scene.moving_axes:
         fields = moving_fields(scene, bodies, fields)
-    fields |= _ratios_by_input(fields)
+    fields["spin_ratio"] = _spin_ratio(fields)
     if scene.moving_axes:
         return axes.Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
     return Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
 
 
-def _ratios_by_input(fields: dict[str, Any]) -> dict[str, Any]:
-    """Rigid speeds of bodies, and of gears relative to the carrier, a row for each input."""
+def _spin_ratio(fields: dict[str, Any]) -> np.ndarray:
+    """Rigid speeds of the gears of meshes relative to the carrier, a row for each input."""
     ratio, body = np.asarray(fields["ratio"]), np.asarray(fields["body"])
-    spin = ratio[body[:, :2]] - ratio[body[:, 2:3]]
-    return {"ratio_of": ratio.T, "spin_ratio": spin.transpose(1, 2, 0)}
+    spin: np.ndarray = ratio[body[:, :2]] - ratio[body[:, 2:3]]
+    return spin.transpose(1, 2, 0)
 
 
 def lightest_body(train: Train) -> float:

@@ -70,12 +70,14 @@ nb::object getter_of(Getter&& getter) {
                             nb::rv_policy::reference_internal);
 }
 
+// The axes of the array may be in another order than in memory: then `strides` is not empty.
 template <class Scalar>
-void add_array(const char* name, FieldPlace place, const std::vector<size_t>& shape) {
+void add_array(const char* name, FieldPlace place, const std::vector<size_t>& shape,
+               const std::vector<std::int64_t>& strides = {}) {
     // A NumPy view; the type stub states its element type.
-    nb::object getter = getter_of([place, shape](nb::handle self) {
+    nb::object getter = getter_of([place, shape, strides](nb::handle self) {
         return nb::ndarray<nb::numpy, Scalar>(place.of<Scalar>(self), shape.size(), shape.data(),
-                                              self);
+                                              self, strides.empty() ? nullptr : strides.data());
     });
     nb::object setter = nb::cpp_function(
         [getter](nb::handle self, nb::handle values) { fill(getter(self), values); },
@@ -145,8 +147,17 @@ public:
         }
         return *this;
     }
+
+    // A matrix that is stored by columns: an array (height, width) in Python.
+    template <class Scalar, size_t width, size_t height>
+    record& columns(const char* name, size_t offset, Scalar (Record::*)[width][height]) {
+        add_array<Scalar>(name, FieldPlace{*this, offset}, {height, width},
+                          {1, static_cast<std::int64_t>(height)});
+        return *this;
+    }
 };
 
+#define COLUMNS(Record, name) columns(#name, offsetof(Record, name), &Record::name)
 #define FIELD(Record, name) field<decltype(Record::name)>(#name, offsetof(Record, name))
 
 }  // namespace gearbox

@@ -229,8 +229,8 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
     // A step between close edges of helical teeth does not predict the length of later steps.
-    const bool cut_short = has_contact_lines(model.train) && h == event.time &&
-                           h < CUT_SHORT * control.next_step;
+    const bool cut_short =
+        has_contact_lines(model.train) && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     plan_next_cycle(run, h, control.next_step, refused, event.time);
     store_increment<L>(model, integrator);

@@ -61,7 +61,7 @@ bool creep_swings(const Model& model, const Integrator& integrator) {
     for (int j = 0; j < BODIES; ++j) {
         rigid[j] = 0.0;
         for (std::int64_t a = 0; a < train.axes; ++a)
-            rigid[j] += train.ratio[j][a] * model.load.target_speed[a];
+            rigid[j] += train.ratio[a][j] * model.load.target_speed[a];
     }
     return vibration_slows(train, integrator.begin.v, rigid, SWINGING);
 }

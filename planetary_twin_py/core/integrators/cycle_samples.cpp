@@ -108,7 +108,7 @@ void compute_rows(const Model& model, Integrator& integrator, Piece piece, Rows&
         Samples out = row_in(train, turns, row);
         sample(model, integrator, piece.begin + 0.5 * piece.length * (1.0 + s), out, 0);
         for (std::int64_t j = 0; j < train.bodies; ++j)
-            out.angle[j] -= train.ratio[j][0] * (TURN * integrator.begin.fraction[0]);
+            out.angle[j] -= train.ratio[0][j] * (TURN * integrator.begin.fraction[0]);
     }
 }
 
@@ -284,7 +284,7 @@ void put_bodies(const Train& train, Turns turns, const double* values, const Sam
     std::fill(whole, whole + out.axes, 0.0);
     whole[0] = turns.whole;
     for (std::int64_t j = 0; j < n; ++j)
-        out.angle[row * n + j] = values[j] + train.ratio[j][0] * (TURN * turns.fraction);
+        out.angle[row * n + j] = values[j] + train.ratio[0][j] * (TURN * turns.fraction);
 }
 
 // Write a sample from the table of a step.

@@ -31,13 +31,13 @@ void rebase(const Train& train, State& state) {
         double rate = state.v[motor] * train.inverse_radius[motor];
         // Entries beyond the bodies, the ground and the frame, stay zero.
         const Row<L> moved = select(first_of_row<L>(train.bodies),
-                                    Row<L>(train.ratio_of[a]) * Row<L>(train.radius), 0.0);
+                                    Row<L>(train.ratio[a]) * Row<L>(train.radius), 0.0);
         (Row<L>(state.x) - moved * angle).store(state.x);
         (Row<L>(state.v) - moved * rate).store(state.v);
         state.x[motor] = 0.0;
         state.v[motor] = 0.0;
         if constexpr (MOVING) {
-            double frame = train.ratio[train.moving.frame][a];
+            double frame = train.ratio[a][train.moving.frame];
             if (frame != 0.0) turn_displacements(train, frame * angle, frame * rate, state);
         }
         state.speed[a] += rate;

@@ -56,7 +56,7 @@ void put_row(const Row<L>& row, std::int64_t count, double* out) {
 template <int L>
 Row<L> body_speeds(const Train& train, const State& begin, const double* v) {
     using V = Row<L>;
-    V rigid = V(train.ratio_of[0]) * begin.speed[0] + V(train.ratio_of[1]) * begin.speed[1];
+    V rigid = V(train.ratio[0]) * begin.speed[0] + V(train.ratio[1]) * begin.speed[1];
     return rigid + V(v) * V(train.inverse_radius);
 }
 
@@ -67,7 +67,7 @@ void sample_angles(const Train& train, const State& begin, const double* x, doub
     for (int a = 0; a < AXES; ++a) out.turns[row * out.axes + a] = begin.turns[a];
     V angle = V(x) / V(train.radius);
     for (std::int64_t a = 0; a < train.axes; ++a)
-        angle += V(train.ratio_of[a]) * (TURN * begin.fraction[a] + begin.speed[a] * delay);
+        angle += V(train.ratio[a]) * (TURN * begin.fraction[a] + begin.speed[a] * delay);
     put_row(angle, train.bodies, out.angle + row * out.bodies);
 }
 

@@ -22,10 +22,10 @@ inline void balance_torques(const Model& model, Equilibrium& run) {
     for (double& balance : run.balance) balance = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double speeding = 0.0;
-        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.step.slew[a];
+        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[a][j] * run.step.slew[a];
         run.external[j] -= train.mass[j] * train.radius[j] * speeding;
         for (std::int64_t a = 0; a < axes; ++a)
-            run.balance[a] += train.ratio[j][a] * train.radius[j] * run.external[j];
+            run.balance[a] += train.ratio[a][j] * train.radius[j] * run.external[j];
     }
     double torque = load.torque[MOTOR];
     torque += load.ripple *
@@ -33,9 +33,9 @@ inline void balance_torques(const Model& model, Equilibrium& run) {
     for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
     run.torque[MOTOR] = torque;
     std::int64_t loaded = train.coupling[LOAD_MACHINE][0];
-    run.torque[LOAD_MACHINE] = -(torque + run.balance[0]) / train.ratio[loaded][0];
+    run.torque[LOAD_MACHINE] = -(torque + run.balance[0]) / train.ratio[0][loaded];
     if (axes > 1) {
-        double taken = train.ratio[loaded][1] * run.torque[LOAD_MACHINE];
+        double taken = train.ratio[1][loaded] * run.torque[LOAD_MACHINE];
         run.torque[SECOND_MOTOR] = -(taken + run.balance[1]);
     }
     for (std::int64_t c = 0; c < train.machines; ++c)

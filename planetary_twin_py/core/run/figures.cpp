@@ -19,7 +19,7 @@ double mean_speed(const Train& train, const WindowEnd& begin, const WindowEnd& e
                   double duration) {
     double turned = 0.0;
     for (int a = 0; a < AXES; ++a)
-        turned += FULL_TURN * (end.turns[a] - begin.turns[a]) * train.ratio[j][a];
+        turned += FULL_TURN * (end.turns[a] - begin.turns[a]) * train.ratio[a][j];
     return (turned + end.angle[j] - begin.angle[j]) / duration;
 }
 

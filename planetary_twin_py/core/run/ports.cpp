@@ -52,7 +52,7 @@ Action commanded(const Load& load, int port, const Action& before, const Command
 // Set the speed of the end of a shaft, without any other change.
 void set_speed(const Train& train, State& state, int machine, double speed) {
     std::int64_t body = train.coupling[machine][0];
-    double rigid = train.ratio[body][0] * state.speed[0] + train.ratio[body][1] * state.speed[1];
+    double rigid = train.ratio[0][body] * state.speed[0] + train.ratio[1][body] * state.speed[1];
     state.v[body] = (speed - rigid) * train.radius[body];
 }
 
@@ -111,7 +111,7 @@ double angle_at(const Train& train, const Integrator& integrator, int port, doub
     const std::int64_t body = train.coupling[port][0];
     double angle = integrator.dense.x[body] / train.radius[body];
     for (std::int64_t a = 0; a < train.axes; ++a)
-        angle += train.ratio[body][a] *
+        angle += train.ratio[a][body] *
                  (TURN * (begin.turns[a] + begin.fraction[a]) + begin.speed[a] * passed);
     return angle;
 }

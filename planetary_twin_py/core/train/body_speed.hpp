@@ -9,7 +9,7 @@ namespace gearbox {
 
 // Speed of body j with the rigid frame [rad/s].
 inline double rigid_speed(const Train& train, const State& state, std::int64_t j) {
-    return train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
+    return train.ratio[0][j] * state.speed[0] + train.ratio[1][j] * state.speed[1];
 }
 
 // Absolute speed of body j [rad/s].

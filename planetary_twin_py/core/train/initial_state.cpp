@@ -243,7 +243,7 @@ double drag(const Start& start, std::int64_t axis) {
     const Train& train = start.model.train;
     double total = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        total -= train.ratio[j][axis] * start.balance.evaluation.force[j] * train.radius[j];
+        total -= train.ratio[axis][j] * start.balance.evaluation.force[j] * train.radius[j];
     return total;
 }
 
@@ -297,7 +297,7 @@ void trim(const Model& model, const double* drags, State& state) {
     for (std::int64_t c = 0; c < train.machines; ++c)
         for (std::int64_t a = 0; a < train.axes; ++a)
             for (std::int64_t b = 0; b < train.axes; ++b)
-                effect[a][b] += train.ratio[train.coupling[c][0]][a] * model.load.trim_gain[c][b];
+                effect[a][b] += train.ratio[a][train.coupling[c][0]] * model.load.trim_gain[c][b];
     if (train.axes == 1 || effect[0][0] == 0.0 || effect[1][1] == 0.0) {
         for (std::int64_t a = 0; a < train.axes; ++a)
             if (effect[a][a] != 0.0) state.trim[a] += drags[a] / effect[a][a];

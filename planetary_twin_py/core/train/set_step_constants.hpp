@@ -107,7 +107,7 @@ inline void place_drives(const Model& model, const State& state, StepConstants& 
         const std::int64_t body = train.coupling[c][0], own = c / 2;
         Drive& drive = step.drive[c];
         const bool controls = c != LOAD_MACHINE;
-        const double ratio = controls ? 1.0 : train.ratio[body][0];
+        const double ratio = controls ? 1.0 : train.ratio[0][body];
         drive.gain = controls ? load.proportional[own] : load.load_proportional;
         drive.torque = step.torque[c] + drive.gain * (ratio * state.set_speed[own] -
                                                       rigid_speed(train, state, body));
@@ -127,7 +127,7 @@ ALWAYS_INLINE void turn_with_motors(const State& state, const double (&ratio)[AX
 // The same of the bodies, and of the gears relative to the carrier.
 template <int L>
 void place_frame(const Train& train, const State& state, StepConstants& step) {
-    turn_with_motors<L>(state, train.ratio_of, step.rigid);
+    turn_with_motors<L>(state, train.ratio, step.rigid);
     if constexpr (MOVING) {  // the frame follows the bodies, perhaps beyond their lanes
         const std::int64_t frame = train.moving.frame;
         step.rigid[frame] = rigid_speed(train, state, frame);

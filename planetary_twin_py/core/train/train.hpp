@@ -15,8 +15,7 @@ struct alignas(64) Train {
     alignas(64) double mass[BODIES];            // J/r^2 of all of them [kg]
     alignas(64) double radius[BODIES];          // r of x = r theta [m]
     alignas(64) double inverse_radius[BODIES];  // 1/r [1/m]
-    alignas(64) double ratio[BODIES][AXES];     // rigid speed per speed of each input [-]
-    alignas(64) double ratio_of[AXES][BODIES];  // the same, a row for each input
+    alignas(64) double ratio[AXES][BODIES];     // rigid speed per speed of each input [-]
     // Rigid speeds of both gears of a mesh relative to its carrier, per speed of each input [-].
     alignas(64) double spin_ratio[GEARS - 1][AXES][MESHES];
     std::int64_t machines;

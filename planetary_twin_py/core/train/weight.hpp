@@ -31,7 +31,7 @@ inline double frame_angle(const Train& train, const State& state, double delay) 
     for (int a = 0; a < AXES; ++a) {
         const std::int64_t period = axes.turn_denominator[a];
         auto whole = static_cast<std::int64_t>(state.turns[a]) % period;
-        const double ratio = train.ratio[axes.frame][a];
+        const double ratio = train.ratio[a][axes.frame];
         turns += static_cast<double>(whole * axes.turn_numerator[a] % period) /
                  static_cast<double>(period);
         turns += ratio * state.fraction[a];
