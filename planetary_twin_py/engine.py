@@ -21,10 +21,12 @@ from ._core import (
     NOT_FINITE,
     Control,
     Model,
+    Oil,
     PointLaws,
     Report,
     WindowEnd,
     keep_given,
+    prescribe,
 )
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.library import library, record_in
@@ -94,7 +96,8 @@ class Engine:
         self._loads = LoadBuilder(scene, self.train)
         self._scale = StepScale(scene, self.train, self._loads.laws)
         self._given = False
-        self._oil_at: tuple[float, float] | None = None
+        self._oil: Oil | None = None
+        self._oil_at = math.nan, math.nan  # its temperature and lambda ratio
         self._cycles: dict[bool, int] = {}
         self._pause = SETTLING / bandwidth(scene)
         self._load(scene.operating_point)
@@ -113,12 +116,7 @@ class Engine:
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
-        oil_at = point.oil_temperature, point.lambda_ratio
-        if self._oil_at != oil_at:
-            self.model.oil, self._oil_at = (
-                record_in(self._core, build_oil(self.scene, point)),
-                oil_at,
-            )
+        self._load_oil(point)
         load, ports = record_in(self._core, self._loads.build(point)), self.scene.drive.ports
         if self._given:  # values given at ports do not depend on the operating point
             keep_given(self.model.load, load)
@@ -134,6 +132,17 @@ class Engine:
             self.integrator.run.nodes = self._core.radau(points)
         control.changed = True
         self._allow_periodic()
+
+    def _load_oil(self, point: OperatingPoint) -> None:
+        """Put the oil of an operating point into the model, if it is another one."""
+        at = point.oil_temperature, point.lambda_ratio
+        if at == self._oil_at:
+            return
+        if self._oil is None or at[0] != self._oil_at[0]:
+            self._oil = build_oil(self.scene, point)
+        else:
+            prescribe(self._oil, point.lambda_ratio)
+        self.model.oil, self._oil_at = record_in(self._core, self._oil), at
 
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""
