@@ -56,6 +56,5 @@ def test_the_linked_model_is_installed_with_its_scenes(tmp_path):
         text=True,
     )
     assert done.stdout.split() == [str(package / "_core/__init__.py"), "3.0"], done.stderr
-    (compiled,) = (package / "_core").glob("*.so")
-    built = next((tmp_path / "build/core").rglob(compiled.name))
-    assert compiled.stat().st_size == built.stat().st_size
+    (built,) = (tmp_path / "build/core").rglob("_core/*.so")
+    assert (package / "_core" / built.name).stat().st_size == built.stat().st_size
