@@ -28,9 +28,9 @@ constexpr double SHORTEN = 0.95, LENGTHEN = 1.3;  // factors by which a step is 
 constexpr double FORGET = 1.002;                  // factor per mesh cycle on a length that failed
 constexpr double LONGEST = std::numeric_limits<double>::infinity();
 
-// Whether Rosenbrock's method replaces collocation, the sweeps of which did not converge; the next
-// trial would take h seconds. Where they converge, collocation costs less, also in steps that its
-// error keeps shorter than those of Rosenbrock's method.
+// Whether Rosenbrock's method replaces collocation after a trial whose sweeps did not converge. The
+// next trial would have h seconds; `unconverged` trials of this step have failed in this way. Where
+// sweeps converge, collocation costs less, even if its error requires shorter steps.
 bool rosenbrock_is_faster(const Control& control, double h, int unconverged) {
     return control.method != COLLOCATION && (unconverged > 1 || h < control.next_stiff);
 }
