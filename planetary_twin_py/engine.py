@@ -21,7 +21,6 @@ from ._core import (
     NOT_FINITE,
     Control,
     Model,
-    Oil,
     PointLaws,
     Report,
     WindowEnd,
@@ -96,8 +95,8 @@ class Engine:
         self._loads = LoadBuilder(scene, self.train)
         self._scale = StepScale(scene, self.train, self._loads.laws)
         self._given = False
-        self._oil: Oil | None = None
-        self._oil_at = math.nan, math.nan  # its temperature and lambda ratio
+        self._oil = build_oil(scene, scene.operating_point)
+        self._oil_temperature = scene.operating_point.oil_temperature
         self._cycles: dict[bool, int] = {}
         self._pause = SETTLING / bandwidth(scene)
         self._load(scene.operating_point)
@@ -134,15 +133,11 @@ class Engine:
         self._allow_periodic()
 
     def _load_oil(self, point: OperatingPoint) -> None:
-        """Put the oil of an operating point into the model, if it is another one."""
-        at = point.oil_temperature, point.lambda_ratio
-        if at == self._oil_at:
-            return
-        if self._oil is None or at[0] != self._oil_at[0]:
-            self._oil = build_oil(self.scene, point)
-        else:
-            prescribe(self._oil, point.lambda_ratio)
-        self.model.oil, self._oil_at = record_in(self._core, self._oil), at
+        """Put the oil of an operating point into the model."""
+        if point.oil_temperature != self._oil_temperature:
+            self._oil, self._oil_temperature = build_oil(self.scene, point), point.oil_temperature
+        prescribe(self._oil, point.lambda_ratio)
+        self.model.oil = record_in(self._core, self._oil)
 
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""
