@@ -65,7 +65,7 @@ void bind_laws(nb::module_& m) {
     m.attr("ELASTIC") = ELASTIC;
     m.attr("RELAXATION") = RELAXATION;
     nb::dict laws;
-    for (auto [name, law] : TRACTION_LAWS) laws[name] = static_cast<int>(law);
+    FrictionLaws::each_name([&](const char* name, int position) { laws[name] = position; });
     m.attr("TRACTION_LAWS") = laws;
     m.def("log_film_thickness", &log_film_thickness<double>, "law"_a, "log_radius"_a,
           "log_speed_group"_a, "log_material_group"_a, "log_load_group"_a);
@@ -116,9 +116,9 @@ void bind_pairs(nb::module_& m) {
         [](const Oil& oil, const Pair& pair, double slowest_rolling) {
             auto [rho1, rho2, external, speed1, speed2, load] = pair;
             PairFriction<double> f{};
-            with_laws(oil, [&]<Laws laws>() {
+            with_laws(oil, [&]<class Laws>() {
                 PairMotion<double> found{rho1, rho2, external, speed1, speed2, load};
-                f = tooth_contact<laws>(oil, area_factor(oil), found, slowest_rolling);
+                f = tooth_contact<Laws>(oil, area_factor(oil), found, slowest_rolling);
             });
             return std::tuple(f.friction, f.boundary, f.viscous, f.log_film, f.sliding, f.slope,
                               f.rolling, f.rolling_power);

@@ -35,4 +35,15 @@ struct alignas(64) ShearThinning {
     double flash_heating;
 };
 
+// Quantities of a table of friction: lambda ratio, mean pressure, mean surface speed, sliding
+// speed.
+constexpr int TABLE_AXES = 4, TABLE_KNOTS = 16, TABLE_VALUES = 1024;
+constexpr int SLIDING_AXIS = TABLE_AXES - 1;
+
+struct alignas(64) FrictionTable {
+    std::int64_t size[TABLE_AXES];  // number of values of each quantity; 1: does not depend on it
+    alignas(64) double knot[TABLE_AXES][TABLE_KNOTS];  // their logarithms, ascending
+    alignas(64) double coefficient[TABLE_VALUES];      // [-], the last quantity fastest
+};
+
 }  // namespace gearbox

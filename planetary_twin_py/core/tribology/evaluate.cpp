@@ -45,7 +45,7 @@ ALWAYS_INLINE void store_friction(const Oil& oil, const PairFriction<Lanes>& fou
 
 // Each part of the laws is computed for all registers in turn, which hides latencies.
 // `tooth_contact` is the same for one pair.
-template <Laws laws>
+template <class Laws>
 void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
     const double slowest = pairs.slowest_rolling, factor = area_factor(oil);
     Flanks<Lanes> flanks[PAIR_CAPACITY / WIDTH];
@@ -57,11 +57,11 @@ void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
     for (int r = 0; r < registers; ++r) logarithms[r] = logarithms_of(flanks[r]);
     for (int r = 0; r < registers; ++r) {
         contact[r] = contact_of(oil, factor, flanks[r], logarithms[r]);
-        full[r] = mixed_friction<laws>(oil, contact[r]);
+        full[r] = mixed_friction<Laws>(oil, contact[r]);
     }
     for (int r = 0; r < registers; ++r) {
-        PairFriction<Lanes> found = sliding_friction<laws>(oil, flanks[r], contact[r], full[r]);
-        if constexpr (laws.rolling) add_rolling(oil, flanks[r], contact[r], found);
+        PairFriction<Lanes> found = sliding_friction<Laws>(oil, flanks[r], contact[r], full[r]);
+        if constexpr (Laws::ROLLING) add_rolling(oil, flanks[r], contact[r], found);
         store_friction(oil, found, pairs, r * WIDTH);
     }
 }
@@ -72,7 +72,7 @@ void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
 void evaluate(const Model& model, ToothPairs& pairs) {
     const Oil& oil = model.oil;
     int registers = static_cast<int>((pairs.count + WIDTH - 1) / WIDTH);
-    with_laws(oil, [&]<Laws laws>() { evaluate_pairs<laws>(oil, pairs, registers); });
+    with_laws(oil, [&]<class Laws>() { evaluate_pairs<Laws>(oil, pairs, registers); });
     if (pairs.has_bristles) apply_bristles(oil, pairs);
 }
 

@@ -6,21 +6,10 @@
 // coefficient includes boundary friction; the sign of the friction is that of sliding, as with all
 // laws.
 
-#include <cstdint>
-
+#include "tribology/contact.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
-
-// Quantities: lambda ratio, mean pressure, mean surface speed, sliding speed.
-constexpr int TABLE_AXES = 4, TABLE_KNOTS = 16, TABLE_VALUES = 1024;
-constexpr int SLIDING_AXIS = TABLE_AXES - 1;
-
-struct alignas(64) FrictionTable {
-    std::int64_t size[TABLE_AXES];  // number of values of each quantity; 1: does not depend on it
-    alignas(64) double knot[TABLE_AXES][TABLE_KNOTS];  // their logarithms, ascending
-    alignas(64) double coefficient[TABLE_VALUES];      // [-], the last quantity fastest
-};
 
 // A friction coefficient [-], and its derivative with respect to the logarithm of the sliding
 // speed.
@@ -95,5 +84,21 @@ inline TabulatedFriction<Lanes> tabulated_friction(const FrictionTable& table, L
     }
     return found;
 }
+
+struct TableLaw {
+    static constexpr const char* NAMES[] = {"table"};
+    static constexpr bool INCLUDES_BOUNDARY = true;
+    static constexpr bool SINGLE_PRECISION = false;
+
+    template <class Real>
+    ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
+        Real log_lambda =
+            oil.prescribed ? Real{} + oil.log_lambda : contact.log_thickness() - oil.log_roughness;
+        Real log_pressure = 0.5 * (contact.log_load - contact.log_radius) - oil.log_area;  // of F/A
+        auto [mu, growth] = tabulated_friction(oil.table, log_lambda, log_pressure,
+                                               contact.log_speed, log(contact.speed));
+        return {Real{}, mu * contact.load, growth * contact.load / contact.speed};
+    }
+};
 
 }  // namespace gearbox

@@ -1,34 +1,47 @@
 #pragma once
 
-// Selection of the friction laws, once for all tooth pairs: they are compile-time constants of the
-// loops over pairs.
+// Selection of the friction laws, once for all tooth pairs: they are types, with which the loops
+// over pairs are compiled.
 
-#include "tribology/oil.hpp"
+#include "tribology/contact.hpp"
+#include "tribology/friction_table.hpp"
+#include "tribology/schlenk.hpp"
+#include "tribology/shear_thinning.hpp"
+#include "tribology/traction.hpp"
 
 namespace gearbox {
 
-enum class TractionLaw { PLATEAU, EYRING, SCHLENK, TABLE };  // the values of Oil.traction_law
+template <FrictionLaw... Law>
+struct LawList {
+    // Call `function.operator()<Law>()` with the law at a position, see `Oil::traction_law`.
+    template <class Function>
+    static void with(std::int64_t position, Function&& function) {
+        std::int64_t k = 0;
+        ((k++ == position ? function.template operator()<Law>() : void()), ...);
+    }
 
-// Whether a law is available in single precision: the exponents of Eyring's law are beyond its
-// range, and tables are read in double precision.
-constexpr bool has_single_precision(TractionLaw law) {
-    return law == TractionLaw::PLATEAU || law == TractionLaw::SCHLENK;
+    // Call `function(name, position)` for each name of each law.
+    template <class Function>
+    static void each_name(Function&& function) {
+        int position = 0;
+        auto names_of = [&](const auto& names) {
+            for (const char* name : names) function(name, position);
+            ++position;
+        };
+        (names_of(Law::NAMES), ...);
+    }
+};
+
+using FrictionLaws = LawList<PlateauLaw, EyringLaw, SchlenkLaw, TableLaw>;
+
+inline bool has_single_precision(const Oil& oil) {
+    bool found = false;
+    FrictionLaws::with(oil.traction_law, [&]<class Law>() { found = Law::SINGLE_PRECISION; });
+    return found;
 }
 
-struct NamedLaw {
-    const char* name;  // in a scene
-    TractionLaw law;
-};
-
-constexpr NamedLaw TRACTION_LAWS[] = {
-    {"eyring", TractionLaw::EYRING},   {"evans_johnson", TractionLaw::PLATEAU},
-    {"printed", TractionLaw::PLATEAU},  // with other constants
-    {"schlenk", TractionLaw::SCHLENK},  // with boundary friction
-    {"table", TractionLaw::TABLE},      // the same
-};
-
 enum class BoundaryLaw {
-    NONE,                 // included in Schlenk's regression and in tables
+    NONE,                 // included in the friction law
     SHARING,              // by load sharing, see `load_sharing.hpp`
     SHARING_AT_RATIO,     // the same at the prescribed lambda ratio
     ASPERITIES,           // of Greenwood and Tripp's asperities, see `boundary.hpp`
@@ -36,57 +49,51 @@ enum class BoundaryLaw {
     ASPERITIES_AT_RATIO,  // the same for all pairs, at the prescribed lambda ratio
 };
 
-struct Laws {
-    TractionLaw traction;
-    BoundaryLaw boundary;
-    bool rolling;  // whether there is rolling resistance
-};
-
 inline BoundaryLaw boundary_law(const Oil& oil) {
-    auto law = static_cast<TractionLaw>(oil.traction_law);
-    if (law == TractionLaw::SCHLENK || law == TractionLaw::TABLE) return BoundaryLaw::NONE;
     if (oil.sharing) return oil.prescribed ? BoundaryLaw::SHARING_AT_RATIO : BoundaryLaw::SHARING;
     if (oil.prescribed) return BoundaryLaw::ASPERITIES_AT_RATIO;
     return oil.printed_asperities ? BoundaryLaw::PRINTED_ASPERITIES : BoundaryLaw::ASPERITIES;
 }
 
-// Call `function.operator()<Laws>()` with the laws of the oil.
-template <TractionLaw traction, BoundaryLaw boundary, class Function>
+// The laws of a run. `rolling`: whether there is rolling resistance.
+template <FrictionLaw Law, BoundaryLaw boundary, bool rolling>
+struct Laws {
+    using Traction = Law;
+    static constexpr BoundaryLaw BOUNDARY = boundary;
+    static constexpr bool ROLLING = rolling;
+};
+
+template <FrictionLaw Law, BoundaryLaw boundary, class Function>
 inline void with_boundary(const Oil& oil, Function&& function) {
     if (oil.rolling)
-        function.template operator()<Laws{traction, boundary, true}>();
+        function.template operator()<Laws<Law, boundary, true>>();
     else
-        function.template operator()<Laws{traction, boundary, false}>();
+        function.template operator()<Laws<Law, boundary, false>>();
 }
 
-template <TractionLaw traction, class Function>
+template <FrictionLaw Law, class Function>
 inline void with_traction(const Oil& oil, Function&& function) {
-    switch (boundary_law(oil)) {
-        case BoundaryLaw::SHARING:
-            return with_boundary<traction, BoundaryLaw::SHARING>(oil, function);
-        case BoundaryLaw::SHARING_AT_RATIO:
-            return with_boundary<traction, BoundaryLaw::SHARING_AT_RATIO>(oil, function);
-        case BoundaryLaw::PRINTED_ASPERITIES:
-            return with_boundary<traction, BoundaryLaw::PRINTED_ASPERITIES>(oil, function);
-        case BoundaryLaw::ASPERITIES_AT_RATIO:
-            return with_boundary<traction, BoundaryLaw::ASPERITIES_AT_RATIO>(oil, function);
-        default:
-            return with_boundary<traction, BoundaryLaw::ASPERITIES>(oil, function);
-    }
+    if constexpr (Law::INCLUDES_BOUNDARY)
+        return with_boundary<Law, BoundaryLaw::NONE>(oil, function);
+    else
+        switch (boundary_law(oil)) {
+            case BoundaryLaw::SHARING:
+                return with_boundary<Law, BoundaryLaw::SHARING>(oil, function);
+            case BoundaryLaw::SHARING_AT_RATIO:
+                return with_boundary<Law, BoundaryLaw::SHARING_AT_RATIO>(oil, function);
+            case BoundaryLaw::PRINTED_ASPERITIES:
+                return with_boundary<Law, BoundaryLaw::PRINTED_ASPERITIES>(oil, function);
+            case BoundaryLaw::ASPERITIES_AT_RATIO:
+                return with_boundary<Law, BoundaryLaw::ASPERITIES_AT_RATIO>(oil, function);
+            default:
+                return with_boundary<Law, BoundaryLaw::ASPERITIES>(oil, function);
+        }
 }
 
+// Call `function.operator()<Laws>()` with the laws of the oil.
 template <class Function>
 inline void with_laws(const Oil& oil, Function&& function) {
-    switch (static_cast<TractionLaw>(oil.traction_law)) {
-        case TractionLaw::SCHLENK:
-            return with_boundary<TractionLaw::SCHLENK, BoundaryLaw::NONE>(oil, function);
-        case TractionLaw::TABLE:
-            return with_boundary<TractionLaw::TABLE, BoundaryLaw::NONE>(oil, function);
-        case TractionLaw::EYRING:
-            return with_traction<TractionLaw::EYRING>(oil, function);
-        default:
-            return with_traction<TractionLaw::PLATEAU>(oil, function);
-    }
+    FrictionLaws::with(oil.traction_law, [&]<class Law>() { with_traction<Law>(oil, function); });
 }
 
 }  // namespace gearbox

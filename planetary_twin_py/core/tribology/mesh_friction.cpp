@@ -186,7 +186,7 @@ void scale_forces(const Oil& oil, Columns<Number>& pairs, int count) {
 }
 
 // The same as `tooth_contact`, part by part for all registers.
-template <Laws laws, class Number>
+template <class Laws, class Number>
 void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
     using Real = typename RegisterOf<Number>::type;
     constexpr int IN_ONE = sizeof(Real) / sizeof(Number);
@@ -208,11 +208,11 @@ void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, 
         construct(logarithms[r], [&] { return logarithms_of(flanks[r]); });
     for (int r = 0; r < registers; ++r) {
         construct(contact[r], [&] { return contact_of(oil, factor, flanks[r], logarithms[r]); });
-        construct(full[r], [&] { return mixed_friction<laws>(oil, contact[r]); });
+        construct(full[r], [&] { return mixed_friction<Laws>(oil, contact[r]); });
     }
     for (int r = 0, k = 0; r < registers; ++r, k += IN_ONE) {
-        PairFriction<Real> found = sliding_friction<laws>(oil, flanks[r], contact[r], full[r]);
-        if constexpr (laws.rolling) {
+        PairFriction<Real> found = sliding_friction<Laws>(oil, flanks[r], contact[r], full[r]);
+        if constexpr (Laws::ROLLING) {
             add_rolling(oil, flanks[r], contact[r], found);
             store_register(pairs.rolling + k, found.rolling);
         }
@@ -303,10 +303,10 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
     for (int n = 0; !spur && n < count; ++n)
         place_faces<L>(train, step, instants[n], place(n), pairs);
     if (!spur) spread_over_faces(pairs, all);
-    with_laws(oil, [&]<Laws laws>() {
+    with_laws(oil, [&]<class Laws>() {
         constexpr bool SINGLE = std::is_same_v<Number, float>;
-        if constexpr (!SINGLE || has_single_precision(laws.traction))
-            find_pair_friction<laws>(oil, slowest_rolling(train, step), pairs, all);
+        if constexpr (!SINGLE || Laws::Traction::SINGLE_PRECISION)
+            find_pair_friction<Laws>(oil, slowest_rolling(train, step), pairs, all);
     });
     if (!spur) scale_forces(oil, pairs, all);
     for (int n = 0; n < count; ++n) {
@@ -347,7 +347,7 @@ void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
 
 void find_friction(const Model& model, const StepConstants& step, const FrictionInstant* instants,
                    int count, bool single_precision) {
-    single_precision &= has_single_precision(static_cast<TractionLaw>(model.oil.traction_law));
+    single_precision &= has_single_precision(model.oil);
     const std::int64_t meshes = count_closed(model.train, step);
     with_lanes_of(model.train, meshes, [&]<int L>(std::integral_constant<int, L>) {
         if (single_precision)

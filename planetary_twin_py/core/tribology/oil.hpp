@@ -3,14 +3,13 @@
 #include <cstdint>
 
 #include "tribology/constants.hpp"
-#include "tribology/friction_table.hpp"
 
 namespace gearbox {
 
 struct alignas(64) Oil {
     Film film;
     Asperities asperities;
-    std::int64_t traction_law;  // a TractionLaw
+    std::int64_t traction_law;  // position in `FrictionLaws`
     Traction traction;
     ShearThinning shear_thinning;
     double log_schlenk;      // see `log_schlenk_factor`

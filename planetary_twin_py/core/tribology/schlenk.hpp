@@ -7,6 +7,7 @@
 // friction included. Here it is applied to each tooth pair with its own load, speeds and radius; at
 // the pitch point, with the whole load on one pair, this is the original value.
 
+#include "tribology/contact.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
@@ -20,5 +21,18 @@ ALWAYS_INLINE Real schlenk_coefficient(double log_factor, Real log_load, Real lo
                                        Real log_radius) {
     return exp(log_factor + SCHLENK_LOAD * (log_load - log_speed - log_radius));
 }
+
+struct SchlenkLaw {
+    static constexpr const char* NAMES[] = {"schlenk"};
+    static constexpr bool INCLUDES_BOUNDARY = true;
+    static constexpr bool SINGLE_PRECISION = true;
+
+    template <class Real>
+    ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
+        Real mu = schlenk_coefficient(oil.log_schlenk, contact.log_load, contact.log_moving(),
+                                      contact.log_radius);
+        return {Real{}, mu * contact.load, Real{}};
+    }
+};
 
 }  // namespace gearbox

@@ -15,7 +15,7 @@
 
 #include <numbers>
 
-#include "tribology/constants.hpp"
+#include "tribology/contact.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
@@ -67,5 +67,24 @@ ALWAYS_INLINE FilmShear<Real> film_shear(const ShearThinning& film, Real load, R
     return {area * (LOW_WEIGHT * low.friction + HIGH_WEIGHT * high.friction),
             area * (LOW_WEIGHT * low.growth + HIGH_WEIGHT * high.growth)};
 }
+
+struct EyringLaw {
+    static constexpr const char* NAMES[] = {"eyring"};
+    static constexpr bool INCLUDES_BOUNDARY = false;
+    static constexpr bool SINGLE_PRECISION = false;  // its exponents are beyond the range of floats
+
+    template <class Real>
+    ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
+        FilmShear<Real> film =
+            film_shear(oil.shear_thinning, contact.load, contact.area, contact.log_thickness(),
+                       log_heat(oil, contact), contact.speed);
+        return {Real{}, film.friction, film.growth};
+    }
+
+    template <class Real>
+    ALWAYS_INLINE static Real limit(const Oil& oil, const Contact<Real>& contact) {
+        return oil.shear_thinning.limiting_stress * contact.load;
+    }
+};
 
 }  // namespace gearbox

@@ -10,15 +10,12 @@
 
 #include "tribology/boundary.hpp"
 #include "tribology/bristles.hpp"
+#include "tribology/contact.hpp"
 #include "tribology/film.hpp"
-#include "tribology/friction_table.hpp"
 #include "tribology/hertz.hpp"
 #include "tribology/law.hpp"
 #include "tribology/load_sharing.hpp"
-#include "tribology/oil.hpp"
 #include "tribology/rolling.hpp"
-#include "tribology/schlenk.hpp"
-#include "tribology/shear_thinning.hpp"
 #include "tribology/traction.hpp"
 #include "vector/math.hpp"
 
@@ -32,73 +29,23 @@ ALWAYS_INLINE double lambda_ratio_of(const Oil& oil, double log_film) {
     return oil.prescribed ? oil.lambda_ratio : exp(log_film - oil.log_roughness);
 }
 
-// Inputs of the friction laws for a tooth pair.
-template <class Real>
-struct Contact {
-    Real load;        // normal [N]
-    Real area;        // apparent, A = 2 b L [m^2]
-    Real speed;       // magnitude of the sliding speed [m/s]
-    Real log_radius;  // logarithm of the reduced radius of curvature in m
-    Real log_speed;   // of the mean surface speed in m/s
-    Real log_load;    // of the load in N
-    Real log_film;    // of the film in m
-};
-
-// Magnitudes of the friction of a tooth pair.
-template <class Real>
-struct Friction {
-    Real boundary, viscous;  // [N]
-    Real growth;             // derivative of the latter with respect to the sliding speed [N s/m]
-};
-
-template <Laws laws, class Real>
-ALWAYS_INLINE Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
-    // Lower bound of the speed for laws that divide by it.
-    Real log_moving = at_least(contact.log_speed, LOG_SLOWEST);
-    if constexpr (laws.traction == TractionLaw::SCHLENK) {
-        Real mu =
-            schlenk_coefficient(oil.log_schlenk, contact.log_load, log_moving, contact.log_radius);
-        return {Real{}, mu * contact.load, Real{}};
-    }
-    if constexpr (laws.traction == TractionLaw::TABLE) {
-        Real log_lambda = oil.prescribed
-                              ? Real{} + oil.log_lambda
-                              : at_least(contact.log_film, LOG_THINNEST) - oil.log_roughness;
-        Real log_pressure = 0.5 * (contact.log_load - contact.log_radius) - oil.log_area;  // of F/A
-        auto [mu, growth] = tabulated_friction(oil.table, log_lambda, log_pressure,
-                                               contact.log_speed, log(contact.speed));
-        return {Real{}, mu * contact.load, growth * contact.load / contact.speed};
-    }
-    Real left = at_least(contact.log_film, LOG_THINNEST);
-    // sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
-    Real log_heat =
-        0.25 * (contact.log_radius + contact.log_load) - 0.5 * (log_moving + oil.log_area);
-    if constexpr (laws.traction == TractionLaw::EYRING) {
-        FilmShear<Real> film = film_shear(oil.shear_thinning, contact.load, contact.area, left,
-                                          log_heat, contact.speed);
-        return {Real{}, film.friction, film.growth};
-    }
-    return {Real{}, viscous_friction(oil.traction, contact.load, contact.area, left, log_heat),
-            Real{}};
-}
-
-template <Laws laws, class Real>
+template <class Laws, class Real>
 ALWAYS_INLINE Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) {
-    Friction<Real> film = film_friction<laws>(oil, contact);
+    Friction<Real> film = Laws::Traction::friction(oil, contact);
     Real log_film = contact.log_film;
-    if constexpr (laws.boundary == BoundaryLaw::NONE) return film;
-    if constexpr (laws.boundary == BoundaryLaw::ASPERITIES_AT_RATIO) {
+    if constexpr (Laws::BOUNDARY == BoundaryLaw::NONE) return film;
+    if constexpr (Laws::BOUNDARY == BoundaryLaw::ASPERITIES_AT_RATIO) {
         film.boundary = oil.asperity_shear * contact.area;
         return film;
     }
-    if constexpr (laws.boundary == BoundaryLaw::ASPERITIES ||
-                  laws.boundary == BoundaryLaw::PRINTED_ASPERITIES) {
-        constexpr bool PRINTED = laws.boundary == BoundaryLaw::PRINTED_ASPERITIES;
+    if constexpr (Laws::BOUNDARY == BoundaryLaw::ASPERITIES ||
+                  Laws::BOUNDARY == BoundaryLaw::PRINTED_ASPERITIES) {
+        constexpr bool PRINTED = Laws::BOUNDARY == BoundaryLaw::PRINTED_ASPERITIES;
         Real ratio = exp(at_least(log_film, LOG_THINNEST) - oil.log_roughness);
         film.boundary = boundary_shear(oil.asperities, PRINTED, ratio) * contact.area;
         return film;
     }
-    constexpr bool AT_RATIO = laws.boundary == BoundaryLaw::SHARING_AT_RATIO;
+    constexpr bool AT_RATIO = Laws::BOUNDARY == BoundaryLaw::SHARING_AT_RATIO;
     Real log_lambda = log_film - oil.log_roughness, log_thickness = log_film - LOG_THINNEST;
     if constexpr (AT_RATIO) log_lambda = Real{} + oil.log_lambda, log_thickness = Real{};
     Real share = film_share(log_lambda, log_thickness);
@@ -222,17 +169,16 @@ ALWAYS_INLINE Contact<Real> contact_of(const Oil& oil, double area_factor,
 }
 
 // The friction of sliding from its magnitudes.
-template <Laws laws, class Real>
+template <class Laws, class Real>
 ALWAYS_INLINE PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flanks,
                                                   const Contact<Real>& contact,
                                                   const Friction<Real>& full) {
     Real steepness = flanks.steepness;
     Real softer{};  // the smoothed sign is less steep by the slope of the friction
-    if constexpr (laws.traction == TractionLaw::EYRING) {
+    if constexpr (requires { Laws::Traction::limit(oil, contact); }) {
         // Up to the friction force, flanks and film are elastic: less friction requires less
         // sliding.
-        Real scale =
-            oil.shear_thinning.limiting_stress * contact.load / (full.boundary + full.viscous);
+        Real scale = Laws::Traction::limit(oil, contact) / (full.boundary + full.viscous);
         steepness *= at_least(scale, 1.0);
         softer = scale > 1.0 ? full.growth * contact.speed : Real{};
     }
@@ -266,15 +212,15 @@ ALWAYS_INLINE void add_rolling(const Oil& oil, const Flanks<Real>& flanks,
     found.rolling_power = force * flanks.sum;
 }
 
-template <Laws laws, class Real>
+template <class Laws, class Real>
 ALWAYS_INLINE PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
                                                const PairMotion<Real>& pair,
                                                double slowest_rolling) {
     Flanks<Real> flanks = flanks_of(pair, oil, slowest_rolling);
     Contact<Real> contact = contact_of(oil, area_factor, flanks, logarithms_of(flanks));
-    Friction<Real> full = mixed_friction<laws>(oil, contact);
-    PairFriction<Real> found = sliding_friction<laws>(oil, flanks, contact, full);
-    if constexpr (laws.rolling) add_rolling(oil, flanks, contact, found);
+    Friction<Real> full = mixed_friction<Laws>(oil, contact);
+    PairFriction<Real> found = sliding_friction<Laws>(oil, flanks, contact, full);
+    if constexpr (Laws::ROLLING) add_rolling(oil, flanks, contact, found);
     return found;
 }
 

@@ -6,7 +6,7 @@
 // viscosity beta_T [1/K] to be dimensionless; `log_root` carries it. The printed form is the same
 // with beta_T = 1/K, and is negative under a light load.
 
-#include "tribology/constants.hpp"
+#include "tribology/contact.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
@@ -14,8 +14,7 @@ namespace gearbox {
 // Friction f_v [N] on the traction plateau, not below `traction.least`.
 //
 // Normal load on the tooth pair [N]; apparent contact area A = 2 b L [m^2]; logarithm of the film
-// in metres; logarithm of sqrt(R p/V) in (Pa s)^0.5, R being the reduced radius of curvature, p the
-// mean pressure load/area and V the mean surface speed.
+// in metres; `log_heat` of the contact.
 template <class Real>
 ALWAYS_INLINE Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
                                     Real log_heat) {
@@ -37,5 +36,19 @@ ALWAYS_INLINE Real sliding_sense(Real ratio) {
     Real decay = falling_exp(-2.0 * magnitude(ratio));
     return with_sign((1.0 - decay) / (1.0 + decay), ratio);
 }
+
+struct PlateauLaw {
+    static constexpr const char* NAMES[] = {"evans_johnson", "printed"};
+    static constexpr bool INCLUDES_BOUNDARY = false;
+    static constexpr bool SINGLE_PRECISION = true;
+
+    template <class Real>
+    ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
+        return {Real{},
+                viscous_friction(oil.traction, contact.load, contact.area, contact.log_thickness(),
+                                 log_heat(oil, contact)),
+                Real{}};
+    }
+};
 
 }  // namespace gearbox

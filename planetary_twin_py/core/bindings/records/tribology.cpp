@@ -1,7 +1,6 @@
 #include "bindings/parts.hpp"
 #include "bindings/record.hpp"
 #include "tribology/constants.hpp"
-#include "tribology/friction_table.hpp"
 #include "tribology/mesh_friction.hpp"
 #include "tribology/oil.hpp"
 #include "tribology/tooth_pairs.hpp"
