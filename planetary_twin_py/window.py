@@ -9,29 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
-from ._core import STATISTICS
+from ._core import MESH_STATISTICS
 from .accuracy import Course
 from .brief import brief, brief_record
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
 from .planar.motion import AxesMotion
 from .result import ROUNDING
-
-# Rows of what the core computes of every mesh, by names of `quantities.MESH`.
-ROWS = {
-    "dte_mean": _core.MEAN_DTE,
-    "dte_rms": _core.RMS_DTE,
-    "dte_peak": _core.LARGEST_DTE,
-    "mesh_force_mean": _core.MEAN_FORCE,
-    "mesh_force_peak": _core.LARGEST_FORCE,
-    "contact_fraction": _core.IN_CONTACT,
-    "without_viscous": _core.WITHOUT_VISCOUS,
-    "film_thickness": _core.MEAN_FILM,
-    "lambda_ratio": _core.MEAN_LAMBDA,
-    "boundary_friction": _core.MEAN_BOUNDARY,
-    "viscous_friction": _core.MEAN_VISCOUS,
-    "power_loss": _core.MEAN_LOSS,
-}
 
 
 @dataclass(frozen=True)
@@ -192,12 +176,12 @@ def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
     Returns:
         Statistics in SI by name, (meshes,) each.
     """
-    rows = np.empty((STATISTICS, sums.integral.shape[1]))
+    rows = np.empty((len(MESH_STATISTICS), sums.integral.shape[1]))
     integral, dte, force = map(np.ascontiguousarray, sums[1:])
     _core.mesh_statistics(sums.time, integral, dte, force, rows)
     return by_name(rows)
 
 
 def by_name(rows: np.ndarray) -> dict[str, np.ndarray]:
-    """Statistics by name, from the rows that the core fills, (STATISTICS, meshes)."""
-    return {name: rows[row] for name, row in ROWS.items()}
+    """Statistics by name, from the rows that the core fills, one for each."""
+    return {name: rows[row] for name, row in MESH_STATISTICS.items()}

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from lubrication.friction_laws import FRICTION_LAWS
 
 from planetary_twin_py._core import (
     CREEPING,
@@ -36,7 +37,7 @@ RESULTS = (
 )
 LAWS = list(
     itertools.product(
-        ("eyring", "evans_johnson", "printed", "schlenk", "table"),
+        FRICTION_LAWS,
         ("greenwood_tripp", "load_sharing"),
         ("exact", "printed"),
         ("prescribed", "computed"),

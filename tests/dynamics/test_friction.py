@@ -4,6 +4,7 @@ import inspect
 
 import numpy as np
 import pytest
+from lubrication.friction_laws import EXAMPLE_TABLE, FRICTION_LAWS
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 from planetary_twin_py._core import (
@@ -107,19 +108,17 @@ def test_pairs_of_a_mesh_share_all_of_its_force(flow):
 
 
 LAWS = {
+    law: {"lubrication.traction": law, "lubrication.friction_table": EXAMPLE_TABLE}
+    for law in FRICTION_LAWS
+} | {
     "prescribed": {},
     "computed": {"lubrication.lambda_ratio": "computed"},
-    "printed": {"lubrication.asperities": "printed", "lubrication.traction": "printed"},
+    "as printed": {"lubrication.asperities": "printed", "lubrication.traction": "printed"},
     "sharing": {"lubrication.boundary": "load_sharing", "lubrication.lambda_ratio": "computed"},
     "default": {
         "lubrication.boundary": "load_sharing",
         "lubrication.lambda_ratio": "computed",
         "lubrication.traction": "eyring",
-    },
-    "schlenk": {"lubrication.traction": "schlenk"},
-    "table": {
-        "lubrication.traction": "table",
-        "lubrication.friction_table": {"lambda_ratio": [0.5, 2.0], "coefficient": [0.08, 0.05]},
     },
     "rolling": {"lubrication.rolling": "goksem_hargreaves"},
     "torque": {"lubrication.friction_torque": "printed"},

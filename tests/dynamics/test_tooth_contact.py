@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from lubrication.friction_laws import FRICTION_LAWS
 
 from planetary_twin_py._core import lambda_ratio_of, tooth_contact
 from planetary_twin_py.dynamics.oil import build_oil
@@ -23,9 +24,7 @@ LAWS = st.fixed_dictionaries(
         "lubrication.lambda_ratio": st.sampled_from(["prescribed", "computed"]),
         "lubrication.asperities": st.sampled_from(["exact", "printed"]),
         "lubrication.boundary": st.sampled_from(["greenwood_tripp", "load_sharing"]),
-        "lubrication.traction": st.sampled_from(
-            ["eyring", "evans_johnson", "printed", "schlenk", "table"]
-        ),
+        "lubrication.traction": st.sampled_from(FRICTION_LAWS),
         "lubrication.rolling": st.sampled_from(["none", "goksem_hargreaves"]),
         "oil_temperature": st.floats(233.15, 433.15),
         "lambda_ratio": st.floats(0.0, 10.0),

@@ -125,19 +125,9 @@ void py_mesh_statistics(double time, const Table& integral, const Vector& dte_pe
 }
 
 void bind_statistics(nb::module_& m) {
-    m.attr("MEAN_DTE") = MEAN_DTE;
-    m.attr("RMS_DTE") = RMS_DTE;
-    m.attr("LARGEST_DTE") = LARGEST_DTE;
-    m.attr("MEAN_FORCE") = MEAN_FORCE;
-    m.attr("LARGEST_FORCE") = LARGEST_FORCE;
-    m.attr("IN_CONTACT") = IN_CONTACT;
-    m.attr("WITHOUT_VISCOUS") = WITHOUT_VISCOUS;
-    m.attr("MEAN_FILM") = MEAN_FILM;
-    m.attr("MEAN_LAMBDA") = MEAN_LAMBDA;
-    m.attr("MEAN_BOUNDARY") = MEAN_BOUNDARY;
-    m.attr("MEAN_VISCOUS") = MEAN_VISCOUS;
-    m.attr("MEAN_LOSS") = MEAN_LOSS;
-    m.attr("STATISTICS") = STATISTICS;
+    nb::dict rows;
+    for (int row = 0; row < STATISTICS; ++row) rows[MESH_STATISTICS[row].name] = row;
+    m.attr("MESH_STATISTICS") = rows;
     m.def("mesh_statistics", &py_mesh_statistics, "time"_a, "integral"_a, "dte_peak"_a,
           "force_peak"_a, "out"_a,
           "Mean, rms and peak values of the meshes, from their sums over `time` seconds.");

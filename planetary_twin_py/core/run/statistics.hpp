@@ -4,16 +4,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "mesh/mesh_sums.hpp"
 
 namespace gearbox {
-
-// Rows of the results of every mesh.
-constexpr int MEAN_DTE = 0, RMS_DTE = 1, LARGEST_DTE = 2, MEAN_FORCE = 3, LARGEST_FORCE = 4,
-              IN_CONTACT = 5, WITHOUT_VISCOUS = 6, MEAN_FILM = 7, MEAN_LAMBDA = 8,
-              MEAN_BOUNDARY = 9, MEAN_VISCOUS = 10, MEAN_LOSS = 11;
-constexpr int STATISTICS = 12;
 
 constexpr double ROUNDING_OF_SUM = 1e-12;  // of the sum of the steps of an interval
 
@@ -23,26 +18,50 @@ inline double fraction_of_time(double mean) {
     return std::fabs(mean) < ROUNDING_OF_SUM || mean < 0.0 ? 0.0 : mean;
 }
 
-// Statistics of mesh i to out[row * room], see STATISTICS.
-//
-// The rms value is that of the deviation from the mean. Film thickness and lambda ratio are means
-// over the time in which they are known, NaN if there is no such time.
+// The sums of mesh i.
+struct SumsOfMesh {
+    const MeshSums& sums;
+    std::int64_t i;
+
+    double mean(int row) const { return sums.integral[row][i] / sums.time; }
+
+    // Mean over the time in which the film is known, NaN if there is no such time.
+    double film_mean(int row) const { return mean(row) / mean(FILMED); }
+};
+
+struct MeshStatistic {
+    const char* name;  // in `quantities.py`
+    double (*value)(const SumsOfMesh&);
+};
+
+constexpr MeshStatistic MESH_STATISTICS[] = {
+    {"dte_mean", [](const SumsOfMesh& mesh) { return mesh.mean(DTE); }},
+    {"dte_rms",  // of the deviation from the mean
+     [](const SumsOfMesh& mesh) {
+         double mean = mesh.mean(DTE), square = mesh.mean(SQUARE) - mean * mean;
+         return std::sqrt(square < 0.0 ? 0.0 : square);
+     }},
+    {"dte_peak", [](const SumsOfMesh& mesh) { return mesh.sums.dte_peak[mesh.i]; }},
+    {"mesh_force_mean", [](const SumsOfMesh& mesh) { return mesh.mean(MESH_FORCE); }},
+    {"mesh_force_peak", [](const SumsOfMesh& mesh) { return mesh.sums.force_peak[mesh.i]; }},
+    {"contact_fraction",
+     [](const SumsOfMesh& mesh) { return fraction_of_time(mesh.mean(CONTACT)); }},
+    {"without_viscous",  // in which teeth carry load without viscous friction
+     [](const SumsOfMesh& mesh) { return fraction_of_time(mesh.mean(CLIPPED)); }},
+    {"film_thickness", [](const SumsOfMesh& mesh) { return mesh.film_mean(FILM); }},
+    {"lambda_ratio", [](const SumsOfMesh& mesh) { return mesh.film_mean(LAMBDA); }},
+    {"boundary_friction", [](const SumsOfMesh& mesh) { return mesh.mean(BOUNDARY); }},
+    {"viscous_friction", [](const SumsOfMesh& mesh) { return mesh.mean(VISCOUS); }},
+    {"power_loss", [](const SumsOfMesh& mesh) { return mesh.mean(POWER_LOSS); }},
+};
+constexpr int STATISTICS = static_cast<int>(std::size(MESH_STATISTICS));
+
+// Statistics of mesh i to out[n * room], in the order of MESH_STATISTICS.
 inline void mesh_statistics(const MeshSums& sums, std::int64_t i, double* out, std::int64_t room) {
-    auto mean = [&](int row) { return sums.integral[row][i] / sums.time; };
-    auto put = [&](int row, double value) { out[row * room] = value; };
-    double dte = mean(DTE), square = mean(SQUARE) - dte * dte, filmed = mean(FILMED);
-    put(MEAN_DTE, dte);
-    put(RMS_DTE, std::sqrt(square < 0.0 ? 0.0 : square));
-    put(LARGEST_DTE, sums.dte_peak[i]);
-    put(MEAN_FORCE, mean(MESH_FORCE));
-    put(LARGEST_FORCE, sums.force_peak[i]);
-    put(IN_CONTACT, fraction_of_time(mean(CONTACT)));
-    put(WITHOUT_VISCOUS, fraction_of_time(mean(CLIPPED)));
-    put(MEAN_FILM, mean(FILM) / filmed);
-    put(MEAN_LAMBDA, mean(LAMBDA) / filmed);
-    put(MEAN_BOUNDARY, mean(BOUNDARY));
-    put(MEAN_VISCOUS, mean(VISCOUS));
-    put(MEAN_LOSS, mean(POWER_LOSS));
+    for (const MeshStatistic& each : MESH_STATISTICS) {
+        *out = each.value({sums, i});
+        out += room;
+    }
 }
 
 }  // namespace gearbox
