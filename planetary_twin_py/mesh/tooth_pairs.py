@@ -27,6 +27,9 @@ from ..gearset.geometry import PathOfContact
 from .interpolation import NODES, through
 
 MOST_PAIRS = 3  # of spur teeth in contact at once
+# An edge of spur teeth, because friction reverses there: at a given tolerance, steps that end there
+# have down to a quarter of the error.
+PITCH_POINT = 0.0
 
 
 class NoRoomError(ValueError):
@@ -41,7 +44,8 @@ class PairTable(NamedTuple):
 
     The position s of a pair is its distance past the pitch point, in base pitches; the pairs of
     a mesh at the cycle fraction x are at x + shift. In segment j, from edge[j] to edge[j + 1],
-    the weight of pair p is a polynomial in x - edge[j].
+    the weight of pair p is a polynomial in x - edge[j]. The last edge is the first one of the next
+    cycle.
     """
 
     segments: int
@@ -89,7 +93,7 @@ def pair_table(
         )
     ends = (-path.approach, -path.approach + ramp, path.recess - ramp, path.recess)
     kinks = [kink for kink in kinks if -path.approach < kink < path.recess]
-    table = segmented([(-path.approach, path.recess)], (*ends, *kinks))
+    table = segmented([(-path.approach, path.recess)], (*ends, PITCH_POINT, *kinks))
     table.weight[:, :TOTAL] = along(
         table,
         lambda s: _ramp(path, ramp, s) * strength(s) * _shared(path, ramp, sharing, s),
@@ -118,7 +122,8 @@ def segmented(
         NoRoomError: the table has no room for the pairs.
         ValueError: it has no room for the corners.
     """
-    edges = sorted({0.0, 1.0} | {round(corner - math.floor(corner), 12) for corner in corners})
+    edges = sorted({round(corner - math.floor(corner), 12) for corner in corners})
+    edges.append(edges[0] + 1.0)
     if len(edges) > SEGMENTS:
         raise ValueError(
             f"faults: teeth have room for {SEGMENTS} changes of stiffness in a mesh cycle, and "
@@ -126,7 +131,7 @@ def segmented(
         )
     table = PairTable(
         len(edges) - 1,
-        np.full(SEGMENTS + 1, 1.0),
+        np.full(SEGMENTS + 1, edges[-1]),
         np.zeros((SEGMENTS, PAIRS)),
         np.zeros((SEGMENTS, PAIRS), dtype=bool),
         np.zeros((SEGMENTS, PAIRS + 1, TERMS)),

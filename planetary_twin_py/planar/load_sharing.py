@@ -308,6 +308,7 @@ def _mesh_stiffness(train: Train, kind: int, fraction: np.ndarray) -> np.ndarray
     """Stiffness of a mesh with healthy teeth [N/m], at fractions of the mesh cycle."""
     segments = int(train.segments[kind])
     edge = train.edge[kind][: segments + 1]
+    fraction = edge[0] + np.mod(fraction - edge[0], 1.0)
     segment = np.clip(np.searchsorted(edge, fraction, side="right") - 1, 0, segments - 1)
     powers = (fraction - edge[segment])[:, None] ** np.arange(TERMS)
     weight = np.sum(train.weight[kind][segment, TOTAL] * powers, axis=1)

@@ -21,7 +21,7 @@ TEETH = tooth_stiffness(lambda s: 2e8 * (1.0 - 0.2 * s**2), 0.9)
 
 def total(table, cycle):
     """Sum of the weights of all pairs at fractions of the mesh cycle."""
-    cycle = np.mod(cycle, 1.0)
+    cycle = table.edge[0] + np.mod(cycle - table.edge[0], 1.0)
     j = np.searchsorted(table.edge[: table.segments], cycle, side="right") - 1
     powers = (cycle - table.edge[j])[:, None] ** np.arange(TERMS)
     return (table.weight[j, TOTAL] * powers).sum(axis=1)
@@ -68,6 +68,18 @@ def test_a_whole_overlap_leaves_a_constant_stiffness(overlap):
     table = FaceMean(PATH, 0.03, overlap, GIVEN).table()
     stiffness = total(table, np.linspace(0.0, 1.0, 101))
     assert np.ptp(stiffness) < 1e-9 * stiffness.mean()
+
+
+@OVERLAPS
+def test_edges_are_those_of_the_lines_of_contact_alone(overlap):
+    """Each starts and ends with a slice of a pair; at the pitch point of the middle nothing does."""
+    table = FaceMean(PATH, 0.0, overlap, GIVEN).table()
+    places = (-PATH.approach, 0.0, PATH.recess)
+    ends = {
+        round((place + half) % 1.0, 12) for place in places for half in (-overlap / 2, overlap / 2)
+    }
+    assert np.mod(table.edge[: table.segments], 1.0) == pytest.approx(sorted(ends))
+    assert table.edge[table.segments] == table.edge[0] + 1.0
 
 
 @OVERLAPS

@@ -44,7 +44,7 @@ inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t sid
     cycle = static_cast<double>(side) * (cycle - train.phase[i]);
     if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
     double m = static_cast<double>(modulus);
-    return cycle - m * std::floor(cycle / m);
+    return cycle - m * std::floor((cycle - train.edge[train.kind[i]][0]) / m);
 }
 
 // The side on which an entry of the meshes may be closed: both (OPEN) where it stands for all of
@@ -66,13 +66,13 @@ inline double counted_cycle(const Train& train, const State& state, std::int64_t
     return cycle_on_side(train, i, side, cycle, modulus);
 }
 
-// Position of mesh i in its cycle on one side, in [0, 1).
+// Position of mesh i in its cycle on one side, between the first and the last edge of its segments.
 inline double mesh_cycle(const Train& train, const State& state, std::int64_t i,
                          std::int64_t side) {
     return counted_cycle(train, state, i, side, 1);
 }
 
-// Segment of the table of tooth pairs at a fraction of the cycle; at an edge, the one ahead.
+// Segment of the table of tooth pairs at a position in the cycle; at an edge, the one ahead.
 inline std::int64_t find_segment(const Train& train, std::int64_t kind, double cycle,
                                  double direction) {
     std::int64_t last = train.segments[kind] - 1, segment = 0;

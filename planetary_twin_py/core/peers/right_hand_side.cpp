@@ -90,7 +90,7 @@ void find_contacts(Problem& problem, const StoredTables& stored) {
         // As `mesh_cycle`, but the cycles of the frame, which are expensive, are counted once.
         double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
         if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
-        cycle -= std::floor(cycle);
+        cycle -= std::floor(cycle - train.edge[train.kind[i]][0]);
         state.side[i] = side;
         state.segment[i] =
             find_segment(train, train.kind[i], cycle, static_cast<double>(side) * cycle_rate);
