@@ -72,7 +72,7 @@ def test_a_whole_overlap_leaves_a_constant_stiffness(overlap):
 
 @OVERLAPS
 def test_edges_are_those_of_the_lines_of_contact_alone(overlap):
-    """Each starts and ends with a slice of a pair; at the pitch point of the middle nothing does."""
+    """Where a slice starts or ends; at the pitch point of the middle of the face nothing does."""
     table = FaceMean(PATH, 0.0, overlap, GIVEN).table()
     places = (-PATH.approach, 0.0, PATH.recess)
     ends = {
