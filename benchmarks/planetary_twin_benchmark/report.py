@@ -55,8 +55,8 @@ $cases
 
 _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
   solvers and fixed steps, see `benchmarks/planetary_twin_benchmark/peers/`. They take the same
-  equations as one compiled function of time and state, without information about events. Their
-  only time is the one with samples, which they interpolate; it excludes the computation of losses
+  equations as one compiled function of time and state, without information about events. They
+  interpolate the samples; their time includes the computation of transmission errors and losses
   from the states.
 """
 

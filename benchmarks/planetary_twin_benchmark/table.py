@@ -27,7 +27,7 @@ class Row(NamedTuple):
     tolerance: float
     error_dte: float  # rms error of the transmission error over its rms, largest of all meshes [-]
     error_power_loss: float  # error of the mean power loss over its value [-]
-    rtf: float  # simulated over processor time without samples, median; of peers, with them
+    rtf: float  # simulated over processor time without samples, median
     rtf_low: float  # the slowest round
     rtf_high: float  # the fastest
     rtf_sampled: float  # with samples of all meshes, median
