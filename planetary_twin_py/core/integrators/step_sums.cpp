@@ -21,19 +21,25 @@ constexpr double NEAR = 0.02;                  // of a step: tolerance for its e
 
 // Films at two nodes of a step without friction, where nothing else depends on them.
 template <int L>
-void add_films_of_nodes(const Model& model, Integrator& integrator, ContactSums<L>& contacts) {
-    const Propagation& run = integrator.run;
+void add_films_of_nodes(const Model& model, Integrator& integrator,
+                        ContactSums<MESH_LANES<L>>& contacts) {
+    Propagation& run = integrator.run;
     const double h = integrator.control.step;
-    Evaluation& work = integrator.work.evaluation;
-    std::int64_t early = std::max<std::int64_t>(run.nodes.count - 4, 0), late = run.nodes.count - 2;
-    double t = run.nodes.abscissa[early] * run.motion.step;
-    double u = run.nodes.abscissa[late] * run.motion.step;
+    const std::int64_t used[] = {std::max<std::int64_t>(run.nodes.count - 4, 0),
+                                 run.nodes.count - 2};
+    double t = run.nodes.abscissa[used[0]] * run.motion.step;
+    double u = run.nodes.abscissa[used[1]] * run.motion.step;
     double weight = h * (u - 0.5 * h) / (u - t);  // of the earlier one, exact for linear functions
-    for (std::int64_t n : {early, late}) {
-        work.now = run.node[n].meshes;
-        find_contacts(model, integrator.constants, run.node[n].v, work);
-        add_films(model.train, work.pairs, n == early ? weight : h - weight, contacts);
+    FrictionInstant instants[2] = {};
+    for (int k = 0; k < 2; ++k) {
+        Node& node = run.node[used[k]];
+        distribute_forces<MESH_LANES<L>>(model.train, integrator.constants, node.meshes);
+        instants[k] = {&node.meshes, node.spin, &node.friction};
     }
+    find_friction(model, integrator.constants, instants, 2,
+                  integrator.control.tolerance >= SINGLE_PRECISION);
+    add_films(model.train, run.node[used[0]], weight, contacts);
+    add_films(model.train, run.node[used[1]], h - weight, contacts);
 }
 
 // Films of a shortened step, at the Gauss points of the remaining part: nodes after the separation
@@ -195,7 +201,7 @@ void add_contacts_of_nodes(const Model& model, Integrator& integrator, bool cut)
         contacts.share = contacts.film = 0.0;
         add_films_of_cut_step<L>(model, integrator, contacts);
     } else if (!model.train.friction) {
-        add_films_of_nodes(model, integrator, contacts);
+        add_films_of_nodes<L>(model, integrator, contacts);
     }
     put_contacts(model.train, model.oil, contacts, integrator.sums.step.integral);
 }
