@@ -15,7 +15,6 @@ The mesh stiffness is base + gain * (sum of the weights), shared in the ratio of
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -122,7 +121,7 @@ def segmented(
         NoRoomError: the table has no room for the pairs.
         ValueError: it has no room for the corners.
     """
-    edges = sorted({round(corner - math.floor(corner), 12) for corner in corners})
+    edges = sorted({round(corner % 1.0, 12) % 1.0 for corner in corners})
     edges.append(edges[0] + 1.0)
     if len(edges) > SEGMENTS:
         raise ValueError(

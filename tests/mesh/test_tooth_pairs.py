@@ -53,6 +53,14 @@ def test_mean_number_of_pairs_is_the_contact_ratio_minus_the_ramp(path, ramp):
     assert mean == pytest.approx(path.contact_ratio - ramp, abs=1e-9)
 
 
+@pytest.mark.parametrize("missing", [0.0, 1e-13, -1e-13])
+def test_a_path_that_ends_a_base_pitch_from_the_pitch_point_has_no_empty_segment(missing):
+    """Its end is at the edge of the pitch point, also if it misses it by rounding."""
+    table = pair_table(PathOfContact(1.0 + missing, 0.4), 0.0)
+    assert np.diff(table.edge[: table.segments + 1]).min() > 0.1
+    assert np.isfinite(table.weight).all()
+
+
 @PATHS
 def test_number_of_pairs_is_continuous_across_the_edges(path):
     table = pair_table(path, 0.03)
