@@ -170,7 +170,7 @@ def measure(builds: list[Build], case: Case, rounds: int) -> list[str]:
         pairs = zip(runs[-1][0], plain, strict=True)
         ratio = median(theirs.seconds / own.seconds for theirs, own in pairs)
         rows.append(
-            f"{case.name:22s}{case.tolerance:<10.0e}{build.name:14s}{case.timed / seconds:8.2f}"
+            f"{case.name:22s}{case.tolerance:<10g}{build.name:14s}{case.timed / seconds:8.2f}"
             f"{f'{min(spread):.3g}-{max(spread):.3g}':>14s}{sampled_speed:9.2f}"
             f"{1e9 * seconds / plain[0].steps:9.0f}{plain[0].steps:8d}"
             f"{error:10.1e}{alternating:10.1e}{ratio:7.2f}"

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from .markdown import markdown_table, three_digits
 from .steady import Steady
 from .table import Row
-from .timing import METHOD
+from .timing import METHOD, SAMPLE_RATE
 
 ERRORS = (1e-3, 1e-4, 1e-6)
 # Off-the-shelf solvers, by the first letters of their names.
@@ -19,7 +19,7 @@ KINDS = {
 }
 
 
-Speed = Callable[[Row], float]
+SpeedOf = Callable[[Row], float]
 
 
 def with_samples(row: Row) -> float:
@@ -33,7 +33,7 @@ def without_samples(row: Row) -> float:
 
 
 def fastest(
-    rows: Iterable[Row], error: float, beginnings: tuple[str, ...], speed: Speed = with_samples
+    rows: Iterable[Row], error: float, beginnings: tuple[str, ...], speed: SpeedOf = with_samples
 ) -> float:
     """The highest speed; NaN if no run is accurate enough."""
     speeds = [
@@ -63,7 +63,8 @@ power loss. *`auto`, 60 s*: one minute of the default method as in
 
 def _section(error: float, rows: Sequence[Row], steady: Sequence[Steady]) -> str:
     """The speeds of all cases at one error."""
-    cases = {name: [row for row in rows if row.case == name] for name in _names(rows)}
+    names = dict.fromkeys(row.case for row in rows)
+    cases = {name: [row for row in rows if row.case == name] for name in names}
     bare = [
         (name, *_speeds(own, error, without_samples), _minute(name, error, steady))
         for name, own in cases.items()
@@ -76,17 +77,12 @@ Without samples:
 
 {markdown_table((*titles, "`auto`, 60 s"), bare)}
 
-With samples at 50 kHz:
+With samples at {SAMPLE_RATE / 1e3:g} kHz:
 
 {markdown_table(titles, sampled)}"""
 
 
-def _names(rows: Iterable[Row]) -> dict[str, None]:
-    """Names of the cases, each once."""
-    return dict.fromkeys(row.case for row in rows)
-
-
-def _speeds(rows: Sequence[Row], error: float, speed: Speed) -> list[str]:
+def _speeds(rows: Sequence[Row], error: float, speed: SpeedOf) -> list[str]:
     own = fastest(rows, error, (METHOD,), speed)
     cells = [_figure(own)]
     for beginnings in KINDS.values():

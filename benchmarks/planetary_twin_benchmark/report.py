@@ -57,7 +57,7 @@ _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)
   solvers and fixed steps, see `benchmarks/planetary_twin_benchmark/peers/`. They take the same
   equations as one compiled function of time and state, without information about events. They
   interpolate the samples; their time includes the computation of transmission errors and losses
-  from the states.
+  from the states. Without samples they return a state each millisecond.
 """
 
 
