@@ -1,6 +1,11 @@
 #pragma once
 
 // Events at which flanks come into contact or separate within a step.
+//
+// The event function of a mesh is the gap that is left until its contact changes: continuous on the
+// motion of a step, positive before the event, negative after it. The step ends where it is
+// negative by less than the slack; there `accept` changes the contact and adds the lost energy to
+// the ledger.
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,10 @@
 #pragma once
 
 // Interpolant of the last step, and samples from it.
+//
+// A sample depends on the state at the start of its step, on the motion of the step and on its own
+// time. It writes to work space only, `dense`, `run.shown` and `work`, so steps do not depend on
+// samples, nor samples on each other or on windows.
 
 #include <cstring>
 

@@ -10,6 +10,11 @@
 namespace gearbox {
 
 // Advance `integrator.begin` by h seconds into `out`, regardless of events.
+//
+// A method reads the state at the start, its constants and `first`, the forces there. It writes x,
+// v, trim and shares of friction of `out`, and in `work` the local errors, the energy of the step
+// and the displacement of the machines. It leaves sides and segments, which change only in
+// `accept`. The same arguments give the same bits, because a sample at h repeats the step.
 inline void trial_step(const Model& model, Integrator& integrator, double h, State& out) {
     switch (integrator.control.method) {
         default:
