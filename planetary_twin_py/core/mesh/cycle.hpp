@@ -38,8 +38,8 @@ inline double frame_cycle(const Train& train, const State& state, std::int64_t m
 
 // Cycles since tooth pair 0 of mesh i was at the pitch point, from the mesh `cycle` that the train
 // has reached since the start: modulo `modulus`, from the first edge of the segments on. On the
-// coast flanks the motion is mirrored, and later by `coast_lead`, half a pitch for teeth as thick as
-// their spaces.
+// coast flanks the motion is mirrored, and later by `coast_lead`, half a pitch for teeth as thick
+// as their spaces.
 inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t side, double cycle,
                             std::int64_t modulus) {
     cycle = static_cast<double>(side) * (cycle - train.phase[i]);
