@@ -176,7 +176,8 @@ def steady_markdown(rows: Sequence[Steady]) -> str:
 ## Steady running
 
 The default method, `auto`, over {MINUTE:g} s in the same cases, and in some whose axes move. Once
-mesh cycles are periodic, they are repeated instead of computed (`core/integrators/periodic.hpp`).
+mesh cycles are periodic and the motion is stable, they are repeated instead of computed
+(`core/integrators/periodic.hpp`).
 
 - *every cycle*: simulated time over processor time of method `{METHOD}`, which computes every
   cycle, without samples.

@@ -177,3 +177,63 @@ def test_with_two_motors_the_motion_does_not_repeat():
     scene = pt.load_scene("differential")
     train = build_train(scene)
     assert common_cycles(train, build_load(scene, scene.operating_point, train)) == 0
+
+
+RESONANT = PAPER.replace(
+    **{
+        "backlash": 20e-6,
+        "mesh.damping.law": "viscous",
+        "mesh.damping.damping_ratio": 0.03,
+        "drive.speed_control.slew_rate": 5.0,
+        "drive.speed_limit": 1200.0,
+    }
+)
+
+
+class Followed:
+    """A run at a sequence of speeds [rpm], and its DTE once in each of the last mesh cycles."""
+
+    def __init__(self, scene, method, *holds):
+        first, _ = holds[0]
+        self.engine = Engine(scene.replace(input_speed=pt.rpm(first)), TOLERANCE, method)
+        end = 0.0
+        for speed, duration in holds:
+            point = scene.replace(input_speed=pt.rpm(speed)).operating_point
+            self.engine.change(point, TOLERANCE, end)
+            end += duration
+            self.engine.advance(end, 1, 1.0, 0)
+        rate = speed / 60.0 * scene.gearset.teeth.sun
+        start = math.ceil(end * rate) + 1
+        samples = self.engine.advance((start + 59) / rate, start, rate, 60)
+        self.dte = samples.mesh[:, DTE]
+        self.difference = np.ptp(self.dte, axis=0).max() / abs(self.dte).max()
+
+
+@pytest.mark.slow
+def test_periodic_motion_that_loses_stability_slowly_is_not_repeated():
+    """Where the period doubles, 0.4 rpm past the bifurcation, the motion stays near the unstable
+    cycle for a second before it leaves it by several tolerances."""
+    scene = RESONANT.replace(input_torque=10.0)
+    holds = (11000.0, 1.0), (10959.2, 3.0), (10958.8, 5.0)
+    found, computed = (Followed(scene, method, *holds) for method in ("auto", "march"))
+    assert computed.difference > 3.0 * TOLERANCE
+    assert not found.engine.repeats
+    assert found.difference == pytest.approx(computed.difference, rel=0.1)
+
+
+def test_periodic_motion_before_its_period_doubles_is_repeated():
+    found = Followed(RESONANT.replace(input_torque=10.0), "auto", (11000.0, 1.0), (10980.0, 3.0))
+    assert found.engine.repeats
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("speed", "leaves"), [(10335.0, False), (10336.0, True)])
+def test_near_a_fold_the_run_stays_on_the_branch_on_which_computed_cycles_stay(speed, leaves):
+    """Without separation, at 3 N m, the cycle ends in a fold at 10335.4 rpm."""
+    holds = (10150.0, 1.0), (10334.8, 5.0), (speed, 3.0)
+    found, computed = (
+        Followed(RESONANT.replace(input_torque=3.0), method, *holds) for method in ("auto", "march")
+    )
+    assert (computed.difference > 0.01) == leaves
+    assert (found.difference > 0.01) == leaves
+    assert found.engine.repeats != leaves

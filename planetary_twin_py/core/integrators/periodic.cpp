@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
+#include "integrators/distance.hpp"
 #include "integrators/frame.hpp"
+#include "integrators/mesh_cycle_start.hpp"
+#include "integrators/neighbour.hpp"
 #include "mesh/add_sums.hpp"
-#include "mesh/deflection.hpp"
-#include "train/body_speed.hpp"
 #include "train/equations.hpp"
 #include "train/set_step_constants.hpp"
 #include "tribology/bristles.hpp"
@@ -17,68 +17,18 @@ namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
-// Largest difference of states one cycle apart, relative to the tolerance.
-constexpr double MISSED_SHARE = 0.3;
-constexpr double SETTLED = 0.25;  // share of all cycles in which states must agree
-// Change of the transmission errors, in static deflections, by a delay of one mesh cycle.
-constexpr double PHASE = 20.0;
+constexpr double MISSED = 0.3;  // largest difference of states that agree [tolerances]
+constexpr double LEFT = 30.0;   // difference after which a neighbouring run does not return
+// Share of all periods since the last change for which the train must stay near its reference.
+constexpr double SETTLED = 0.25;
+// Parts of that stay, and of its least time, after which a neighbouring run starts, and after which
+// the motion is not stable if that run has not approached it.
+constexpr double EXAMINED = 0.25, REFUTED = 2.0;
+// Part of its stay in which the neighbouring run must be near the train.
+constexpr double JOINED = 0.25;
 
 Instant now_of(const State& state) {
     return {state.seconds, state.time};
-}
-
-// Whether a mesh cycle starts at the end of the step.
-bool begins_mesh_cycle(const Integrator& integrator) {
-    const State &begin = integrator.begin, &end = integrator.end;
-    return begin.segment[0] != 0 && end.segment[0] == 0 && end.side[0] != OPEN;
-}
-
-bool same_contacts(const Train& train, const State& a, const State& b) {
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        if (a.side[i] != b.side[i] || a.segment[i] != b.segment[i]) return false;
-    return true;
-}
-
-// Difference of two states in meshes, couplings and speeds, as a deflection of the meshes [m].
-double distance_of_bodies(const Train& train, const Control& control, const State& a,
-                          const State& b) {
-    double largest = 0.0;
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        largest =
-            std::max(largest, std::fabs(mesh_motion(train, i, a.x) - mesh_motion(train, i, b.x)));
-    double stiffness = std::min(train.stiffness[0], train.stiffness[1]);
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t p = train.coupling[c][0], q = train.coupling[c][1];
-        double twist = a.x[p] - a.x[q] - b.x[p] + b.x[q];
-        largest = std::max(largest, std::fabs(twist) * train.coupling_stiffness[c] / stiffness);
-    }
-    for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double speed = body_speed(train, a, a.v, j) - body_speed(train, b, b.v, j);
-        largest =
-            std::max(largest, std::fabs(speed) * train.radius[j] / control.speed_per_deflection);
-    }
-    return largest;
-}
-
-// Difference of two states as a deflection of the meshes, relative to the static deflection.
-double distance(const Model& model, const Integrator& integrator, const State& a, const State& b) {
-    const Train& train = model.train;
-    const Control& control = integrator.control;
-    constexpr double apart = std::numeric_limits<double>::infinity();
-    if (!same_contacts(train, a, b)) return apart;
-    double largest = distance_of_bodies(train, control, a, b);
-    for (std::int64_t k = 0; k < train.axes; ++k) {
-        double target = model.load.target_speed[k];
-        if (a.set_speed[k] != target || b.set_speed[k] != target) return apart;
-        double late = (a.trim[k] - b.trim[k]) * train.cycles[k] / TURN;
-        largest = std::max(largest, std::fabs(late) * PHASE * control.deflection);
-    }
-    if (control.creeping)
-        for (std::int64_t k = 0; k < train.slots * train.meshes; ++k)
-            largest =
-                std::max(largest, std::fabs(a.bristle[k] - b.bristle[k]) * control.deflection);
-    return largest / control.deflection;
 }
 
 // Fill `place` with a state, relative to the start of the cycle.
@@ -139,30 +89,51 @@ bool close_cycle(const Model& model, Integrator& integrator) {
     double late =
         std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
     return late * static_cast<double>(periodic.cycles) * PHASE <=
-           MISSED_SHARE * integrator.control.tolerance;
+           MISSED * integrator.control.tolerance;
 }
 
-// Whether the train has stayed near the reference for long enough to repeat.
-bool has_settled(const Periodic& periodic, const State& end) {
+// Whether the train has stayed near the reference for this part of the time that is required.
+bool has_stayed(const Periodic& periodic, const State& end, double part) {
     auto since = static_cast<double>(periodic.age - periodic.reference_age);
-    double stayed = delay(periodic.reference, now_of(end));
-    return !(since < SETTLED * static_cast<double>(periodic.age) || stayed < periodic.pause);
+    return since >= part * SETTLED * static_cast<double>(periodic.age) &&
+           delay(periodic.reference, now_of(end)) >= part * periodic.pause;
+}
+
+enum class Stability { UNKNOWN, STABLE, UNSTABLE };
+
+// Follow the neighbouring run by a period in which the train has stayed near its reference.
+Stability examine(const Model& model, Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
+    const State& end = integrator.end;
+    if (periodic.neighbour.empty()) {
+        if (has_stayed(periodic, end, EXAMINED)) start_neighbour(model, integrator);
+        periodic.joined = 0;
+        return Stability::UNKNOWN;
+    }
+    const double apart = follow_neighbour(model, integrator);
+    if (apart > LEFT || has_stayed(periodic, end, REFUTED)) return Stability::UNSTABLE;
+    periodic.joined = apart <= MISSED ? periodic.joined + 1 : 0;
+    const auto since = static_cast<double>(periodic.age - periodic.reference_age);
+    const bool has_joined = static_cast<double>(periodic.joined) >= JOINED * since;
+    return has_joined && has_stayed(periodic, end, 1.0) ? Stability::STABLE : Stability::UNKNOWN;
 }
 
 void check_repetition(const Model& model, Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
-    const State& end = integrator.end;
+    const State &end = integrator.end, &reference = periodic.reference;
     ++periodic.age;
-    bool near = distance(model, integrator, end, periodic.reference) <=
-                MISSED_SHARE * integrator.control.tolerance;
+    const bool near = same_contacts(model.train, end, reference) &&
+                      distance(model, integrator.control, end, reference) <= MISSED;
     if (periodic.recording) {
         periodic.recording = false;
         periodic.replaying = near && close_cycle(model, integrator);
     } else if (near) {
-        if (!has_settled(periodic, end)) return;
-        periodic.recording = true;
+        const Stability found = examine(model, integrator);
+        if (found == Stability::UNKNOWN) return;
+        periodic.recording = found == Stability::STABLE;
         periodic.steps = periodic.known = 0;
     }
+    periodic.neighbour.clear();
     periodic.reference_age = periodic.age;
     periodic.reference = end;
 }
@@ -243,6 +214,7 @@ void restart_settling(Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     periodic.age = periodic.reference_age = periodic.passed = 0;
     periodic.recording = periodic.replaying = false;
+    periodic.neighbour.clear();
 }
 
 void continue_from(const Model& model, Integrator& integrator, const CycleStep& step) {

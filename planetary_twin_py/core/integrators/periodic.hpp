@@ -2,9 +2,10 @@
 
 // Steady running: mesh cycles that repeat are not computed again.
 //
-// When the state after a cycle agrees with the state before it to a fraction of the tolerance, for
-// longer than the slowest transient takes to decay, the last cycle is replayed until an input
-// changes. Dense output treats replayed steps like computed ones.
+// A cycle is replayed until an input changes, if states one cycle apart have agreed to a fraction
+// of the tolerance for long enough, and if the motion is stable: a run that starts beside it joins
+// it, see `neighbour.hpp`. Agreement alone does not suffice, because motion leaves an unstable
+// cycle as slowly as it comes near one. Dense output treats replayed steps like computed ones.
 //
 // The duration of the cycle follows from the speed set-point: the speed loop prevents drift.
 

@@ -28,6 +28,10 @@ struct alignas(64) CycleStep {
     SampleTable samples;
 };
 
+inline constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
+
+struct Integrator;
+
 struct alignas(64) Periodic {
     std::int64_t cycles;     // mesh cycles in a period, 0: not periodic
     std::int64_t numerator;  // turns of the motor in a period, as a fraction
@@ -36,7 +40,9 @@ struct alignas(64) Periodic {
     std::int64_t passed;  // mesh cycles since the last check of periodicity
     std::int64_t age;     // number of checks since the last change of an input
     std::int64_t reference_age;
-    State reference;  // with which later states are compared
+    State reference;                    // with which later states are compared
+    std::vector<Integrator> neighbour;  // the run beside the train, if any, see `neighbour.hpp`
+    std::int64_t joined;                // last periods in which it was near the train
     bool recording;
     bool replaying;
     std::int64_t steps;  // recorded
