@@ -10,33 +10,48 @@ constexpr double EVENT_SHARE = 0.1;   // of the slack: tolerance for the locatio
 constexpr double LEAST_SHARE = 1e-3;  // of an interval: smallest change of its ends
 constexpr double CLOSEST = 1e-16;     // relative length of the shortest interval
 
-// Time at which the event function of mesh i falls below zero: regula falsi, Illinois form
-// (Dahlquist and Björck 1974, Numerical Methods, section 6.3).
-double find_contact_time(const Model& model, Integrator& integrator, std::int64_t i, double low,
-                         double high) {
-    double above = contact_event_at(model, integrator, i, low),
-           below = contact_event_at(model, integrator, i, high);
-    double tolerance = EVENT_SHARE * slack_of(integrator);
-    int last = 0;
+// A value of an event function.
+struct Point {
+    double time;   // since the start of the step [s]
+    double value;  // [m]
+};
+
+// Part of the way from a to b at which a function is zero, from three values with a change of sign
+// between a and b: inverse quadratic interpolation where it is monotonic, else the middle
+// (Chandrupatla 1997, Adv. Eng. Software 28, 145).
+double part_of_way(Point a, Point b, Point c) {
+    const double xi = (a.time - b.time) / (c.time - b.time),
+                 phi = (a.value - b.value) / (c.value - b.value);
+    if (!(phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)) return 0.5;
+    return a.value / (b.value - a.value) * c.value / (b.value - c.value) +
+           (c.time - a.time) / (b.time - a.time) * a.value / (c.value - a.value) * b.value /
+               (c.value - b.value);
+}
+
+// Time at which the event function of mesh i lies below zero by less than a tolerance, between
+// `above`, where it is positive, and `below`. The middle of that range is sought, so that both
+// sides are accepted. Newton's method would need second derivatives of errors of form.
+double find_contact_time(const Model& model, Integrator& integrator, std::int64_t i, Point above,
+                         Point below) {
+    const double half = 0.5 * EVENT_SHARE * slack_of(integrator);
+    Point a{below.time, below.value + half},
+        b{above.time, std::max(above.value + half, std::numeric_limits<double>::min())};
+    double part = a.value / (a.value - b.value);
     for (int round = 0; round < ROUNDS; ++round) {
-        if (-below <= tolerance || high - low <= CLOSEST * high) break;
-        double share = above > 0.0 ? above / (above - below) : 0.5;
-        double part = std::min(std::max(share, LEAST_SHARE), 1.0 - LEAST_SHARE);
-        double middle = low + part * (high - low);
-        double value = contact_event_at(model, integrator, i, middle);
-        if (value >= 0.0) {
-            low = middle;
-            above = value;
-            if (last > 0) below *= 0.5;
-            last = 1;
-        } else {
-            high = middle;
-            below = value;
-            if (last < 0) above *= 0.5;
-            last = -1;
+        if (std::fabs(a.value) <= half) return a.time;
+        part = std::min(std::max(part, LEAST_SHARE), 1.0 - LEAST_SHARE);
+        const double at = a.time + part * (b.time - a.time);
+        const Point now{at, contact_event_at(model, integrator, i, at) + half};
+        Point c = a;
+        if ((now.value < 0.0) != (a.value < 0.0)) {
+            c = b;
+            b = a;
         }
+        a = now;
+        if (std::fabs(a.time - b.time) <= CLOSEST * a.time) break;
+        part = part_of_way(a, b, c);
     }
-    return high;
+    return a.value < 0.0 ? a.time : b.time;
 }
 
 // Modes that may oscillate between two nodes.
@@ -250,11 +265,19 @@ int first_scanned(const Model& model, Integrator& integrator, std::int64_t i, do
     return SCANNED;
 }
 
+// Replace `first` by the event of mesh i between two times of the step, if there is one.
+void look_within(const Model& model, Integrator& integrator, std::int64_t i, double low,
+                 double high, FlankEvent& first) {
+    const Point below{high, contact_event_at(model, integrator, i, high)};
+    if (!(below.value < 0.0)) return;
+    const Point above{low, contact_event_at(model, integrator, i, low)};
+    first = {i, find_contact_time(model, integrator, i, above, below)};
+}
+
 FlankEvent first_of_stiff_step(const Model& model, Integrator& integrator) {
     FlankEvent first{NO_MESH, integrator.control.step};
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
-        if (contact_event_at(model, integrator, i, first.when) < 0.0)
-            first = {i, find_contact_time(model, integrator, i, 0.0, first.when)};
+        look_within(model, integrator, i, 0.0, first.when, first);
     return first;
 }
 
@@ -267,10 +290,9 @@ FlankEvent first_of_collocation(const Model& model, Integrator& integrator) {
     for (std::int64_t i = 0; i < model.train.meshes; ++i) {
         if (!integrator.run.may_change[i]) continue;
         int place = first_scanned(model, integrator, i, end);
-        double low = place * end / SCANNED,
-               high = std::min((place + 1) * end / SCANNED, first.when);
-        if (low < high && contact_event_at(model, integrator, i, high) < 0.0)
-            first = {i, find_contact_time(model, integrator, i, low, high)};
+        const double low = place * end / SCANNED,
+                     high = std::min((place + 1) * end / SCANNED, first.when);
+        if (low < high) look_within(model, integrator, i, low, high, first);
     }
     return first;
 }
