@@ -59,7 +59,7 @@ def stribeck(
     computed = stribeck_scene(loaded)
     warn(table, [computed])
     oil = loaded.lubrication
-    if oil.boundary == "greenwood_tripp" and oil.traction not in ("schlenk", "table"):
+    if oil.boundary == "greenwood_tripp" and not oil.includes_boundary_friction:
         remark(
             "warning: lubrication.boundary = greenwood_tripp: asperities carry only a few per cent "
             "of the load, so friction hardly rises for thin films; use load_sharing for a "

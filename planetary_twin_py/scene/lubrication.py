@@ -117,6 +117,11 @@ class Lubrication(Section):
         le=1e-4,
     )
 
+    @property
+    def includes_boundary_friction(self) -> bool:
+        """Whether the law `traction` describes all friction, so that `boundary` is not used."""
+        return self.traction in ("schlenk", "table")
+
     @model_validator(mode="after")
     def _has_its_table(self) -> Self:
         if self.traction == "table" and self.friction_table is None:

@@ -54,7 +54,8 @@ def _entry(data: Sequence[Any], name: str, above: str) -> int:
     if name.isdecimal() and int(name) < len(data):
         return int(name)
     count = "1 entry" if len(data) == 1 else f"{len(data)} entries"
-    raise NoSuchPath(f"{above} has {count}{', counted from 0' if data else ''}")
+    remedy = ", counted from 0" if data else f"; set {above} as a whole"
+    raise NoSuchPath(f"{above} has {count}{remedy}")
 
 
 def paths(data: Any) -> Iterator[str]:

@@ -32,7 +32,7 @@ def not_in_use(scene: Scene, name: str) -> str | None:
             "set lubrication.lambda_ratio = prescribed to prescribe it"
         )
     traction = scene.lubrication.traction
-    if traction in ("schlenk", "table") and plain in _UNUSED_WITHOUT_BOUNDARY:
+    if scene.lubrication.includes_boundary_friction and plain in _UNUSED_WITHOUT_BOUNDARY:
         return f"lubrication.traction = {traction} includes boundary friction"
     boundary = scene.lubrication.boundary
     if (
