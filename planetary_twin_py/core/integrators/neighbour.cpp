@@ -30,15 +30,15 @@ double share_of(std::int64_t body) {
 // of the train as a whole: the speed loop controls it, and is stable by itself.
 void kick(const Train& train, double speed, State& state) {
     const double lightest = *std::min_element(train.mass, train.mass + train.bodies);
+    auto own = [&](std::int64_t j) { return share_of(j) * std::sqrt(lightest / train.mass[j]); };
+    auto rigid = [&](std::int64_t j) { return train.ratio[0][j] * train.radius[j]; };
     double momentum = 0.0, inertia = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
-        const double rigid = train.ratio[0][j] * train.radius[j];
-        momentum += rigid * train.mass[j] * share_of(j) * std::sqrt(lightest / train.mass[j]);
-        inertia += rigid * rigid * train.mass[j];
+        momentum += rigid(j) * train.mass[j] * own(j);
+        inertia += rigid(j) * train.mass[j] * rigid(j);
     }
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        state.v[j] += speed * (share_of(j) * std::sqrt(lightest / train.mass[j]) -
-                               train.ratio[0][j] * train.radius[j] * momentum / inertia);
+        state.v[j] += speed * (own(j) - rigid(j) * momentum / inertia);
 }
 
 // All that later steps depend on.
@@ -77,7 +77,10 @@ void start_neighbour(const Model& model, Integrator& integrator) {
 double follow_neighbour(const Model& model, Integrator& integrator) {
     Integrator& run = integrator.periodic.neighbour.front();
     try {
-        if (!complete_period(model, run, integrator.periodic.cycles)) return APART;
+        if (!complete_period(model, run, integrator.periodic.cycles)) {
+            integrator.periodic.cycles = 0;  // too many steps to be stored
+            return APART;
+        }
     } catch (const NoFiniteState&) {
         return APART;
     }
