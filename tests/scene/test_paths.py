@@ -44,7 +44,7 @@ def test_an_optional_section_that_is_left_incomplete_is_refused_with_what_is_mis
 @pytest.mark.parametrize(
     ("scene", "name", "reason"),
     [
-        (PAPER, "faults.0.depth", "faults has 0 entries"),
+        (PAPER, "faults.0.depth", "faults has 0 entries; set faults as a whole"),
         (CRACKED, "faults.1.depth", "faults has 1 entry, counted from 0"),
         (CRACKED, "faults.-1.depth", "faults has 1 entry, counted from 0"),
         (PAPER, "gearset.planet_angles.3", "gearset.planet_angles has 3 entries, counted from 0"),
