@@ -21,7 +21,7 @@ def bench(
         Path | None,
         typer.Option(
             metavar="NAME.md",
-            help="Write a page of the documentation, and all runs as NAME-runs.md.",
+            help="Write a page of the documentation.",
             callback=output_file,
         ),
     ] = None,
@@ -55,7 +55,7 @@ def bench(
     from .equal_error import equal_error_markdown
     from .peers.problem import Problem
     from .peers.work_precision import peer_rows
-    from .report import as_markdown, as_table, runs_markdown
+    from .report import as_markdown, as_table
     from .steady import measure_steady, steady_markdown, steady_table
     from .table import measure, nothing
 
@@ -80,11 +80,9 @@ def bench(
             save(work_precision(rows), str(plot))
     if markdown is not None:
         picture = os.path.relpath(plot, markdown.parent) if plot is not None else None
-        runs = markdown.with_stem(f"{markdown.stem}-runs")
-        page = as_markdown(rows, runs.name, picture, equal_error_markdown(rows, steady))
+        page = as_markdown(rows, picture, equal_error_markdown(rows, steady))
         page += steady_markdown(steady) + batch_markdown(batches)
         markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
-        runs.write_text(runs_markdown(rows, markdown.name), "utf-8")
     if json_ is not None:
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]
         figures = [row.figures() for row in rows] + [row.figures() for row in minutes]

@@ -1,20 +1,16 @@
-"""The figures of the benchmark, for a terminal and as two pages of the documentation."""
+"""The figures of the benchmark, for a terminal and as a page of the documentation."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from statistics import median
 from string import Template
-from typing import Any
 
 from rich.table import Table
 
-from .cases import CASES, Case
-from .markdown import markdown_table, speed_cell
 from .reference import RELATIVE
-from .table import METHODS, WHOLE, Row
-from .timing import METHOD, ROUNDS, SAMPLE_RATE, Speed
+from .table import METHODS, Row
+from .timing import METHOD
 
 _TITLES = (
     "case", "method", "tolerance", "DTE error", "error/tolerance", "loss error", "speed", "spread",
@@ -24,7 +20,7 @@ _TITLES = (
 _PAGE = Template("""# Speed against error
 
 Written by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
-[All runs]($runs) has the figures of every case and method.
+`benchmarks/speed_and_error.json` has the figures of every case and method.
 
 - *speed*: simulated time over processor time.
 - *DTE error*: rms error of the dynamic transmission error over its rms, for the worst mesh.
@@ -40,42 +36,12 @@ static deflection of the meshes; in these cases the DTE error is $least to $most
 tolerance. The default method, `auto`, does the same until steady running is periodic, see below.
 $picture$summary""")
 
-_RUNS = Template("""# All runs of the benchmark
-
-These are the figures behind [speed against error]($summary). All cases are scene `paper` with some
-fields changed. Values are in SI.
-
-- *speed*: simulated time over processor time without samples, median of $rounds rounds; in
-  brackets the slowest and the fastest round. Scene, arrays and start take $setup ms more.
-- *sampled*: speed with samples of all meshes at $rate kHz.
-- *end to end*: speed of `simulate` over $whole s by wall time, with set-up and samples.
-
-$cases
-""")
-
 _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
   solvers and fixed steps, see `benchmarks/planetary_twin_benchmark/peers/`. They take the same
   equations as one compiled function of time and state, without information about events. They
   interpolate the samples; their time includes the computation of transmission errors and losses
   from the states. Without samples they return a state each millisecond.
 """
-
-
-_PAGE_TITLES = (
-    "method", "tolerance", "DTE error", "loss error", "speed", "sampled", "end to end",
-)  # fmt: skip
-
-
-def _page_cells(row: Row) -> tuple[str, ...]:
-    return (
-        row.method,
-        f"{row.tolerance:.0e}",
-        _figure(row.error_dte, ".1e"),
-        _figure(row.error_power_loss, ".1e"),
-        row.note or speed_cell(Speed(row.rtf, row.rtf_low, row.rtf_high)),
-        _figure(row.rtf_sampled, ".3g"),
-        _figure(row.end_to_end_rtf, ".3g"),
-    )
 
 
 def _cells(row: Row) -> tuple[str, ...]:
@@ -109,20 +75,16 @@ def as_table(rows: Sequence[Row]) -> Table:
     return table
 
 
-def as_markdown(
-    rows: Sequence[Row], runs: str, picture: str | None = None, summary: str = ""
-) -> str:
+def as_markdown(rows: Sequence[Row], picture: str | None = None, summary: str = "") -> str:
     """The page `docs/speed-and-accuracy.md`.
 
     Args:
         rows: the runs.
-        runs: link to the page of all runs.
         picture: link to a picture of the same rows.
         summary: section about the same rows.
     """
     ratios = [row.error_ratio for row in rows if row.method == METHOD]
     return _PAGE.substitute(
-        runs=runs,
         least=f"{min(ratios):.1f}",
         most=f"{max(ratios):.1f}",
         relative=f"{RELATIVE:g}",
@@ -130,42 +92,3 @@ def as_markdown(
         summary=summary,
         picture="" if picture is None else f"\n![Error against time]({picture})\n",
     )
-
-
-def runs_markdown(rows: Sequence[Row], summary: str) -> str:
-    """The page `docs/speed-and-accuracy-runs.md`.
-
-    Args:
-        rows: the runs.
-        summary: link to the page of `as_markdown`.
-    """
-    return _RUNS.substitute(
-        summary=summary,
-        setup=f"{median(row.setup_s for row in rows if row.method == METHOD) * 1e3:.0f}",
-        rate=f"{SAMPLE_RATE / 1e3:g}",
-        rounds=ROUNDS,
-        whole=f"{WHOLE:g}",
-        cases="\n\n".join(_section(case, rows) for case in dict.fromkeys(row.case for row in rows)),
-    )
-
-
-def _section(name: str, rows: Sequence[Row]) -> str:
-    """The runs of one case under its name and its changes to the scene."""
-    described = "".join(f"{_described(case)}\n\n" for case in CASES if case.name == name)
-    lines = [_page_cells(row) for row in rows if row.case == name]
-    return f"## {name}\n\n{described}{markdown_table(_PAGE_TITLES, lines)}"
-
-
-def _described(case: Case) -> str:
-    changes = _fields(case.changes) or "No field is changed"
-    start = "" if case.stretch is None else f", from {_fields(case.stretch)}"
-    return f"{changes}; {case.duration * 1e3:g} ms are compared{start}."
-
-
-def _fields(changes: dict[str, Any]) -> str:
-    """Changes as a list of fields and values."""
-    return ", ".join(f"`{name}: {_value(value)}`" for name, value in changes.items())
-
-
-def _value(value: Any) -> str:
-    return f"{value:.5g}" if isinstance(value, float) else str(value)
