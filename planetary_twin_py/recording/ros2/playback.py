@@ -53,7 +53,8 @@ class Playback:
         self.topics: dict[str, Topic] = {}
         self.counts: Counter[str] = Counter()
         extent = Extent()
-        self._segments = [open_segment(file, self._add_remark) for file in files_of(path)]
+        files = files_of(path, self.remarks)
+        self._segments = [open_segment(file, self._add_remark) for file in files]
         recorded = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
         for name in chosen:
             if name not in recorded:

@@ -144,7 +144,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
         RecordingError: there is nothing to read.
     """
     collected = _Collector()
-    for file in files_of(Path(path)):
+    for file in files_of(Path(path), collected.remarks):
         collected.read(file)
     counts = collected.counts()
     namespace = choose_namespace(counts, namespace, path)

@@ -92,13 +92,15 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
     """Intervals of a run, with inferred intervals in place of missing messages.
 
     An inferred interval has the length and settings of the next recorded one. Where that is
-    inconsistent, the result ends, with a warning in `remarks`.
+    inconsistent, or the settings before were others, the result ends, with a warning in `remarks`.
     """
     intervals: list[Interval] = []
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
     for interval in run.intervals:
         length, missing = interval.end - interval.begin, interval.number - number - 1
-        if missing * length != interval.begin - reached:
+        settings = interval.tolerance, interval.sample_rate
+        unchanged = not intervals or intervals[-1][4:6] == settings
+        if missing * length != interval.begin - reached or (missing and not unchanged):
             remarks.append(
                 f"{missing} messages of {STATE} are missing before {reached / TICKS:g} s, cannot "
                 "be inferred: the rest of the run cannot be simulated again"
@@ -108,7 +110,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
             end = reached + n * length
             between = stamp + (interval.stamp - stamp) * n // (missing + 1)
             intervals.append(
-                Interval(number + n, between, end - length, end, *interval[4:6], False)
+                Interval(number + n, between, end - length, end, *settings, False)
             )
         intervals.append(interval)
         number, reached, stamp = interval.number, interval.end, interval.stamp
@@ -131,7 +133,7 @@ def messages_of(
     """
     wanted = {f"{namespace}/{name}": name for name in names}
     repeats = Repeats()
-    for file in files_of(path):
+    for file in files_of(path, remarks):
         decoder = Decoder(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
             try:

@@ -121,6 +121,25 @@ def test_missing_messages_are_bridged_while_nothing_changes(tmp_path):
     assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
 
 
+def test_states_missing_between_others_are_no_whole_recording(tmp_path):
+    gap = {5, 6}
+    file = record(
+        tmp_path / "a",
+        lambda at, n, row: None if n in gap and not at.startswith(("run", "op")) else row,
+    )
+    code, output = invoke(file)
+    assert code == 0
+    assert "not recorded      2 states" in output
+    assert output.endswith("116 recorded messages, all identical bit for bit\n")
+
+
+def test_settings_that_change_within_a_gap_are_not_inferred(tmp_path):
+    """Interval 16 is the first at another tolerance."""
+    verdict = verify(record(tmp_path / "a", without("gearbox_state", {14, 15, 16, 17})), NAMESPACE)
+    assert verdict.first_difference is None
+    assert "4 messages of gearbox_state are missing before 0.13 s" in verdict.remarks[0]
+
+
 def test_messages_after_a_lost_change_are_not_compared(tmp_path):
     lost_change = without("operating_point", {2})
     verdict = verify(record(tmp_path / "a", lost_change), NAMESPACE)
