@@ -197,6 +197,11 @@ class _Collector:
         runs, skipped = self._runs_from_start()
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
+        if runs and not self._changes:
+            raise RecordingError(
+                f"{path}: has no message of the topic {POINT}, which holds the operating point of "
+                "its runs, so nothing can be simulated again"
+            )
         self._assign_changes(runs, remarks)
         self._assign_commands(runs)
         for run in runs:
@@ -258,6 +263,13 @@ class _Collector:
                     f"after {before.time:g} s, that run cannot be simulated again"
                 )
                 _remove_uncertain(runs, before, after)
+        for run in runs:
+            if run.intervals and not any(change.time == 0.0 for change in run.changes):
+                remarks.append(
+                    f"the message of {POINT} at the start of a run is missing: that run cannot be "
+                    "simulated again"
+                )
+                run.intervals = []
 
 
 def _with_ports(run: RecordedRun) -> list[Change]:

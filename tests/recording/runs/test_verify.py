@@ -148,6 +148,20 @@ def test_messages_after_a_lost_change_are_not_compared(tmp_path):
     assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
 
 
+def test_a_recording_without_the_operating_point_is_refused_with_the_name_of_the_topic(tmp_path):
+    code, output = invoke(record(tmp_path / "a", without("operating_point", range(9))))
+    assert code == 2
+    assert len(output.splitlines()) == 1
+    assert "has no message of the topic operating_point" in output
+
+
+def test_a_run_without_its_first_operating_point_is_not_compared(tmp_path):
+    verdict = verify(record(tmp_path / "a", without("operating_point", {1})), NAMESPACE)
+    assert "operating_point at the start of a run is missing" in verdict.remarks[0]
+    assert verdict.first_difference is None
+    assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
+
+
 @pytest.mark.parametrize(
     "left_out", [without("run_origin", {1, 2}), without("gearbox_state", {1, 32})]
 )
