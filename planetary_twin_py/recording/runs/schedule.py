@@ -120,7 +120,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
 def messages_of(
     path: Path, namespace: str, names: tuple[str, ...], remarks: list[str]
 ) -> Iterator[tuple[str, Any]]:
-    """Read messages of several topics in file order.
+    """Read messages of several topics, in the order of the log times of each file.
 
     Args:
         path: path of the recording.
