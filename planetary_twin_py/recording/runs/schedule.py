@@ -109,9 +109,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
         for n in range(1, missing + 1):
             end = reached + n * length
             between = stamp + (interval.stamp - stamp) * n // (missing + 1)
-            intervals.append(
-                Interval(number + n, between, end - length, end, *settings, False)
-            )
+            intervals.append(Interval(number + n, between, end - length, end, *settings, False))
         intervals.append(interval)
         number, reached, stamp = interval.number, interval.end, interval.stamp
     return intervals
