@@ -35,6 +35,7 @@ def recover(
 
     from ..recording.container.records import RecordingError
     from ..recording.ros2.recover import recover as save
+    from ..recording.runs.info import read_info
 
     if out is not None and folder is not None:
         fail(f"--out = {str(out)!r}: the argument {str(folder)!r} names another folder")
@@ -43,9 +44,10 @@ def recover(
     try:
         with busy("copying intact messages"):
             saved = save(file, folder)
+            remarks = [*saved.remarks, *read_info(saved.file).remarks]
     except (RecordingError, OSError) as error:
         fail(error)
-    for line in saved.remarks or ["no damage found: the copy is complete"]:
+    for line in remarks or ["no damage found: the copy is complete"]:
         remark(line)
     table = Table("topic", "messages saved", box=None)
     for topic, count in saved.messages.items():

@@ -79,6 +79,9 @@ def _print(console: Console, result: Comparison) -> None:
 
 def _conclusion(result: Comparison) -> str:
     """The verdict; the warnings above state why not everything was compared."""
+    if result.identical and result.not_recorded:
+        same = sum(result.messages.values())
+        return f"{same} recorded messages, all identical bit for bit"
     if result.identical:
         return "identical bit for bit"
     if result.first_difference:

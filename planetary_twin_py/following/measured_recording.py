@@ -47,7 +47,7 @@ def read_recording(
     reader = MessageReader(joints, scale)
     blocks = [
         block
-        for file in files_of(path)
+        for file in files_of(path, collected)
         for part in _split_by_time(_received(file, joints, collected))
         for block in reader.read(part)
     ]

@@ -21,6 +21,7 @@ from .damage import Damages
 from .foreign import how_stored
 from .framing import DAMAGED, opened, piece_at
 from .integrity import MAGIC, damaged_summary, end_of_data
+from .missing_files import missing_files
 from .walk import Lost, Sound, Walk
 
 MOST_TOPICS = 2048
@@ -44,8 +45,12 @@ class Section(NamedTuple):
     records: list[Any]
 
 
-def files_of(path: Path) -> list[Path]:
+def files_of(path: Path, remarks: list[str] | None = None) -> list[Path]:
     """The MCAP files of the recording at `path`, in order.
+
+    Args:
+        path: path of an MCAP file, or of a folder of them.
+        remarks: a line is appended if files of the folder are missing.
 
     Raises:
         RecordingError: there is no MCAP file.
@@ -62,6 +67,8 @@ def files_of(path: Path) -> list[Path]:
     files = sorted(found, key=lambda file: (len(file.name), file.name))
     if not files:
         raise RecordingError(f"{path}: not a recording: the folder has no .mcap file")
+    if remarks is not None and (missing := missing_files(path, {file.name for file in files})):
+        remarks.append(f"{path}: {missing}")
     return files
 
 

@@ -15,10 +15,8 @@ from mcap.summary import Summary
 from .extent import Extent
 from .framing import DAMAGED
 from .integrity import damaged_summary
-from .records import MOST_TOPICS, chunk_at, records_of
-
-# Messages are in the order in which the recorder wrote them, out of order by far less than this.
-DISORDER = 1_000_000_000  # [ns]
+from .log_order import merged, records_in_log_order
+from .records import MOST_TOPICS, chunk_at
 
 Warn = Callable[[str], None]
 
@@ -37,7 +35,7 @@ class Segment(Protocol):
     contents: Contents
 
     def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        """Messages at or after log time `begin` [ns] with their topics, in file order."""
+        """Messages at or after log time `begin` [ns] with their topics, in order of log time."""
 
     def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
         """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
@@ -61,16 +59,22 @@ class _Indexed:
     def __init__(self, file: Path, summary: Summary, warn: Warn) -> None:
         self._file = file
         self._warn = warn
-        self._chunks = sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)
+        self._chunks = sorted(
+            summary.chunk_indexes,
+            key=lambda index: (index.message_start_time, index.chunk_start_offset),
+        )
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
         self.contents = _contents(summary)
 
     def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        for index in self._chunks:
-            if index.message_end_time >= begin:
-                for topic, message in self._read(index):
-                    if message.log_time >= begin:
-                        yield topic, message
+        parts = (
+            (index.message_start_time, self._read(index))
+            for index in self._chunks
+            if index.message_end_time >= begin
+        )
+        for message in merged(parts):
+            if message.log_time >= begin:
+                yield self._topics[message.channel_id], message
 
     def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
         return {topic: self._last(topic, count, before) for topic, count in kept.items()}
@@ -82,13 +86,17 @@ class _Indexed:
             indexed = index.message_index_offsets
             if index.message_start_time >= before or (indexed and not channels & indexed.keys()):
                 continue
-            matching = [m for name, m in self._read(index) if name == topic and m.log_time < before]
+            matching = [
+                message
+                for message in self._read(index)
+                if message.channel_id in channels and message.log_time < before
+            ]
             messages = matching + messages
             if len(messages) >= count:
                 break
         return messages[-count:]
 
-    def _read(self, index: ChunkIndex) -> Iterator[tuple[str, Message]]:
+    def _read(self, index: ChunkIndex) -> Iterator[Message]:
         """Messages of a chunk; a damaged chunk is skipped with a warning."""
         try:
             records = chunk_at(self._file, index.chunk_start_offset)
@@ -102,7 +110,7 @@ class _Indexed:
             return
         for record in records:
             if isinstance(record, Message):
-                yield self._topics[record.channel_id], record
+                yield record
 
 
 class _InOrder:
@@ -129,9 +137,9 @@ class _InOrder:
 
     def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
         latest = {topic: deque[Message](maxlen=count) for topic, count in kept.items()}
-        candidates = takewhile(lambda pair: pair[1].log_time < before + DISORDER, self.messages(0))
+        candidates = takewhile(lambda pair: pair[1].log_time < before, self.messages(0))
         for topic, message in candidates:
-            if topic in latest and message.log_time < before:
+            if topic in latest:
                 latest[topic].append(message)
         return {topic: list(messages) for topic, messages in latest.items()}
 
@@ -140,7 +148,7 @@ class _InOrder:
 
     def _records(self) -> Iterator[object]:
         remarks: list[str] = []
-        yield from records_of(self._file, remarks)
+        yield from records_in_log_order(self._file, remarks)
         for remark in remarks:
             self._warn(remark)
 

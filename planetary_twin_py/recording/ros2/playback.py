@@ -13,7 +13,8 @@ from mcap.records import Channel, Message, Schema
 from ...printable import one_line
 from ..container.extent import Extent
 from ..container.records import RecordingError, files_of
-from ..container.segment import DISORDER, open_segment
+from ..container.log_order import DISORDER
+from ..container.segment import open_segment
 from .metadata import Topic, read_offered_qos
 from .no_run import no_run_yet
 from .repeats import Repeats
@@ -53,7 +54,8 @@ class Playback:
         self.topics: dict[str, Topic] = {}
         self.counts: Counter[str] = Counter()
         extent = Extent()
-        self._segments = [open_segment(file, self._add_remark) for file in files_of(path)]
+        files = files_of(path, self.remarks)
+        self._segments = [open_segment(file, self._add_remark) for file in files]
         recorded = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
         for name in chosen:
             if name not in recorded:
@@ -91,7 +93,7 @@ class Playback:
             yield timed
 
     def _read(self, begin: int, repeats: Repeats) -> Iterator[TimedMessage]:
-        """Messages from `begin`, in file order, without those that `repeats` knows."""
+        """Messages from `begin`, file by file, without those that `repeats` knows."""
         for segment in self._segments:
             if segment.contents.extent.end >= self.start + begin:
                 for topic, message in segment.messages(self.start + begin):

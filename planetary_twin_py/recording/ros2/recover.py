@@ -45,7 +45,7 @@ def recover(path: Path, folder: Path) -> Recovered:
     messages = dict.fromkeys(channels, 0)
     remarks: list[str] = []
     repeats = Repeats()
-    for file in files_of(path):
+    for file in files_of(path, remarks):
         names: dict[int, str] = {}
         for record in unrepeated(file, remarks, repeats):
             if isinstance(record, Channel):

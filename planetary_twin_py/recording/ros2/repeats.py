@@ -12,7 +12,7 @@ from typing import Any
 
 from mcap.records import Channel, Message
 
-from ..container.records import records_of
+from ..container.log_order import records_in_log_order
 from .metadata import is_latched, read_offered_qos
 
 
@@ -56,9 +56,12 @@ class Repeats:
 
 
 def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any]:
-    """The records of the next file of a bag, without messages of previous files."""
+    """The records of the next file of a bag, without messages of previous files.
+
+    Messages are in the order of their log times.
+    """
     repeats.next_file()
-    for record in records_of(file, remarks):
+    for record in records_in_log_order(file, remarks):
         if not repeats.repeated(record):
             yield record
 

@@ -41,7 +41,7 @@ class TopicInfo:
     recorded: int = 0
     lost: int | None = None
     """Messages published but not received, by the recorder's account, and recorded ones that cannot
-    be read; None without an account."""
+    be read; None without an account, or if files of the recording are missing."""
     before: int = 0
     """Lost messages that were published before the first received one."""
     first: int = 0
@@ -129,7 +129,9 @@ def read_info(*paths: Path) -> Info:
     Raises:
         RecordingError: a path is not a recording.
     """
-    collected = _Collector(Info([file for path in paths for file in files_of(path)]))
+    remarks: list[str] = []
+    files = [file for path in paths for file in files_of(path, remarks)]
+    collected = _Collector(Info(files, remarks=remarks.copy()))
     for file in collected.info.files:
         attempt = deepcopy(collected)
         try:
@@ -138,8 +140,11 @@ def read_info(*paths: Path) -> Info:
             collected.read(file)
         else:
             collected = attempt
-    collected.warn_of_missing()
     info = collected.info
+    if remarks:  # the accounts of the missing files are missing, too
+        for topic in info.topics.values():
+            topic.lost, topic.before = None, 0
+    collected.warn_of_missing()
     counts = {name: topic.recorded for name, topic in info.topics.items()}
     info.remarks += filter(None, (no_run_yet(path, counts) for path in paths[:1]))
     return info
@@ -230,14 +235,21 @@ class _Collector:
         self._states[topic] = state
 
     def warn_of_missing(self) -> None:
-        """Warn of missing states if the recording contains no account of losses."""
+        """Warn of missing states of which the recording contains no account."""
         for topic, missing in self._missing.items():
-            if missing and self.info.topics[topic].lost is None:
+            lost = self.info.topics[topic].lost
+            if missing > (lost or 0):
                 name = one_line(topic, _LONGEST)
+                account = (
+                    "the recording contains no count of losses"
+                    if lost is None
+                    else f"the recorder has counted {lost} as lost, so a part of the recording is "
+                    "missing"
+                )
                 self.info.remarks.append(
                     f"{missing} messages of {name} are missing between the first and the last, "
-                    "according to their sequence numbers; other topics may lack messages, too: the "
-                    "recording contains no count of losses"
+                    "according to their sequence numbers; other topics may lack messages, too: "
+                    f"{account}"
                 )
 
     def _add_losses(

@@ -14,7 +14,8 @@ from mcap.records import Attachment, Channel
 from numpy.typing import NDArray
 
 from ...printable import one_line
-from ..container.records import RecordingError, files_of, sections_of
+from ..container.log_order import sections_in_log_order
+from ..container.records import RecordingError, files_of
 from ..ros2.decode import Topics
 from ..ros2.definitions import KINDS
 from ..ros2.layout import Layouts
@@ -144,7 +145,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
         RecordingError: there is nothing to read.
     """
     collected = _Collector()
-    for file in files_of(Path(path)):
+    for file in files_of(Path(path), collected.remarks):
         collected.read(file)
     counts = collected.counts()
     namespace = choose_namespace(counts, namespace, path)
@@ -239,7 +240,7 @@ class _Collector:
         topics = Topics(file, _is_read)
         sources: dict[int, Source] = {}
         self._repeats.next_file()
-        for section in sections_of(file, self.remarks):
+        for section in sections_in_log_order(file, self.remarks):
             messages: dict[int, list[bytes]] = {}
             for record in section.records:
                 if isinstance(record, Channel):

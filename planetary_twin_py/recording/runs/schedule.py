@@ -92,13 +92,15 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
     """Intervals of a run, with inferred intervals in place of missing messages.
 
     An inferred interval has the length and settings of the next recorded one. Where that is
-    inconsistent, the result ends, with a warning in `remarks`.
+    inconsistent, or the settings before were others, the result ends, with a warning in `remarks`.
     """
     intervals: list[Interval] = []
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
     for interval in run.intervals:
         length, missing = interval.end - interval.begin, interval.number - number - 1
-        if missing * length != interval.begin - reached:
+        settings = interval.tolerance, interval.sample_rate
+        unchanged = not intervals or intervals[-1][4:6] == settings
+        if missing * length != interval.begin - reached or (missing and not unchanged):
             remarks.append(
                 f"{missing} messages of {STATE} are missing before {reached / TICKS:g} s, cannot "
                 "be inferred: the rest of the run cannot be simulated again"
@@ -107,9 +109,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
         for n in range(1, missing + 1):
             end = reached + n * length
             between = stamp + (interval.stamp - stamp) * n // (missing + 1)
-            intervals.append(
-                Interval(number + n, between, end - length, end, *interval[4:6], False)
-            )
+            intervals.append(Interval(number + n, between, end - length, end, *settings, False))
         intervals.append(interval)
         number, reached, stamp = interval.number, interval.end, interval.stamp
     return intervals
@@ -118,7 +118,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
 def messages_of(
     path: Path, namespace: str, names: tuple[str, ...], remarks: list[str]
 ) -> Iterator[tuple[str, Any]]:
-    """Read messages of several topics in file order.
+    """Read messages of several topics, in the order of the log times of each file.
 
     Args:
         path: path of the recording.
@@ -131,7 +131,7 @@ def messages_of(
     """
     wanted = {f"{namespace}/{name}": name for name in names}
     repeats = Repeats()
-    for file in files_of(path):
+    for file in files_of(path, remarks):
         decoder = Decoder(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
             try:
@@ -195,6 +195,11 @@ class _Collector:
         runs, skipped = self._runs_from_start()
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
+        if runs and not self._changes:
+            raise RecordingError(
+                f"{path}: has no message of the topic {POINT}, which holds the operating point of "
+                "its runs, so nothing can be simulated again"
+            )
         self._assign_changes(runs, remarks)
         self._assign_commands(runs)
         for run in runs:
@@ -256,6 +261,13 @@ class _Collector:
                     f"after {before.time:g} s, that run cannot be simulated again"
                 )
                 _remove_uncertain(runs, before, after)
+        for run in runs:
+            if run.intervals and not any(change.time == 0.0 for change in run.changes):
+                remarks.append(
+                    f"the message of {POINT} at the start of a run is missing: that run cannot be "
+                    "simulated again"
+                )
+                run.intervals = []
 
 
 def _with_ports(run: RecordedRun) -> list[Change]:

@@ -13,16 +13,18 @@ import numpy as np
 
 from ...accuracy import Course, course_warnings
 from ...ledger_check import Balance, balance_of_window, ledger_warning
+from ...scene.drive import Ports
+from ...scene.live import PORT_FIELDS
 from ...window import Window
 from ..container.records import RecordingError, files_of
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_of_kind
 from ..ros2.definitions import OF_AXES
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
-from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, JOINTS, STATE, WAVEFORM
+from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, STATE, WAVEFORM
 from ..ros2.typestore import is_recorded
 from .origin import Measured, makers_here
 from .resimulation import Resimulation
-from .schedule import Interval, RecordedRun, messages_of, read_runs, stamp_of
+from .schedule import Change, Interval, RecordedRun, messages_of, read_runs, stamp_of
 
 _COMPARED = (STATE, WAVEFORM, JOINTS, *OF_AXES)
 ROUNDING = 1000  # [ns] of the stamp of the first sample of an interval
@@ -113,6 +115,11 @@ def verify(
             progress(simulated[1].end)
         else:
             strays.append((topic, stamp_of(message)))
+    if result.first_difference and any(map(_lacks_commands, runs)):
+        result.remarks.append(
+            f"torque or motion is given at a port, but {GIVEN} has no message of it: commands that "
+            "are not recorded explain a difference"
+        )
     result.ledger = ledger_warning(balance, loosest)
     result.accuracy = list(course_warnings(course))
     # A recorder may have been stopped between the messages of an interval, or write on meanwhile.
@@ -133,6 +140,16 @@ def verify(
 def _begin(topic: str, newest: int) -> int:
     """Stamp above which a message belongs to an interval after that of the newest state."""
     return newest - ROUNDING if topic in (WAVEFORM, AXES_WAVEFORM) else newest
+
+
+def _lacks_commands(run: RecordedRun) -> bool:
+    """Whether torque or motion is given at a port, and no command is recorded."""
+    ports = [run.origin.scene.drive.ports, *map(_ports, run.changes)]
+    return not run.given and any(each.given for each in ports)
+
+
+def _ports(change: Change) -> Ports:
+    return Ports(**{side: change.values.get(name, "machine") for name, side in PORT_FIELDS.items()})
 
 
 def _bytes_in(path: Path) -> int:

@@ -244,3 +244,57 @@ def test_a_snapshot_contains_the_last_seconds_and_latched_messages(tmp_path):
     info = read_info(tmp_path / "bag").topics
     assert (info["/numbers"].lost, info["/settings"].lost) == (1, 0)
     assert info["/settings"].first == START + 899 * PERIOD
+
+
+@pytest.mark.parametrize("lost", [0, 2, "last"])
+@pytest.mark.parametrize("listed", [True, False])
+def test_every_reader_names_a_missing_file(tmp_path, lost, listed):
+    split = record(tmp_path / "split", storage=Storage(split_duration=0.1)).parent
+    files = _files(split)
+    missing = files[-1] if lost == "last" else files[lost]
+    missing.unlink()
+    if not listed:
+        (split / "metadata.yaml").unlink()
+        if lost == "last":
+            return  # nothing shows that there were more files
+    named = f"{missing.name} missing, 1 of its"
+    remarks = {
+        "info": read_info(split).remarks,
+        "recover": recover(split, tmp_path / "saved").remarks,
+        "view": read_recording(split).remarks,
+        "replay": Playback(split).remarks,
+    }
+    for reader, lines in remarks.items():
+        assert any(named in line for line in lines), reader
+    assert {topic.lost for topic in read_info(split).topics.values()} == {None}
+    answer = CliRunner().invoke(build_app(), ["verify", str(split)])
+    assert answer.exit_code == 1
+    assert named in answer.output
+    assert not answer.output.endswith("identical bit for bit\n")
+
+
+@pytest.mark.parametrize(
+    ("accounted", "account"),
+    [(False, "contains no count of losses"), (True, "has counted 0 as lost")],
+)
+def test_a_gap_between_renamed_files_shows_in_the_numbers_of_the_states(
+    tmp_path, monkeypatch, accounted, account
+):
+    if accounted:
+        add_topic = BagWriter.add_topic
+        monkeypatch.setattr(
+            BagWriter, "add_topic", lambda bag, topic: add_topic(bag, topic, TopicAccount())
+        )
+    split = record(tmp_path / "split", storage=Storage(split_duration=0.1)).parent
+    monkeypatch.undo()
+    (split / "metadata.yaml").unlink()
+    files = _files(split)
+    files[1].unlink()
+    for number, file in enumerate([files[0], *files[2:]]):
+        file.rename(split / f"{split.name}_{number}.mcap")
+    (remark,) = read_info(split).remarks
+    gap = "messages of /planetary_twin/gearbox_state are missing between"
+    assert gap in remark and account in remark
+    recovered = CliRunner().invoke(build_app(), ["recover", str(split)]).output
+    assert gap in recovered and "the copy is complete" not in recovered
+    assert not verify(split, NAMESPACE).identical  # the tolerance has changed meanwhile

@@ -99,3 +99,14 @@ def test_ports_that_were_not_recorded_follow_from_the_commands(run, tmp_path):
     made = resimulate(file, NAMESPACE, Branch({"backlash": 4e-7}, 0.08), tmp_path / "branch")
     assert ports_of(made.file)[-1] == CHANGED[-1]
     assert verify(made.file, NAMESPACE).identical
+
+
+def test_commands_that_are_not_recorded_are_named_where_the_result_differs(tmp_path):
+    without_commands = topics_of(NAMESPACE)
+    bag = BagWriter(tmp_path / "bag")
+    for _ in write_run(Composer(bag, without_commands, NAMESPACE), braked_run()):
+        pass
+    bag.close()
+    result = verify(bag.file, NAMESPACE)
+    assert result.first_difference is not None
+    assert any("applied_commands has no message of it" in remark for remark in result.remarks)

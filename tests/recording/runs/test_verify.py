@@ -121,10 +121,43 @@ def test_missing_messages_are_bridged_while_nothing_changes(tmp_path):
     assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
 
 
+def test_states_missing_between_others_are_no_whole_recording(tmp_path):
+    gap = {5, 6}
+    file = record(
+        tmp_path / "a",
+        lambda at, n, row: None if n in gap and not at.startswith(("run", "op")) else row,
+    )
+    code, output = invoke(file)
+    assert code == 0
+    assert "not recorded      2 states" in output
+    assert output.endswith("116 recorded messages, all identical bit for bit\n")
+
+
+def test_settings_that_change_within_a_gap_are_not_inferred(tmp_path):
+    """Interval 16 is the first at another tolerance."""
+    verdict = verify(record(tmp_path / "a", without("gearbox_state", {14, 15, 16, 17})), NAMESPACE)
+    assert verdict.first_difference is None
+    assert "4 messages of gearbox_state are missing before 0.13 s" in verdict.remarks[0]
+
+
 def test_messages_after_a_lost_change_are_not_compared(tmp_path):
     lost_change = without("operating_point", {2})
     verdict = verify(record(tmp_path / "a", lost_change), NAMESPACE)
     assert "1 messages of operating_point are missing" in verdict.remarks[0]
+    assert verdict.first_difference is None
+    assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
+
+
+def test_a_recording_without_the_operating_point_is_refused_with_the_name_of_the_topic(tmp_path):
+    code, output = invoke(record(tmp_path / "a", without("operating_point", range(9))))
+    assert code == 2
+    assert len(output.splitlines()) == 1
+    assert "has no message of the topic operating_point" in output
+
+
+def test_a_run_without_its_first_operating_point_is_not_compared(tmp_path):
+    verdict = verify(record(tmp_path / "a", without("operating_point", {1})), NAMESPACE)
+    assert "operating_point at the start of a run is missing" in verdict.remarks[0]
     assert verdict.first_difference is None
     assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
 

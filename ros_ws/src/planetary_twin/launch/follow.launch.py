@@ -3,22 +3,37 @@
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, Shutdown
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration
+from launch.substitution import Substitution
+from launch.substitutions import (
+    AndSubstitution,
+    LaunchConfiguration,
+    NotSubstitution,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
 
+_CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "twin.yaml"])
+_MEASURED = {
+    "joint_states": "joint states",
+    "dynamic_joint_states": "dynamic joint states",
+    "oil_temperature": "oil temperature",
+    "encoders": "blocks of encoder samples",
+    "vibration": "blocks of vibration samples",
+}
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),
     ("sensors", "", "YAML file with the accuracy of the sensors"),
     ("namespace", "planetary_twin", "namespace of the nodes, one for each gearbox"),
-    ("joint_states", "measured/joint_states", "topic of the measured joint states"),
-    ("oil_temperature", "measured/oil_temperature", "topic of the measured oil temperature"),
-    ("encoders", "measured/encoders", "topic of the blocks of encoder samples"),
+    *((name, f"measured/{name}", f"topic of the measured {what}")
+      for name, what in _MEASURED.items()),
     ("record", "true", "record with the logger, into recordings/ of the working directory"),
+    ("params_file", _CONFIG, "YAML file with parameters of both nodes"),
     ("use_sim_time", "false", "take the time from /clock, which another node publishes"),
     ("log_level", "info", "log level of both nodes: debug, info, warn, error or fatal"),
-)
-_REMAPPED = "joint_states", "oil_temperature", "encoders"
+    ("use_composition", "false", "run follower and logger in one process"),
+)  # fmt: skip
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -27,27 +42,32 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument(name, default_value=default, description=description)
         for name, default, description in _ARGUMENTS
     ]
-    follower = _node(
-        "follower",
-        {"sensors": ParameterValue(LaunchConfiguration("sensors"), value_type=str)},
-        remappings=[(f"measured/{name}", LaunchConfiguration(name)) for name in _REMAPPED],
-        on_exit=Shutdown(),
-    )
-    logger = _node("logger", {}, condition=IfCondition(LaunchConfiguration("record")))
-    return LaunchDescription([*arguments, logger, follower])
+    record = LaunchConfiguration("record")
+    both = AndSubstitution(record, LaunchConfiguration("use_composition"))
+    apart = NotSubstitution(both)
+    nodes = [
+        _node("logger", AndSubstitution(record, apart)),
+        _node("follower", apart, on_exit=Shutdown()),
+        _node("recorded_follower", both, on_exit=Shutdown()),
+    ]
+    return LaunchDescription([*arguments, *nodes])
 
 
-def _node(executable: str, given: dict[str, ParameterValue], **options: object) -> Node:
-    shared = {
+def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node:
+    given = {
         "scene": ParameterValue(LaunchConfiguration("scene"), value_type=str),
         "use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool),
     }
+    if executable != "logger":
+        given["sensors"] = ParameterValue(LaunchConfiguration("sensors"), value_type=str)
     return Node(
         package="planetary_twin",
         executable=executable,
         namespace=LaunchConfiguration("namespace"),
         output="screen",
-        parameters=[shared | given],
+        parameters=[LaunchConfiguration("params_file"), given],
+        remappings=[(f"measured/{name}", LaunchConfiguration(name)) for name in _MEASURED],
         ros_arguments=["--log-level", LaunchConfiguration("log_level")],
+        condition=IfCondition(condition),
         **options,
     )

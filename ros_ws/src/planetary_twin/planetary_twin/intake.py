@@ -7,25 +7,11 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 
-from planetary_twin_py.following.measured_messages import (
-    ENCODERS,
-    JOINTS,
-    TEMPERATURE,
-    VIBRATION,
-    Arrived,
-)
+from planetary_twin_py.following.measured_messages import Arrived
 
 from .polling import PolledSubscription
-from .topics import matching_qos, message_class
+from .topics import MEASURED, matching_qos, message_class
 
-MEASURED = {
-    "measured/joint_states": JOINTS[0],
-    "measured/dynamic_joint_states": JOINTS[1],
-    "measured/oil_temperature": TEMPERATURE,
-    "measured/encoders": ENCODERS,
-    "measured/vibration": VIBRATION,
-}
-"""Types of the topics of a measured gearbox, by name."""
 _ANY = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 

@@ -42,7 +42,8 @@ def declare_options(node: ParameterNode) -> None:
         node,
         "topics",
         [""],
-        "topics to record; empty: those of the namespace, /diagnostics and /tf",
+        "topics to record; empty: those of the namespace, measured ones also if they are remapped, "
+        "/diagnostics and /tf",
     )
     declare_fixed(
         node, "scene", "", "scene to store in the recording, from which viewers draw the gears"

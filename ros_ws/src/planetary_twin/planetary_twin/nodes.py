@@ -44,6 +44,11 @@ def twin() -> int:
     return _run("composed")
 
 
+def recorded_follower() -> int:
+    """Run the follower and the logger in one process."""
+    return _run("recorded_follower")
+
+
 def _run(name: str) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _exit)  # until `run_node` installs its handlers

@@ -9,6 +9,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
+from planetary_twin_py.following.measured_messages import ENCODERS, JOINTS, TEMPERATURE, VIBRATION
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
 
@@ -16,6 +17,14 @@ from .qos import to_words
 
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 """Name in rmw for the node of an endpoint until discovery finds it, which may never happen."""
+MEASURED = {
+    "measured/joint_states": JOINTS[0],
+    "measured/dynamic_joint_states": JOINTS[1],
+    "measured/oil_temperature": TEMPERATURE,
+    "measured/encoders": ENCODERS,
+    "measured/vibration": VIBRATION,
+}
+"""Types of the topics of a measured gearbox, by name."""
 _EVERYWHERE = ("/diagnostics", "/tf")
 _BELOW = ("measured", "follower")  # the namespace: a measured gearbox, and its follower
 _OF_ROS = ("/rosout", "/parameter_events")
@@ -26,12 +35,16 @@ def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
     Return the names of existing topics to record.
 
     These are the topics in `chosen`; if it is empty, those directly in the namespace of `node` and
-    in `measured` and `follower` below it, /diagnostics and /tf.
+    in `measured` and `follower` below it, those to which the topics of a measured gearbox are
+    remapped, /diagnostics and /tf.
     """
     names = {name for name, _ in node.get_topic_names_and_types()}
     if chosen:
         return sorted(names & {node.resolve_topic_name(name) for name in chosen})
-    return sorted(name for name in names if is_of_twin(name, node.get_namespace()))
+    measured = [node.resolve_topic_name(name) for name in MEASURED]
+    own = [name for name in names if is_of_twin(name, node.get_namespace())]
+    # A subscription to a name that is remapped is one to the other name.
+    return sorted(names & {*measured, *map(node.resolve_topic_name, own)})
 
 
 def is_of_twin(name: str, namespace: str) -> bool:

@@ -1,0 +1,125 @@
+"""The records of a file with its messages in the order of their log times.
+
+A recorder writes messages nearly in this order. Tools that merge, filter or sort files may write
+them in another, for example topic by topic.
+"""
+
+from __future__ import annotations
+
+import heapq
+import struct
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from mcap.opcode import Opcode
+from mcap.records import Channel, Message
+
+from .integrity import MAGIC
+from .records import Section, section_at, sections_of
+
+DISORDER = 1_000_000_000
+"""Log time [ns] by which messages of a recorder are at most out of order."""
+_HEAD = struct.Struct("<BQ")  # opcode and length of a record
+_CHUNK = struct.Struct("<Q")  # log time of the first message of a chunk, 0 without messages
+_MESSAGE = struct.Struct("<6xQ")  # log time of a message
+
+
+def records_in_log_order(file: Path, remarks: list[str]) -> Iterator[Any]:
+    """All intact records as of `records_of`; messages in the order of their log times.
+
+    Args:
+        file: MCAP file.
+        remarks: a line is appended for each damaged part.
+
+    Yields:
+        Records of `mcap`. A channel is before its messages.
+
+    Raises:
+        RecordingError: nothing can be read.
+    """
+    yield from merged(_reached(sections_in_log_order(file, remarks)))
+
+
+def merged(parts: Iterable[tuple[int, Iterable[Any]]]) -> Iterator[Any]:
+    """Records of several parts, with the messages in the order of their log times.
+
+    Args:
+        parts: records, and the log time [ns] before which neither this part nor a later one has
+            messages.
+
+    Yields:
+        The records; those that are no messages before the messages of their part.
+    """
+    waiting: list[tuple[int, int, Any]] = []
+    number = 0  # keeps the order of messages with equal times
+    for reached, records in parts:
+        while waiting and waiting[0][0] < reached:
+            yield heapq.heappop(waiting)[2]
+        for record in records:
+            number += 1
+            time = record.log_time if isinstance(record, Message) else 0
+            heapq.heappush(waiting, (time, number, record))
+    while waiting:
+        yield heapq.heappop(waiting)[2]
+
+
+def _reached(sections: Iterable[Section]) -> Iterator[tuple[int, list[Any]]]:
+    """Sections, and the log time before which no later one has messages."""
+    newest = 0
+    for _, records in sections:
+        times = [record.log_time for record in records if isinstance(record, Message)]
+        newest = max(newest, min(times, default=0))
+        yield newest - DISORDER, records
+
+
+def sections_in_log_order(file: Path, remarks: list[str]) -> Iterator[Section]:
+    """All sections as of `sections_of`, none later by more than `DISORDER` than one after it.
+
+    A file in another order is read twice: first everything but the messages.
+    """
+    if _is_in_log_order(file):
+        yield from sections_of(file, remarks)
+        return
+    places: list[tuple[int, int]] = []  # first log time and position
+    channels: set[int] = set()
+    for place, records in sections_of(file, remarks):
+        times = [record.log_time for record in records if isinstance(record, Message)]
+        if times:
+            places.append((min(times), place))
+        others = [record for record in records if not isinstance(record, Message)]
+        channels |= {record.id for record in others if isinstance(record, Channel)}
+        if others:
+            yield Section(place, others)
+    for _, place in sorted(places):
+        messages = [
+            record
+            for record in section_at(file, place)
+            if isinstance(record, Message) and record.channel_id in channels
+        ]
+        yield Section(place, messages)
+
+
+def _is_in_log_order(file: Path) -> bool:
+    """Whether no section begins more than `DISORDER` before one that it follows.
+
+    Only heads of records are read, up to the end of the data or to the first that is damaged.
+    """
+    newest = 0
+    with file.open("rb") as stream:
+        stream.seek(len(MAGIC))
+        while len(head := stream.read(_HEAD.size)) == _HEAD.size:
+            opcode, length = _HEAD.unpack(head)
+            end = stream.tell() + length
+            if opcode in (Opcode.CHUNK, Opcode.MESSAGE):
+                form = _CHUNK if opcode == Opcode.CHUNK else _MESSAGE
+                if len(content := stream.read(form.size)) < form.size:
+                    return True
+                (begin,) = form.unpack(content)
+                if begin and begin < newest - DISORDER:
+                    return False
+                newest = max(newest, begin)
+            elif opcode not in tuple(Opcode) or opcode == Opcode.DATA_END:
+                return True
+            stream.seek(end)
+    return True

@@ -1,0 +1,18 @@
+"""The follower and the logger in one process."""
+
+from __future__ import annotations
+
+import sys
+
+from .follower import Follower
+from .logger import Logger
+from .managed import run_nodes
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run both nodes until a signal."""
+    return run_nodes({"logger": Logger, "follower": Follower}, args)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
