@@ -105,9 +105,9 @@ class Options:
     @property
     def is_table(self) -> bool:
         """Whether the file is a table of a sensor."""
-        from ..recording.tables.suffixes import SUFFIXES
+        from ..recording.tables.suffixes import is_table
 
-        return self.file.suffix in SUFFIXES
+        return is_table(self.file)
 
 
 def spectrum(**given: Any) -> None:
@@ -167,7 +167,10 @@ def _check(asked: Options) -> None:
         if asked.set_ and asked.scene is None:
             fail("--set: needs --scene")
     elif any(each is not None for each in given):
-        fail(f"{asked.file}: --column, --speed, --sample-rate, --scene and --set are for tables")
+        from ..recording.tables.suffixes import TABLES
+
+        options = "--column, --speed, --sample-rate, --scene and --set are for tables"
+        fail(f"{asked.file}: {options}; {TABLES}")
     elif asked.file.suffix != ".npz":
         need("recording", "mcap", "rosbags")
 
@@ -229,9 +232,9 @@ def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest settled part at one operating point, or all of it if there is none."""
     from ..recording.runs.steadiness import steady_span
-    from ..recording.tables.suffixes import SUFFIXES
+    from ..recording.tables.suffixes import is_table
 
-    if file.suffix in (".npz", *SUFFIXES):
+    if file.suffix == ".npz" or is_table(file):
         return signal.within(None, None)
     if span := steady_span(file):
         return signal.within(*span)
