@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..analysis.line_names import NamedLine
     from ..analysis.mesh_spectrum import MeshSpectrum
     from ..analysis.signals import Signal
-    from ..recording.tables.sensor import SpeedColumn
+    from ..recording.tables.speed_faults import SpeedColumn
     from ..scene import Scene
 
 LINES = 12
@@ -79,13 +79,17 @@ class Options:
     ] = None
     column: Annotated[
         str | None,
-        typer.Option(help="Of a table: the column with the signal, if there are several."),
+        typer.Option(
+            help="Of a table: the column with the signal, if there are several. If the table "
+            "states no unit, as of a MAT file: 'acceleration [g]'."
+        ),
     ] = None
     speed: Annotated[
         str | None,
         typer.Option(
             help="Of a table: the column with the measured speed of the input shaft, for orders "
-            "while the speed varies; in rad/s without a unit in its heading."
+            "while the speed varies; in rad/s without a unit in its heading. A MAT file has no "
+            "headings: --speed 'speed [rpm]' states the unit."
         ),
     ] = None
     sample_rate: Annotated[
@@ -136,7 +140,8 @@ def spectrum(**given: Any) -> None:
         _unused_speed(asked, signal, found, subject.unused_speed),
         _aliases(asked, signal, found),
     )
-    for line in (*signal.remarks, *chain(*remarks), *_wrong_scale(asked, signal, found)):
+    doubts = subject.speed_jumps or _wrong_scale(asked, signal, found)
+    for line in (*signal.remarks, *chain(*remarks), *doubts):
         remark(line)
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
     figures |= _figures(asked, signal, found)
@@ -184,6 +189,8 @@ class _Subject(NamedTuple):
     unit: str
     unused_speed: SpeedColumn | None = None
     """Measured speed in a table that is not used."""
+    speed_jumps: tuple[str, ...] = ()
+    """Warnings about a measured speed that is used."""
 
 
 def _read(asked: Options) -> tuple[Signal, _Subject]:
@@ -196,9 +203,11 @@ def _read(asked: Options) -> tuple[Signal, _Subject]:
     from ..recording.tables.sensor import read_sensor
 
     interval = asked.from_, asked.to
-    sensor = read_sensor(asked.file, asked.column, asked.sample_rate, asked.speed, *interval)
+    sensor = read_sensor(
+        asked.file, asked.column, asked.sample_rate, asked.speed, *interval, one_way=asked.order
+    )
     scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
-    subject = _Subject(None, sensor.name, sensor.unit, sensor.unused_speed)
+    subject = _Subject(None, sensor.name, sensor.unit, sensor.unused_speed, sensor.speed_jumps)
     return sensor_signal(sensor, scene), subject
 
 

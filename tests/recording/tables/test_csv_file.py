@@ -1,4 +1,4 @@
-"""CSV as loggers write it: what is no value is left out, and what is wrong is named with its row."""
+"""CSV as loggers write it: what is no value is left out, what is wrong is named with its row."""
 
 import numpy as np
 import pytest
