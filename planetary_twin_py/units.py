@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -20,14 +21,23 @@ _NUMBER = re.compile(
 _POWER = re.compile(r"(?<=[^\W\d_])(-?\d)")  # of mm2, min-1
 _INSTEAD = (  # a common wrong unit, the expected unit, and advice
     ("1/s", "rad/s", "write rpm or rev/s for turns"),
-    ("U/min", "rad/s", "write rpm"),
     ("C", "K", "write degC"),
-    ("deg C", "K", "write degC"),
     ("F", "K", "write degF"),
     ("m^2/s", "Pa s", "dynamic viscosity = kinematic viscosity x density"),
     ("kg m^2", "kg", "it is J/r^2 of a moment of inertia J"),
 )
-
+_SPELLINGS = {  # without separators, in small letters, and what they mean if they fit the quantity
+    "rpm": "rpm", "r/min": "rpm", "u/min": "rpm", "tr/min": "rpm", "rps": "rev/s",
+    "r/s": "rev/s", "u/s": "rev/s", "dps": "deg/s", "degc": "degC", "degf": "degF", "ºc": "degC",
+    "celsius": "degC", "℃": "degC", "℉": "degF", "g": "g_n",
+    "ftlb": "ft lbf", "ftlbs": "ft lbf", "ftlbf": "ft lbf", "lbft": "ft lbf", "lbfft": "ft lbf",
+    "inlb": "in lbf", "inlbs": "in lbf", "inlbf": "in lbf", "lbin": "in lbf", "lbfin": "in lbf",
+    "ozin": "in ozf", "ozfin": "in ozf", "inoz": "in ozf", "inozf": "in ozf",
+    "kgfm": "kgf m", "kgfcm": "kgf cm", "kgcm": "kgf cm", "nm": "N m", "ncm": "N cm", "nmm": "N mm",
+}  # fmt: skip
+_SEPARATORS = re.compile(r"[\s*·⋅.-]")
+_HYPHEN = re.compile(r"(?<=[^\W\d_])-(?=[^\W\d_])")  # of N-m
+_MASS = re.compile(r"\b(lb|oz|kg)s?\b")  # whose weight is a force
 
 _CUSTOMARY = {  # by SI unit: customary unit, factor, and offset
     "rad/s": ("rpm", 30.0 / math.pi, 0.0),
@@ -83,6 +93,7 @@ def _registry() -> Any:
         preprocessors=[lambda text: _POWER.sub(r"**\1", text)],
     )
     registry.define("newton_metre = newton * metre = Nm")  # otherwise nanometres
+    registry.define("pascal_second = pascal * second = Pas")
     registry.define("@alias turn = rev")
     return registry
 
@@ -171,21 +182,32 @@ def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[
     if given == unit or (given, unit) in _COMMON:
         factor, offset = _COMMON.get((given, unit), (1.0, 0.0))
         return factor * values + offset
-    if not _compatible(given, unit):
+    name = next((name for name in _spelled(given) if _compatible(name, unit)), None)
+    if name is None:
         raise UnitError(f"[{given}] cannot be converted to {unit or '1'}{_instead(given, unit)}")
-    source, target = _unit(given), _unit(unit)
+    source, target = _unit(name), _unit(unit)
     return np.asarray(_registry().Quantity(values, source).to(target).magnitude, dtype=float)
+
+
+def _spelled(given: str) -> Iterator[str]:
+    """Units that the text `given` may stand for, the likely one first."""
+    yield given
+    product = _HYPHEN.sub("*", given)
+    yield product
+    yield _SPELLINGS.get(_SEPARATORS.sub("", given).casefold(), given)
+    yield _MASS.sub(r"\1f", product)
 
 
 def _instead(given: str, unit: str) -> str:
     """Advice for the wrong unit `given`, to append to an error message; may be empty."""
-    for name, target in _COMMON:
-        if target == unit and name.casefold() == given.casefold():
+    common = [name for name, target in _COMMON if target == unit]
+    for name in common:
+        if name.casefold() == given.casefold():
             return f"; write {name}"
     for source, target, advice in _INSTEAD:
         if _compatible(given, source) and _compatible(unit, target):
             return f"; {advice}"
-    return ""
+    return f"; write, for example, {' or '.join([unit, *common])}" if unit else ""
 
 
 def _unit(name: str) -> Any:

@@ -137,8 +137,9 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
         up to which amplitudes are exact to 1 %.
 
     Raises:
-        ValueError: the sun is at rest or reverses (see `order_spectrum`).
+        ValueError: the sun is at rest or reverses; or see `order_spectrum`.
     """
+    _check_one_way(signal)
     fastest = float(np.abs(np.diff(signal.angle)).max())
     resolved = interpolation.EXACT * 2.0 * math.pi / max(fastest, 1e-12)
     per_turn = min(max(math.ceil(resolved / orders.EXACT), 4), MOST_PER_TURN)
@@ -147,6 +148,18 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
     rate = 2.0 * math.pi * signal.sample_rate / abs(signal.speed)
     band = Band(0.0, min(resolved, orders.EXACT * per_turn))
     return MeshSpectrum(*found, sun_teeth, band, rate, edge, signal.error + interpolation.ERROR)
+
+
+def _check_one_way(signal: Signal) -> None:
+    """Raise `ValueError` with the time if the sun rests or reverses relative to the carrier."""
+    steps = np.diff(signal.angle)
+    sense = np.sign(steps[np.flatnonzero(steps)[:1]].sum())
+    for place in np.flatnonzero(sense * steps <= 0.0)[:1]:
+        what = "stands still" if steps[place] == 0.0 else "reverses"
+        raise ValueError(
+            f"the sun {what} relative to the carrier at {signal.time[place]:.6g} s: select an "
+            "interval in which it turns in one direction by --from and --to"
+        )
 
 
 def _all_of(axis: Array) -> Band:

@@ -213,8 +213,9 @@ def _one_way(angle: ArrayLike) -> Array:
     turned = checked(angle, "angle")
     if turned.ndim != 1:
         raise ValueError(f"angle: shape {turned.shape}: must be that of one shaft, (n,)")
-    turned = (turned - turned[0]) * np.sign(turned[-1] - turned[0])
-    wrong = np.flatnonzero(np.diff(turned) <= 0.0)
+    steps = np.diff(turned)
+    sense = np.sign(steps[np.flatnonzero(steps)[:1]].sum())
+    wrong = np.flatnonzero(sense * steps <= 0.0)
     if len(wrong):
         raise ValueError(f"angle: reverses or stands still after sample {wrong[0]}")
-    return turned
+    return np.asarray(sense * (turned - turned[0]), dtype=np.float64)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import get_window
 
-from ..recording.tables.sensor import SpeedColumn
+from ..recording.tables.speed_faults import SpeedColumn
 from .even_steps import PHASE
 from .mesh_spectrum import MeshSpectrum
 from .signals import MEAN, Array, Signal

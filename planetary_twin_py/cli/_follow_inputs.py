@@ -124,9 +124,9 @@ def _readings(
     path: Path, sensors: Sensors
 ) -> tuple[list[Block], np.datetime64 | None, tuple[str, ...]]:
     """Blocks of readings, the date of second 0 of their stamps, and columns that are not used."""
-    from ..recording.tables.suffixes import SUFFIXES
+    from ..recording.tables.suffixes import is_table
 
-    if path.suffix in SUFFIXES:
+    if is_table(path):
         from ..following.measured_tables import read_readings
 
         found = read_readings(path, sensors.columns)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..analysis.line_names import NamedLine
     from ..analysis.mesh_spectrum import MeshSpectrum
     from ..analysis.signals import Signal
-    from ..recording.tables.sensor import SpeedColumn
+    from ..recording.tables.speed_faults import SpeedColumn
     from ..scene import Scene
 
 LINES = 12
@@ -79,13 +79,17 @@ class Options:
     ] = None
     column: Annotated[
         str | None,
-        typer.Option(help="Of a table: the column with the signal, if there are several."),
+        typer.Option(
+            help="Of a table: the column with the signal, if there are several. If the table "
+            "states no unit, as of a MAT file: 'acceleration [g]'."
+        ),
     ] = None
     speed: Annotated[
         str | None,
         typer.Option(
             help="Of a table: the column with the measured speed of the input shaft, for orders "
-            "while the speed varies; in rad/s without a unit in its heading."
+            "while the speed varies; in rad/s without a unit in its heading. A MAT file has no "
+            "headings: --speed 'speed [rpm]' states the unit."
         ),
     ] = None
     sample_rate: Annotated[
@@ -105,9 +109,9 @@ class Options:
     @property
     def is_table(self) -> bool:
         """Whether the file is a table of a sensor."""
-        from ..recording.tables.suffixes import SUFFIXES
+        from ..recording.tables.suffixes import is_table
 
-        return self.file.suffix in SUFFIXES
+        return is_table(self.file)
 
 
 def spectrum(**given: Any) -> None:
@@ -136,7 +140,8 @@ def spectrum(**given: Any) -> None:
         _unused_speed(asked, signal, found, subject.unused_speed),
         _aliases(asked, signal, found),
     )
-    for line in (*signal.remarks, *chain(*remarks), *_wrong_scale(asked, signal, found)):
+    doubts = subject.speed_jumps or _wrong_scale(asked, signal, found)
+    for line in (*signal.remarks, *chain(*remarks), *doubts):
         remark(line)
     figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
     figures |= _figures(asked, signal, found)
@@ -167,7 +172,10 @@ def _check(asked: Options) -> None:
         if asked.set_ and asked.scene is None:
             fail("--set: needs --scene")
     elif any(each is not None for each in given):
-        fail(f"{asked.file}: --column, --speed, --sample-rate, --scene and --set are for tables")
+        from ..recording.tables.suffixes import TABLES
+
+        options = "--column, --speed, --sample-rate, --scene and --set are for tables"
+        fail(f"{asked.file}: {options}; {TABLES}")
     elif asked.file.suffix != ".npz":
         need("recording", "mcap", "rosbags")
 
@@ -181,6 +189,8 @@ class _Subject(NamedTuple):
     unit: str
     unused_speed: SpeedColumn | None = None
     """Measured speed in a table that is not used."""
+    speed_jumps: tuple[str, ...] = ()
+    """Warnings about a measured speed that is used."""
 
 
 def _read(asked: Options) -> tuple[Signal, _Subject]:
@@ -193,9 +203,11 @@ def _read(asked: Options) -> tuple[Signal, _Subject]:
     from ..recording.tables.sensor import read_sensor
 
     interval = asked.from_, asked.to
-    sensor = read_sensor(asked.file, asked.column, asked.sample_rate, asked.speed, *interval)
+    sensor = read_sensor(
+        asked.file, asked.column, asked.sample_rate, asked.speed, *interval, one_way=asked.order
+    )
     scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
-    subject = _Subject(None, sensor.name, sensor.unit, sensor.unused_speed)
+    subject = _Subject(None, sensor.name, sensor.unit, sensor.unused_speed, sensor.speed_jumps)
     return sensor_signal(sensor, scene), subject
 
 
@@ -229,9 +241,9 @@ def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest settled part at one operating point, or all of it if there is none."""
     from ..recording.runs.steadiness import steady_span
-    from ..recording.tables.suffixes import SUFFIXES
+    from ..recording.tables.suffixes import is_table
 
-    if file.suffix in (".npz", *SUFFIXES):
+    if file.suffix == ".npz" or is_table(file):
         return signal.within(None, None)
     if span := steady_span(file):
         return signal.within(*span)

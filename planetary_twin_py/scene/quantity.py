@@ -44,9 +44,9 @@ class Section(BaseModel):
     @field_validator("*", mode="before")
     @classmethod
     def _units_at_the_edge(cls, value: object, info: ValidationInfo) -> object:
-        if type(value) is float:  # in SI, the most frequent case
-            return value
         field = cls.__pydantic_fields__[info.field_name or ""]
+        if type(value) is float and not _is_list(field):  # in SI, the most frequent case
+            return value
         if isinstance(value, bool) and field.annotation is not bool:
             raise ValueError("must not be true or false")  # Python would convert them to 1 and 0
         unit = unit_of(field)
@@ -56,7 +56,7 @@ class Section(BaseModel):
             return value
         if isinstance(value, (list, tuple)):
             return tuple(to_si(item, unit) for item in value)
-        if isinstance(value, str) and _is_list(field):
+        if isinstance(value, (str, int, float)) and _is_list(field):
             raise UnitError(f"must be a list, e.g. {_LISTS.get(unit, '[1, 2]')}")
         return to_si(value, unit)
 

@@ -132,3 +132,9 @@ def test_misuse_ends_in_one_line_that_names_it(call, reason):
     with pytest.raises(ValueError, match=reason) as caught:
         call()
     assert "\n" not in str(caught.value)
+
+
+def test_the_sample_of_a_reversal_is_named_also_if_more_samples_turn_backwards():
+    angle = np.concatenate((np.arange(300.0), 298.0 - np.arange(700.0)))
+    with pytest.raises(ValueError, match="after sample 299"):
+        pt.order_spectrum(np.sin(angle), 0.1 * angle)

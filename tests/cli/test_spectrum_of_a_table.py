@@ -7,6 +7,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
+from scipy import io
 from tiers import first
 from typer.testing import CliRunner
 
@@ -513,3 +514,81 @@ def test_a_stuck_sensor_and_a_clipped_signal_are_reported(tmp_path):
     assert "exactly at the lowest" in written(tmp_path / "a.csv", np.clip(samples, -1, 1)).stderr
     samples[len(samples) // 2 :] = samples[len(samples) // 2]
     assert "is the sensor stuck" in written(tmp_path / "a.csv", samples).stderr
+
+
+def speed_table(file, change, heading="speed [rpm]"):
+    """A vibration at 1000 rpm beside a reading of this speed that `change` makes wrong."""
+    time = np.arange(0.0, 1.0, 1e-4)
+    tone = np.sin(2.0 * np.pi * 500.0 * time)
+    rows = np.column_stack((time, tone, change(time)))
+    np.savetxt(file, rows, delimiter=",", header=f"time,{NAME},{heading}", comments="", fmt="%.9g")
+    return invoke(file, "--column", NAME, "--speed", heading.split()[0], "--order",
+                  "--scene", "paper")  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (
+            lambda t: np.where(t < 0.3, 1e3, -1e3),
+            "row 3001: speed [rpm] = -1000 at 0.3 s: reverses",
+        ),
+        (
+            lambda t: np.where((t < 0.3) | (t > 0.35001), -1e3, 0.0),
+            "row 3001: speed [rpm] = 0 at 0.3 s: stands still until 0.35 s, 501 rows",
+        ),
+        (lambda t: 5.0 * (np.mod(16.0 * t, 1.0) < 0.5), "is it a pulse train?"),
+    ],
+)
+def test_a_speed_without_orders_is_named_with_its_file_row_time_and_value(tmp_path, change, words):
+    done = speed_table(tmp_path / "table.csv", change)
+    assert done.exit_code != 0 and done.stderr.count("\n") == 1
+    assert str(tmp_path / "table.csv") in done.stderr and words in done.stderr
+
+
+def test_a_voltage_in_pulses_is_no_speed(tmp_path):
+    done = speed_table(
+        tmp_path / "t.csv", lambda t: 5.0 * (np.mod(16.0 * t, 1.0) < 0.2), "tach [V]"
+    )
+    assert done.exit_code != 0
+    assert "[V] cannot be converted to rad/s" in done.stderr
+    assert "is it a pulse train?" in done.stderr
+
+
+@pytest.mark.parametrize("factor, words", [(2.0, "2 times"), (0.5, "0.5 times"), (3.0, "3 times")])
+@pytest.mark.parametrize("rows", [1, 700])
+def test_a_speed_that_jumps_is_named_with_its_time_and_the_teeth_are_not_blamed(
+    tmp_path, factor, words, rows
+):
+    def pieces(time):
+        wrong = np.isin(np.arange(len(time)) % 2000, np.arange(1200, 1200 + rows))
+        return np.where(wrong, factor, 1.0) * (950.0 + 100.0 * time)
+
+    done = speed_table(tmp_path / "table.csv", pieces)
+    assert done.exit_code == 0
+    assert (
+        f"the column 'speed [rpm]' jumps to {words} its value at 0.12 s (row 1201)" in done.stderr
+    )
+    assert "and 9 times later" in done.stderr and "teeth" not in done.stderr
+
+
+def test_a_run_up_from_rest_and_noise_are_no_jumps(tmp_path):
+    noise = np.random.default_rng(1).normal(size=10_000)
+    done = speed_table(tmp_path / "table.csv", lambda t: 1e-3 + 1e3 * t**2 + 20.0 * t * noise)
+    assert "jumps" not in done.stderr
+
+
+def test_an_option_states_the_units_that_a_mat_file_cannot(tmp_path):
+    file, time = tmp_path / "run_up.mat", np.arange(0.0, 2.0, 1e-4)
+    turns = (900.0 * time + 50.0 * time**2) / 60.0
+    vectors = {"time": time, "acceleration": np.sin(2.0 * np.pi * 30.0 * turns)}
+    io.savemat(file, vectors | {"speed": 900.0 + 100.0 * time})
+    options = ("--scene", "paper", "--order", "--column", "acceleration [g]", "--speed")
+    done = invoke(file, *options, "speed [rpm]")
+    assert "amplitude [g]" in done.stdout and done.stderr == ""
+    assert lines(file, *options, "speed [rpm]")[0]["order"] == pytest.approx(30.0, abs=0.01)
+    assert "state it, for example --speed 'speed [rpm]'" in invoke(file, *options, "speed").stderr
+    write_units(file, {"speed": "rpm"})
+    assert lines(file, *options, "speed")[0]["order"] == pytest.approx(30.0, abs=0.01)
+    refused = invoke(file, *options, "speed [dps]")
+    assert refused.exit_code != 0 and "the column 'speed' is in [rpm]" in refused.stderr

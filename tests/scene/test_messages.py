@@ -39,18 +39,36 @@ def test_the_range_of_a_quantity_in_a_list_is_still_that_of_its_entries():
     assert "must be" in refused(**{"gearset.planet_angles": (0.0, math.inf)})
 
 
+@pytest.mark.parametrize(
+    "field, example",
+    [
+        ("gearset.planet_angles", "[0 deg, 120 deg]"),
+        ("errors.pin_radial", "[20 um, 0 um]"),
+        ("errors.planet_stiffness", None),
+    ],
+)
+@pytest.mark.parametrize("number", [3, 0.5, "3 deg"])
+def test_a_number_in_place_of_a_list_is_said_to_be_no_list(field, example, number):
+    line = refused(**{field: number})
+    assert line.startswith(f"{field} = ")
+    assert "must be a list, e.g. [" in line
+    assert example is None or example in line
+
+
 def test_an_empty_field_is_said_to_be_empty():
     line = parsed(lambda data: data["gearset"].update(module=None))
     assert line.startswith("gearset.module = None: must be a number within 0 and 0.2 m")
     assert line.endswith("the field is empty")
 
 
-@pytest.mark.parametrize("unit, meant", [("RPM", "rpm"), ("Rpm", "rpm")])
-def test_a_unit_in_other_letters_is_refused_with_the_right_ones(unit, meant):
-    line = refused(input_speed=f"1500 {unit}")
-    assert (
-        line == f"input_speed = '1500 {unit}': [{unit}] cannot be converted to rad/s; write {meant}"
-    )
+@pytest.mark.parametrize(
+    "field, unit, meant",
+    [("input_torque", "KN m", "kN m"), ("lubrication.shear_stress", "mpa", "MPa")],
+)
+def test_a_unit_in_other_letters_is_refused_with_the_right_ones(field, unit, meant):
+    line = refused(**{field: f"5 {unit}"})
+    assert f"= '5 {unit}': [{unit}] cannot be converted to " in line
+    assert line.endswith(f"; write {meant}")
 
 
 def test_a_machine_on_the_member_that_is_fixed_by_default_is_refused_with_this_default():

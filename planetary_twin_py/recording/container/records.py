@@ -17,6 +17,7 @@ from mcap.records import Channel, DataEnd, Message, Schema
 from mcap.stream_reader import CRCValidationError
 
 from ...printable import one_line
+from ..tables.suffixes import TABLES
 from .damage import Damages
 from .foreign import how_stored
 from .framing import DAMAGED, opened, piece_at
@@ -191,7 +192,7 @@ def _begin_remarks(file: Path, stream: BinaryIO) -> list[str]:
     except DAMAGED:
         is_mcap = stream.seek(0, 2) > len(MAGIC) and end_of_data(file) is not None
     if not is_mcap:
-        raise RecordingError(f"{file}: not a recording: not an MCAP file")
+        raise RecordingError(f"{file}: not a recording: not an MCAP file; {TABLES}")
     return [f"{file.name}: its first {len(MAGIC)} bytes are damaged"]
 
 

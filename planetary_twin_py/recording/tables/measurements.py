@@ -12,17 +12,18 @@ from typing import Any, BinaryIO, NamedTuple
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
-from pyarrow import csv, parquet
+from pyarrow import parquet
 
 from ...printable import one_line
 from ...scene.names import did_you_mean
-from ...units import LARGEST, column_to_si, is_number
+from ...units import LARGEST, column_to_si
+from .csv_file import read_csv
 from .mat_file import MatError, read_mat
 from .parquet_pages import unpacked_size
 from .rounded_stamps import UNEVEN, rounded_grid
-from .suffixes import SUFFIXES
+from .suffixes import SUFFIXES, TABLES, is_table
 from .units_file import units_beside
-from .unpacking import check_unpacked
+from .unpacking import check_columns, check_unpacked
 
 Array = NDArray[np.float64]
 
@@ -36,7 +37,6 @@ _LONGEST_LIST = 400  # characters
 DATE = "2026-11-22 10:00:00"  # example
 _DAY_NUMBERS = 20_000.0, 80_000.0  # of a spreadsheet, from 1954 to 2119
 _SHORT = 1e-3  # [s] step of readings, or a minute and a half in days
-_MOST_COLUMNS = 2000
 _NUMBER = 8  # bytes in memory
 _TEXTS = (
     pa.types.is_string, pa.types.is_large_string, pa.types.is_string_view, pa.types.is_binary,
@@ -181,12 +181,12 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 def read_columns(path: Path) -> dict[str, Column]:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
-    A column of Parquet may have its unit in its metadata instead, as `unit`, and one of CSV in the
-    file NAME.units.json beside it, which `export` writes.
+    A column of Parquet may have its unit in its metadata instead, as `unit`, and one of CSV or MAT
+    in the file NAME.units.json beside it, as `export` writes it.
 
     Args:
-        path: path of a .csv, .parquet or .mat file. CSV is separated by commas, semicolons or
-            tabs. The columns of a MAT file are its vectors.
+        path: path of a .csv, .parquet or .mat file. For CSV see `read_csv`. The columns of a MAT
+            file are its vectors.
 
     Returns:
         The columns by name, in order.
@@ -195,13 +195,13 @@ def read_columns(path: Path) -> dict[str, Column]:
         ValueError: the file is not such a table, or a name is given twice, perhaps in two units.
         OSError: the file cannot be read.
     """
-    if path.suffix not in _READERS:
-        raise ValueError(f"{path}: must end in {' or '.join(SUFFIXES)}")
+    if not is_table(path):
+        raise ValueError(f"{path}: {TABLES}")
     if path.exists() and not path.is_file():
         raise ValueError(f"{path}: must be a file")
     try:
         with path.open("rb") as stream:
-            table = _READERS[path.suffix](stream)
+            table = _READERS[path.suffix.lower()](stream)
     except UnicodeDecodeError as reason:
         raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
     except MatError as reason:
@@ -213,7 +213,7 @@ def read_columns(path: Path) -> dict[str, Column]:
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
     columns: dict[str, Column] = {}
-    stated = units_beside(path) if path.suffix == ".csv" else {}
+    stated = units_beside(path)
     for field, values in zip(table.schema, table.columns, strict=True):
         name, unit = name_and_unit(field.name)
         if name and name in columns:
@@ -223,7 +223,7 @@ def read_columns(path: Path) -> dict[str, Column]:
 
 
 def _unit_of(field: pa.Field, beside: Mapping[str, str]) -> str | None:
-    """Unit in the metadata of a Parquet column, or beside a CSV."""
+    """Unit in the metadata of a Parquet column, or beside the file."""
     stated = (field.metadata or {}).get(b"unit", b"").decode(errors="replace")
     unit = stated or beside.get(field.name, "")
     return None if unit in ("", "-") else unit
@@ -243,30 +243,11 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
     return TIME[0] if name.lower() in TIME else name, unit
 
 
-def _read_csv(stream: BinaryIO) -> pa.Table:
-    """Read CSV separated by commas, semicolons or tabs; decimal commas unless commas separate."""
-    text = stream.read().decode()
-    heading, body = re.split(r"[\r\n]|$", text, maxsplit=1)
-    separator = max(";\t,", key=heading.count)
-    names = heading.split(separator)
-    _check_columns(len(names))
-    if all(is_number(name) for name in names):
-        raise ValueError("row 1: must have the headings of the columns, such as time [s]")
-    commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
-    decimal = "," if commas else "."
-    # By name: threads of Arrow that hold an object of Python may abort the interpreter at its end.
-    return csv.read_csv(
-        stream.name,
-        parse_options=csv.ParseOptions(delimiter=separator),
-        convert_options=csv.ConvertOptions(decimal_point=decimal),
-    )
-
-
 def _read_parquet(stream: BinaryIO) -> pa.Table:
-    source = pa.OSFile(stream.name)  # not `stream`: see `_read_csv`
+    source = pa.OSFile(stream.name)  # not `stream`: see `read_csv`
     file = parquet.ParquetFile(source)
     metadata, packed = file.metadata, source.size()
-    _check_columns(metadata.num_columns)
+    check_columns(metadata.num_columns)
     # Each page states its size again, and each column its number of values: Arrow believes them.
     check_unpacked(packed, unpacked_size(stream, metadata))
     groups = [metadata.row_group(k) for k in range(metadata.num_row_groups)]
@@ -283,14 +264,8 @@ def _read_parquet(stream: BinaryIO) -> pa.Table:
     return parquet.ParquetFile(source, read_dictionary=texts).read()
 
 
-def _check_columns(number: int) -> None:
-    """Refuse a table before its columns take memory: 10 kB each, whatever they hold."""
-    if number > _MOST_COLUMNS:
-        raise ValueError(f"has {number} columns: must be at most {_MOST_COLUMNS}")
-
-
 _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = dict(
-    zip(SUFFIXES, (_read_csv, _read_parquet, read_mat), strict=True)
+    zip(SUFFIXES, (read_csv, _read_parquet, read_mat), strict=True)
 )
 
 

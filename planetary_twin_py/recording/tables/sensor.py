@@ -14,17 +14,9 @@ from ...units import column_to_si
 from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
 from .rounded_stamps import rounded_grid
 from .sensor_faults import fault_remarks
+from .speed_faults import SpeedColumn, check_one_way, is_pulse_train, jump_remarks
 
 SPEEDS = "speed", "input_speed", "output_speed"  # names of columns of a speed without a unit
-
-
-class SpeedColumn(NamedTuple):
-    """A column with the speed of a shaft."""
-
-    name: str
-    heading: str
-    values: Array
-    """In the unit of the heading, (n,)."""
 
 
 class Sensor(NamedTuple):
@@ -41,6 +33,8 @@ class Sensor(NamedTuple):
     """Measured speed of a shaft [rad/s], (n,); None without a column of it."""
     remarks: tuple[str, ...] = ()
     """Warnings about the samples."""
+    speed_jumps: tuple[str, ...] = ()
+    """Warnings about the measured speed."""
     unused_speed: SpeedColumn | None = None
     """Measured speed of a shaft that was not selected; None if there is none, or one was."""
 
@@ -52,30 +46,36 @@ def read_sensor(
     speed: str | None = None,
     begin: float | None = None,
     end: float | None = None,
+    one_way: bool = False,
 ) -> Sensor:
     """Read a column of a CSV, Parquet or MAT file; headings are names, or names with units.
 
     Args:
         path: path of the file.
-        column: name of the column; None if the table has one column besides time and speed.
+        column: name of the column, with a unit if the table states none, as of a MAT file; None if
+            the table has one column besides time and speed.
         sample_rate: sample rate [Hz], in place of a column `time`. A remark names both rates if
             they differ.
-        speed: name of the column with the measured speed of a shaft; None if there is none.
+        speed: name of the column with the measured speed of a shaft, such as `speed` or
+            `speed [rpm]`; None if there is none.
         begin: start of the interval to read [s]; None is the first row.
         end: end of the interval [s]; None is the last row.
+        one_way: whether the shaft must turn in one direction in the interval.
 
     Returns:
         The samples of the interval. Without time stamps, the first row of the table is at 0.
 
     Raises:
         ValueError: the file is not a table or a column does not exist; or in the interval, samples
-            are missing, or the time stamps are not about equally spaced.
+            are missing, the time stamps are not about equally spaced, or the shaft rests or
+            reverses.
         OSError: the file cannot be read.
     """
     columns = read_columns(path)
     names = [name for name in columns if name != TIME[0]]
     speed_name = None if speed is None else _chosen(path, "--speed", speed, names)
     name = _chosen(path, "--column", column, [other for other in names if other != speed_name])
+    _state_units(path, columns, {"--speed": speed, "--column": column})
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
@@ -91,22 +91,36 @@ def read_sensor(
         part = _rows(time, begin, end)
         samples = _complete(name, columns[name].as_given(name), part)
         stamps, rounding = _even(time[part], part.start)
-        measured = None
+        measured, jumps = None, list[str]()
         if speed_name is not None:
-            rotation = columns[speed_name].in_si(speed_name, "rad/s")
-            measured = _complete(speed_name, rotation, part)
+            given = columns[speed_name].as_given(speed_name)[part]
+            measured = _complete(speed_name, _rotation(speed_name, columns[speed_name]), part)
+            shown = SpeedColumn(speed_name, columns[speed_name].heading, given)
+            jumps += jump_remarks(shown, time[part], part.start)
+            if one_way:
+                check_one_way(shown, time[part], part.start)
     remarks = [] if sample_rate is not None else list(rounding)
     if sample_rate is not None:
         remarks += _other_rate(columns.get(TIME[0]), sample_rate, part)
     if speed_name is not None and columns[speed_name].unit is None:
         remarks.append(
             f"column {columns[speed_name].heading!r} has no unit and is read in rad/s; otherwise "
-            f"its heading must be, for example, {speed_name} [rpm]"
+            f"state it, for example --speed '{speed_name} [rpm]'"
         )
     remarks += fault_remarks(stamps, samples)
     unit = columns[name].unit or "-"
     unused = None if speed is not None else _unused_speed(columns, name, part)
-    return Sensor(name, unit, stamps, samples, measured, tuple(remarks), unused)
+    return Sensor(name, unit, stamps, samples, measured, tuple(remarks), tuple(jumps), unused)
+
+
+def _rotation(name: str, column: Column) -> Array:
+    """A measured speed [rad/s], (n,)."""
+    try:
+        return column.in_si(name, "rad/s")
+    except ValueError as reason:
+        if not is_pulse_train(column.as_given(name)):
+            raise
+        raise ValueError(f"{reason}; is it a pulse train? Its values must be speeds") from None
 
 
 def _unused_speed(columns: Mapping[str, Column], signal: str, part: slice) -> SpeedColumn | None:
@@ -229,6 +243,20 @@ def _complete(name: str, values: Array, part: slice) -> Array:
             "by --from and --to"
         )
     return values[part]
+
+
+def _state_units(path: Path, columns: dict[str, Column], options: Mapping[str, str | None]) -> None:
+    """Add the units that options such as `--speed "speed [rpm]"` state to the columns."""
+    for option, text in options.items():
+        name, unit = name_and_unit(text or "")
+        if unit is None:
+            continue
+        if columns[name].unit not in (None, unit):
+            raise ValueError(
+                f"{path}: {option} = {text!r}: the column {columns[name].heading!r} is in "
+                f"[{columns[name].unit}]"
+            )
+        columns[name] = columns[name]._replace(unit=unit)
 
 
 def _chosen(path: Path, option: str, column: str | None, names: list[str]) -> str:

@@ -1,4 +1,4 @@
-"""Units of the columns of a CSV, in a file beside it."""
+"""Units of the columns of a table, in a file beside it."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ LONGEST = 1_000_000  # [bytes] of a file
 
 
 def units_file(path: Path) -> Path:
-    """Path of the units of a CSV, NAME.units.json.
+    """Path of the units of a table, NAME.units.json.
 
     Args:
-        path: path of the CSV.
+        path: path of the table.
     """
     return path.with_suffix(".units.json")
 
 
 def write_units(path: Path, units: Mapping[str, str]) -> None:
-    """Write the units of a CSV beside it.
+    """Write the units of a table beside it.
 
     Args:
-        path: path of the CSV.
+        path: path of the table.
         units: unit by heading.
 
     Raises:
@@ -32,13 +32,13 @@ def write_units(path: Path, units: Mapping[str, str]) -> None:
 
 
 def units_beside(path: Path) -> dict[str, str]:
-    """Read the units of a CSV.
+    """Read the units of a table.
 
     Args:
-        path: path of the CSV.
+        path: path of the table.
 
     Returns:
-        Unit by heading; empty without a file beside the CSV.
+        Unit by heading; empty without a file beside the table.
 
     Raises:
         ValueError: the file is not one of `write_units`.

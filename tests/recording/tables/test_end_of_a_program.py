@@ -17,11 +17,17 @@ sys.exit(len(columns))
 
 
 @pytest.mark.release
-@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
-def test_threads_that_read_a_table_never_abort_the_interpreter_at_its_end(tmp_path, suffix):
+@pytest.mark.parametrize(
+    "suffix, comment", [(".csv", ""), (".csv", "# comment\n"), (".parquet", "")]
+)
+def test_threads_that_read_a_table_never_abort_the_interpreter_at_its_end(
+    tmp_path, suffix, comment
+):
     path = tmp_path / f"table{suffix}"
     if suffix == ".csv":
-        path.write_text("time,a,b\n" + "".join(f"{0.001 * k},{k},{-k}\n" for k in range(5)))
+        path.write_text(
+            comment + "time,a,b\n" + "".join(f"{0.001 * k},{k},{-k}\n" for k in range(5))
+        )
     else:
         pyarrow.parquet.write_table(
             pa.table({name: [1.0, 2.0] for name in ("time", "a", "b")}), path

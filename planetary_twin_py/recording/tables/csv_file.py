@@ -1,0 +1,124 @@
+"""Reads CSV as loggers and spreadsheets write it.
+
+Separators are commas, semicolons or tabs; a line may end with one. Lines that start with #, % or //
+are comments. Numbers may have decimal commas unless commas separate.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from typing import BinaryIO
+
+import pyarrow as pa
+import pyarrow.csv
+
+from ...printable import one_line
+from ...units import is_number
+from .unpacking import check_columns
+
+_COMMENT = re.compile(r"^[ \t]*(?:#|%|//).*(?:\r\n?|\n|\Z)", re.MULTILINE)
+_LINE_END = re.compile(r"\r\n?|\n|\Z")
+_LONGEST_LINE = 60  # characters
+
+
+def read_csv(stream: BinaryIO) -> pa.Table:
+    """Read a CSV file.
+
+    Args:
+        stream: contents of the file.
+
+    Returns:
+        The columns as they are named in the first row; columns without a name and a value are left
+        out.
+
+    Raises:
+        UnicodeDecodeError: it is not in UTF-8.
+        ValueError: it has no headings, too many columns, or rows of another length.
+        pyarrow.ArrowException: it cannot be read for another reason.
+    """
+    given = stream.read().decode()
+    text = _without_comments(given)
+    heading, body = _split(text)
+    separator = _separator(heading)
+    heading = _as_wide_as_its_rows(heading, _split(body)[0], separator)
+    names = heading.split(separator)
+    check_columns(len(names))
+    if all(is_number(name) for name in names):
+        raise ValueError("row 1: must have the headings of the columns, such as time [s]")
+    commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
+    text = f"{heading}\n{body}"
+    try:
+        table = pa.csv.read_csv(
+            # By name: threads of Arrow that hold an object of Python may abort the interpreter.
+            stream.name if text == given else _memory(text),
+            parse_options=pa.csv.ParseOptions(delimiter=separator),
+            convert_options=pa.csv.ConvertOptions(decimal_point="," if commas else "."),
+        )
+    except pa.ArrowInvalid:
+        _check_rows(text, separator, len(names))
+        raise
+    empty = {
+        k
+        for k, name in enumerate(table.column_names)
+        if not name.strip() and table.column(k).null_count == len(table)
+    }
+    return table.select([k for k in range(table.num_columns) if k not in empty])
+
+
+def _without_comments(text: str) -> str:
+    """The text without comments; the last one before numbers is the heading, as NumPy writes it."""
+    last, place = "", 0
+    while found := _COMMENT.match(text, place):
+        last, place = found[0], found.end()
+    body = _COMMENT.sub("", text).lstrip("\r\n")
+    first, heading = _split(body)[0], last.strip().lstrip("#%/ ")
+    separator = _separator(heading)
+    numbers = any(map(is_number, first.split(separator)))
+    if last and numbers and first.count(separator) == heading.count(separator):
+        return f"{heading}\n{body}"
+    return body
+
+
+def _split(text: str) -> tuple[str, str]:
+    """The first line and the rest."""
+    first, rest = _LINE_END.split(text, maxsplit=1)
+    return first, rest
+
+
+def _separator(heading: str) -> str:
+    return max(";\t,", key=heading.count)
+
+
+def _as_wide_as_its_rows(heading: str, first: str, separator: str) -> str:
+    """The heading, which ends with a separator if and only if the first row does."""
+    more = first.count(separator) - heading.count(separator)
+    if more == 1 and first.endswith(separator):
+        return heading + separator
+    return heading[:-1] if more == -1 and heading.endswith(separator) else heading
+
+
+def _memory(text: str) -> pa.BufferReader:
+    """The text in memory of Arrow, which no object of Python holds."""
+    data = text.encode()
+    buffer = pa.allocate_buffer(len(data))
+    memoryview(buffer).cast("B")[:] = data
+    return pa.BufferReader(buffer)
+
+
+def _check_rows(text: str, separator: str, width: int) -> None:
+    """Raise `ValueError` that names the first row of another length than `width`, if there is one.
+
+    Raises:
+        ValueError: there is one.
+    """
+    rows = filter(None, csv.reader(io.StringIO(text), delimiter=separator))
+    try:
+        for row, values in enumerate(rows):
+            if len(values) != width:
+                shown = one_line(separator.join(values), _LONGEST_LINE)
+                count = f"{len(values)} value{'' if len(values) == 1 else 's'}"
+                raise ValueError(f"row {row}: has {count}, must have {width}: {shown!r}")
+    except csv.Error:
+        return
