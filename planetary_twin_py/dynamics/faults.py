@@ -32,36 +32,39 @@ def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
     )
 
 
-def build_faults(
-    scene: Scene,
-    tables: Sequence[PairTable],
-    faces: Sequence[FaceMean | None],
-    planets: Sequence[int],
-    phases: np.ndarray,
-) -> dict[str, Any]:
+def fault_factors(
+    scene: Scene, tables: Sequence[PairTable], faces: Sequence[FaceMean | None]
+) -> np.ndarray:
+    """Factors of the faults on the weights of pairs (FAULTS, 2, SEGMENTS, PAIRS, TERMS).
+
+    `faces` have the means over the face of helical teeth.
+    """
+    factors = np.zeros((FAULTS, 2, SEGMENTS, PAIRS, TERMS))
+    for f, fault in enumerate(scene.faults):
+        for kind, (table, face) in enumerate(zip(tables, faces, strict=True)):
+            if kind in _kinds(fault):
+                factor = _factor(scene, fault, kind)
+                factors[f, kind] = along(table, factor) if face is None else face.factors(factor)
+    return factors
+
+
+def build_faults(scene: Scene, planets: Sequence[int], phases: np.ndarray) -> dict[str, Any]:
     """Fields of `Train`, for the sun meshes of `planets` and then their ring meshes.
 
-    `phases` (meshes,) [mesh cycles] of these meshes include whole cycles. `faces` have the means
-    over the face of helical teeth.
+    `phases` (meshes,) [mesh cycles] of these meshes include whole cycles.
     """
     teeth = scene.gearset.tooth_numbers._asdict()
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
-    factors = np.zeros((FAULTS, 2, SEGMENTS, PAIRS, TERMS))
     for f, fault in enumerate(scene.faults):
         for i in range(len(phases)):
             kind, n = divmod(i, len(planets))
             if kind in _kinds(fault) and (fault.gear != "planet" or fault.planet - 1 == planets[n]):
                 pairs[f, i] = _pairs(scene, fault, kind, phases[n] - phases[i])
-        for kind, (table, face) in enumerate(zip(tables, faces, strict=True)):
-            if kind in _kinds(fault):
-                factor = _factor(scene, fault, kind)
-                factors[f, kind] = along(table, factor) if face is None else face.factors(factor)
     return {
         "faults": len(scene.faults),
         "fault_teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),
         "fault_pair": pairs,
         "fault_gap": np.array([f.depth if isinstance(f, Wear) else 0.0 for f in scene.faults]),
-        "fault_factor": factors,
     }
 
 

@@ -1,4 +1,4 @@
-"""Mean stiffness of the two kinds of mesh of a train, with healthy teeth."""
+"""Mean stiffness of the two kinds of mesh, with healthy teeth."""
 
 from __future__ import annotations
 
@@ -6,15 +6,16 @@ import numpy as np
 
 from .._core import TOTAL, Train
 from ..mesh.tooth_pairs import mean_weight
+from .teeth import Teeth
 
 
-def mean_stiffness(train: Train) -> np.ndarray:
+def mean_stiffness(teeth: Teeth | Train) -> np.ndarray:
     """Mean over the mesh cycle [N/m], shape (2,): sun-planet meshes, planet-ring meshes.
 
     Those of a planet have the factor `errors.planet_stiffness` as well.
     """
     mean = [
         mean_weight(edge, weight[:, TOTAL])
-        for edge, weight in zip(train.edge, train.weight, strict=True)
+        for edge, weight in zip(teeth.edge, teeth.weight, strict=True)
     ]
-    return np.asarray(train.stiffness_base + train.stiffness_gain * mean)
+    return np.asarray(teeth.stiffness_base + teeth.stiffness_gain * mean)

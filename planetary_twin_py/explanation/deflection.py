@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.train import build_train, held_axes
+from ..dynamics.teeth import build_teeth
 from ..engineering_units import figure
 from ..quantities import SIDES, side_title
 from ..result import Result
@@ -46,7 +46,7 @@ def deflection_of_scene(scene: Scene) -> str | None:
 
 def _warning(scene: Scene, forces: list[float]) -> str | None:
     """Warn of force over mean stiffness, which leaves out the motion within the backlash."""
-    stiffness = mean_stiffness(build_train(held_axes(scene))).tolist()
+    stiffness = mean_stiffness(build_teeth(scene)).tolist()
     deflections = [force / k if k else 0.0 for force, k in zip(forces, stiffness, strict=True)]
     largest, module = max(deflections), scene.gearset.module
     if not largest > LARGEST * module:

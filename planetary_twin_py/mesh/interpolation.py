@@ -38,12 +38,12 @@ def through(values: np.ndarray) -> np.ndarray:
     """Coefficients of the polynomial through values at `NODES`, lowest first.
 
     Args:
-        values: at the nodes, of the order of one, (TERMS,).
+        values: at the nodes, of the order of one, (..., TERMS).
 
     Returns:
-        Coefficients without rounding errors: a constant has one coefficient, (TERMS,).
+        Coefficients without rounding errors: a constant has one coefficient, (..., TERMS).
     """
-    coefficients = np.zeros(TERMS)
-    for value, basis in zip(values, _BASIS, strict=True):  # in order: a matrix product has none
-        coefficients += value * basis
+    coefficients = np.zeros(values.shape)
+    for k, basis in enumerate(_BASIS):  # in order: a matrix product has none
+        coefficients += values[..., k, None] * basis
     return np.round(coefficients, DECIMALS)

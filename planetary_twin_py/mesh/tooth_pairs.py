@@ -179,16 +179,18 @@ def along(table: PairTable, function: Along) -> np.ndarray:
     terms that has its breakpoints at edges.
     """
     result = np.zeros((SEGMENTS, PAIRS, TERMS))
-    for j, p in zip(*np.nonzero(table.present), strict=True):
-        length = table.edge[j + 1] - table.edge[j]
-        s = table.edge[j] + length * NODES + table.shift[j, p]
-        result[j, p] = through(function(s)) / powers(length)
+    j, _ = place = np.nonzero(table.present)
+    low, length = table.edge[j, None], np.diff(table.edge)[j, None]
+    s = low + length * NODES + table.shift[place][:, None]
+    result[place] = through(function(s.ravel()).reshape(s.shape)) / powers(length)
     return result
 
 
-def powers(length: float) -> np.ndarray:
-    """Powers 0, 1, 2, ... of a length, (TERMS,)."""
-    return np.cumprod(np.append(1.0, np.full(TERMS - 1, length)))
+def powers(length: float | np.ndarray) -> np.ndarray:
+    """Powers 0, 1, 2, ... of lengths (..., 1), (..., TERMS)."""
+    ones = np.ones((*np.shape(length)[:-1], TERMS))
+    ones[..., 1:] = length
+    return np.cumprod(ones, axis=-1)
 
 
 def terms_in_use(table: PairTable) -> int:

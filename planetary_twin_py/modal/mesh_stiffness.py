@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from ..dynamics.mean_stiffness import mean_stiffness
 from ..dynamics.stiffness_laws import stiffness_laws
-from ..dynamics.train import build_train, held_axes
+from ..dynamics.teeth import build_teeth
 from ..scene import Scene
 
 STIFFNESSES = ("single", "mean")
@@ -40,5 +40,5 @@ def mesh_stiffness(scene: Scene, stiffness: str) -> MeshStiffness:
     if stiffness == "single":
         return MeshStiffness(*(law.single for law in stiffness_laws(scene)))
     if stiffness == "mean":
-        return MeshStiffness(*mean_stiffness(build_train(held_axes(scene))).tolist())
+        return MeshStiffness(*mean_stiffness(build_teeth(scene)).tolist())
     raise ValueError(f"stiffness = {stiffness!r}: must be one of {', '.join(STIFFNESSES)}")

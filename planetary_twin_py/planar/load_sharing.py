@@ -14,14 +14,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import TERMS, TOTAL, Train
+from .._core import TERMS, TOTAL
 from .._core.axes import RollingBearing
 from ..dynamics.bodies import rigid_ratios
 from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
 from ..dynamics.rolling_bearings import largest_element_load, rolling_bearing
 from ..dynamics.static_load import mesh_force
-from ..dynamics.train import build_train
+from ..dynamics.teeth import Teeth, build_teeth
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..runaway import displacement_limit
 from ..scene import Scene, SceneError
@@ -294,25 +294,25 @@ def _harmonic_errors(scene: Scene, turns: np.ndarray) -> np.ndarray:
 
 def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
     """Stiffness of each mesh on the flanks of one side [N/m], (P, meshes)."""
-    train, planets = build_train(scene), scene.gearset.planets
+    teeth, planets = build_teeth(scene), scene.gearset.planets
     kinds = np.repeat([0, 1], planets)
     lead = np.array([mesh.coast_lead for mesh in scene.gearset.geometry.meshes])[kinds]
     cycles = side * _mesh_cycles(scene, turns) + (lead if side == COAST else 0.0)
     fractions = cycles - np.floor(cycles)
-    nominal = [_mesh_stiffness(train, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
+    nominal = [_mesh_stiffness(teeth, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
     factors = [scene.errors.of_planet(i).stiffness for i in range(planets)]
     return np.column_stack(nominal) * np.tile(factors, 2)
 
 
-def _mesh_stiffness(train: Train, kind: int, fraction: np.ndarray) -> np.ndarray:
+def _mesh_stiffness(teeth: Teeth, kind: int, fraction: np.ndarray) -> np.ndarray:
     """Stiffness of a mesh with healthy teeth [N/m], at fractions of the mesh cycle."""
-    segments = int(train.segments[kind])
-    edge = train.edge[kind][: segments + 1]
+    segments = int(teeth.segments[kind])
+    edge = teeth.edge[kind][: segments + 1]
     fraction = edge[0] + np.mod(fraction - edge[0], 1.0)
     segment = np.clip(np.searchsorted(edge, fraction, side="right") - 1, 0, segments - 1)
     powers = (fraction - edge[segment])[:, None] ** np.arange(TERMS)
-    weight = np.sum(train.weight[kind][segment, TOTAL] * powers, axis=1)
-    return np.asarray(train.stiffness_base[kind] + train.stiffness_gain[kind] * weight)
+    weight = np.sum(teeth.weight[kind][segment, TOTAL] * powers, axis=1)
+    return np.asarray(teeth.stiffness_base[kind] + teeth.stiffness_gain[kind] * weight)
 
 
 def _assemble_result(

@@ -157,7 +157,7 @@ def _energy(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
 def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
     """Stiffness matrix of all contacts [N/m], (P, n, n)."""
     touching = springs.contact_stiffness * (q @ springs.contact.T > springs.gap)
-    matrix = np.einsum("pf,fn,fm->pnm", touching, springs.contact, springs.contact)
+    matrix = (springs.contact.T * touching[:, None, :]) @ springs.contact
     eccentricity = eccentricities(springs, q)
     size = np.linalg.norm(eccentricity, axis=-1)
     unit = eccentricity / np.maximum(size, SMALLEST)[..., None]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.train import build_train, held_axes
+from ..dynamics.teeth import build_teeth
 from ..planar.rows import COAST, DRIVE
 from ..scene import Scene
 from .rows import row_of_scene
@@ -28,7 +28,7 @@ def uneven_deflection(scene: Scene, run: Result) -> float:
     if run.axes is None or run.axes.tilting is None or not len(run.time):
         return 0.0
     tilt, planets = run.axes.tilting.tilt.mean(axis=0), scene.gearset.planets
-    stiffness = mean_stiffness(build_train(held_axes(scene)))
+    stiffness = mean_stiffness(build_teeth(scene))
     worst = 0.0
     for mesh, force in enumerate(run.mesh["mesh_force_mean"]):
         if force == 0.0:

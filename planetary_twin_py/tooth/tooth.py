@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +76,7 @@ class Tooth:
         """
         pitch = 2.0 * math.pi / self.gear.teeth
         body = GearBody(self.held, self.profile.root_half_angle, self.material.poisson_ratio)
-        matrix = body.compliance(teeth * pitch)
+        matrix = _root_compliance(body, teeth * pitch)
         here, there = self._on_root(radius), self._on_root(loaded)
         return np.einsum("jm,jk,km->m", here, matrix, there) / self.material.youngs_modulus
 
@@ -87,3 +87,8 @@ class Tooth:
         middle = math.sin(half) / half - math.cos(half)  # height of the arc above its chord
         arm = crossing / self.gear.root_radius - (-middle if self.gear.internal else middle)
         return np.array([arm * np.cos(angle), np.cos(angle), np.sin(angle)])
+
+
+@lru_cache(maxsize=64)  # series of a thousand terms, the same at all positions and loads
+def _root_compliance(body: GearBody, neighbour: float) -> Floats:
+    return body.compliance(neighbour)
