@@ -98,7 +98,7 @@ def crack_factor(scene: Scene, crack: Crack, kind: int) -> Along:
 
 def _tooth_law(scene: Scene, pair: ToothPair) -> StiffnessLaw:
     width = scene.gearset.face_width
-    return tooth_stiffness(lambda s: pair.stiffness(s, width), pair.shared_body_factor)
+    return tooth_stiffness(lambda s: pair.stiffness(s, width), pair.path, pair.shared_body_factor)
 
 
 def _contact(scene: Scene) -> ContactLaw:

@@ -15,7 +15,7 @@ LARGEST_EXPONENT = 200.0  # beyond, the limiting stress has long been reached
 
 
 class TypicalPair(NamedTuple):
-    """A tooth pair with the whole mesh force and the radii of curvature of the pitch point."""
+    """A tooth pair with the whole mesh force and the radii of curvature next to the pitch point."""
 
     rho1: float  # radii of curvature [m]
     rho2: float
@@ -40,7 +40,7 @@ def friction_figures(
         scene: the scene.
         kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
         loaded: force of the mesh [N], negative on the coast flanks, and the largest Hertz pressure
-            of one pair at the pitch point under this force [Pa].
+            of one pair under this force, see `pitch_pressure` [Pa].
         frequency: mesh frequency [Hz].
 
     Returns:
@@ -55,8 +55,12 @@ def friction_figures(
         for law in ("eyring", "evans_johnson", "schlenk")
     }
     power = scene.gearset.planets * abs(force) * mesh.base_pitch * frequency
-    speed = frequency * mesh.rolling_advance
-    pair = TypicalPair(*mesh.curvatures, -1.0 if mesh.internal else 1.0, speed, abs(force))
+    curvatures, gears = mesh.curvatures_at(mesh.path.nearest), (mesh.first, mesh.second)
+    speed = sum(
+        math.pi * frequency * radius / gear.teeth
+        for radius, gear in zip(curvatures, gears, strict=True)
+    )
+    pair = TypicalPair(*curvatures, -1.0 if mesh.internal else 1.0, speed, abs(force))
     shear = _shear_number(scene, pair, 0.25 * math.pi * peak)
     plateau = shear >= 1.0 and _has_plateau(scene, pair)
     return {

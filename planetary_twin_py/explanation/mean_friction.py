@@ -87,8 +87,7 @@ def contacts_of(scene: Scene, kind: int, force: float, frequency: float) -> Cont
     loaded = pairs.load > 0.0
     position, face, load = pairs.position[loaded], pairs.face[loaded], pairs.load[loaded]
     spin = 2.0 * math.pi * frequency / first, -external * 2.0 * math.pi * frequency / second
-    rho1 = mesh.curvatures[0] + mesh.base_pitch * position
-    rho2 = mesh.curvatures[1] - external * mesh.base_pitch * position
+    rho1, rho2 = mesh.curvatures_at(position)
     motion = [
         (float(r1), float(r2), external, *spin, float(line))
         for r1, r2, line in zip(rho1, rho2, load / face, strict=True)

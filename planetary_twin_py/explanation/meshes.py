@@ -35,14 +35,14 @@ class MeshFigures(NamedTuple):
         float  # by profile shift and centre distance alone, along the line of action [m]
     )
     tip_clearances: tuple[float, float]  # of the tips of both gears from the mating root [m]
-    single_stiffness: float  # of one pair, about the pitch point [N/m]
+    single_stiffness: float  # largest of one pair on its path of contact [N/m]
     mean_stiffness: float  # over the mesh cycle [N/m]
     natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
     damping_ratio: float  # of this mode at the operating point [-]
     static_force: float  # mean under the torque of the operating point, without friction [N]
     axial_force: float  # of helical teeth under the same [N]
     pitch_pressure: (
-        float  # largest Hertz pressure at the pitch point, static force on one pair [Pa]
+        float  # largest Hertz pressure at or next to the pitch point, force on one pair [Pa]
     )
     # H_v (Ohlendorf 1958): relative loss = H_v times mean friction coefficient [-].
     loss_factor: float  # pairs in contact share the load equally

@@ -18,10 +18,10 @@ GPa at 2 GPa."""
 
 
 def pitch_pressure(scene: Scene, force: float, kind: int) -> float:
-    """Largest pressure of one pair at the pitch point.
+    """Largest pressure of one pair at the pitch point, or where its path is nearest to that.
 
-    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha),
-    over cos(beta_b) of helical teeth, with the same load per length of their contact lines.
+    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature is that of the
+    transverse section over cos(beta_b), with the same load per length of their contact lines.
 
     Args:
         scene: the scene.
@@ -32,8 +32,9 @@ def pitch_pressure(scene: Scene, force: float, kind: int) -> float:
         The pressure [Pa].
     """
     gearset, oil = scene.gearset, scene.lubrication
-    first, second = gearset.geometry.meshes[kind].curvatures
-    radius = 1.0 / (1.0 / first + (-1.0 if kind == 1 else 1.0) / second)
+    mesh = gearset.geometry.meshes[kind]
+    first, second = mesh.curvatures_at(mesh.path.nearest)
+    radius = 1.0 / (1.0 / first + (-1.0 if mesh.internal else 1.0) / second)
     radius /= math.cos(gearset.base_helix)
     modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
     width = gearset.face_width
@@ -74,8 +75,8 @@ def _warning(scene: Scene, forces: list[float]) -> str | None:
         return None
     side = side_title(SIDES[pressures.index(largest)])
     return (
-        f"Hertz pressure = {1e-9 * largest:.3g} GPa in the {side} meshes, one pair at the pitch "
-        f"point: no law of friction is compared above {1e-9 * LARGEST:g} GPa, where hardened steel "
-        "begins to yield, so friction, losses and efficiency are extrapolated; reduce the torque, "
-        "or check gearset.face_width and gearset.module"
+        f"Hertz pressure = {1e-9 * largest:.3g} GPa in the {side} meshes, one pair at or next "
+        f"to the pitch point: no law of friction is compared above {1e-9 * LARGEST:g} GPa, where "
+        "hardened steel begins to yield, so friction, losses and efficiency are extrapolated; "
+        "reduce the torque, or check gearset.face_width and gearset.module"
     )

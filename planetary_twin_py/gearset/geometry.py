@@ -24,6 +24,11 @@ class PathOfContact(NamedTuple):
         """Mean number of tooth pairs in contact."""
         return self.approach + self.recess
 
+    @property
+    def nearest(self) -> float:
+        """Position nearest to the pitch point, which shifted gears may have beyond an end."""
+        return min(max(0.0, -self.approach), self.recess)
+
 
 def pitch_radius(teeth: int, module: float) -> float:
     """Pitch radius m z/2 [m].

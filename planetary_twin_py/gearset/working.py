@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .geometry import (
     PathOfContact,
@@ -18,6 +20,8 @@ from .geometry import (
 )
 from .involute import SpurGear
 from .shift import involute, working_angle
+
+Position = TypeVar("Position", float, NDArray[np.float64])
 
 ROUNDING = 1e-12  # relative error of sums of shifts and angles
 
@@ -100,6 +104,15 @@ class WorkingMesh:
         """Radii of curvature of both flanks at the pitch point, r_w sin(a_w) [m]."""
         sine = math.sin(self.pressure_angle)
         return self.pitch_radii[0] * sine, self.pitch_radii[1] * sine
+
+    def curvatures_at(self, position: Position) -> tuple[Position, Position]:
+        """Radii of curvature of both flanks in contact [m].
+
+        Args:
+            position: of the contact after the pitch point [base pitches], any shape.
+        """
+        (first, second), moved = self.curvatures, self.base_pitch * position
+        return first + moved, second + (moved if self.internal else -moved)
 
     @property
     def rolling_advance(self) -> float:

@@ -9,7 +9,7 @@ The mesh stiffness is base + gain * (sum of the weights), shared in the ratio of
   base = (2 - r) k, gain = (r - 1) k (r = 1.75 is the slope of ISO 6336-1, c_gamma over the contact
   ratio; a ramp of zero is the single/double alternation of Salagianni et al. 2017, Fig. 4);
 - stiffness computed for every position of a pair: its strength is proportional to this stiffness,
-  base = 0, gain = stiffness at the pitch point. The stiffness of two pairs on one gear body is
+  base = 0, gain = largest stiffness on the path. The stiffness of two pairs on one gear body is
   their sum times the factor `sharing`, which multiplies their weights.
 """
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py._core import TOTAL
+from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
 from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.explanation.meshes import describe_meshes
 
@@ -115,6 +117,66 @@ def test_working_angles_decide_hertz_pressure_film_and_sliding():
         assert mesh.pitch_pressure == pytest.approx(
             math.sqrt(line * modulus * curvature / math.pi), rel=1e-9
         )
+
+
+# Second stage of the same gearbox: the path of contact of planet and ring ends 0.012 base pitches
+# from the pitch point.
+OFF = STAGE.replace(
+    **{
+        "gearset.teeth": {"sun": 18, "planet": 36, "ring": 93},
+        "gearset.module": 0.021,
+        "gearset.profile_shift": {"sun": 0.389, "planet": 0.504, "ring": 0.117},
+        "gearset.centre_distance": 0.584,
+        "gearset.face_width": 0.55,
+        "input_torque": 1.06e6,
+    }
+)
+
+
+def test_one_pair_has_the_largest_stiffness_of_its_path_that_may_not_reach_the_pitch_point():
+    """c' of ISO 6336-1, its maximum: it is that of the modes and of the damping."""
+    figures, width = describe_meshes(OFF).planet_ring, OFF.gearset.face_width
+    assert min(figures.approach, figures.recess) == pytest.approx(-0.012, abs=1e-4)
+    train = build_train(OFF)
+    carried = [
+        train.stiffness_gain[1] * train.weight[1, j, TOTAL, 0]
+        for j in range(train.segments[1])
+        if train.present[1, j] == 1
+    ]
+    assert max(carried) <= figures.single_stiffness < 1.02 * max(carried)
+    pair = tooth_pairs(OFF)[1]
+    path = np.linspace(-pair.path.approach, pair.path.recess, 5001)
+    stiffness = pair.stiffness(path, width)
+    assert figures.single_stiffness == pytest.approx(stiffness.max(), rel=1e-5)
+    assert figures.single_stiffness > 1.4 * pair.stiffness(np.zeros(1), width)[0]
+    time = train.damping_time[1] * 2.0 * math.pi * figures.natural_frequency
+    assert 0.5 * time == pytest.approx(OFF.mesh.damping.damping_ratio)
+    given = {"mesh.stiffness": "given", "mesh.sun_planet_stiffness": train.stiffness[0],
+             "mesh.planet_ring_stiffness": stiffness.max()}  # fmt: skip
+    modes, expected = (pt.natural_modes(scene).frequencies for scene in (OFF, OFF.replace(**given)))
+    assert modes == pytest.approx(expected, rel=1e-5, abs=1e-6)
+
+
+@pytest.mark.parametrize("shift, tip", [(0.0, 1.906), (0.6, 1.94)])
+def test_hertz_pressure_is_that_of_the_end_of_a_path_that_does_not_reach_the_pitch_point(
+    shift, tip
+):
+    """The planets touch the ring's tips there: rho = sqrt(r_a^2 - r_b^2), a sin(a_w) less."""
+    scene = OFF.replace(**{
+        "gearset.profile_shift": {"sun": 0.389 - shift, "planet": 0.504 + shift,
+                                  "ring": 0.117 - shift},
+        "gearset.tip_diameter": {"ring": tip},
+    })  # fmt: skip
+    figures, oil = describe_meshes(scene).planet_ring, scene.lubrication
+    assert min(figures.approach, figures.recess) < 0.0
+    base = 0.5 * 0.021 * 93 * math.cos(math.radians(20.0))
+    ring = math.sqrt(0.25 * tip**2 - base**2)
+    cosine = 0.5 * 0.021 * (93 - 36) * math.cos(math.radians(20.0)) / 0.584
+    planet = ring - 0.584 * math.sin(math.acos(cosine))
+    modulus = 0.5 * oil.youngs_modulus / (1.0 - oil.poisson_ratio**2)
+    line = figures.static_force / scene.gearset.face_width
+    expected = math.sqrt(line * modulus * (1.0 / planet - 1.0 / ring) / math.pi)
+    assert figures.pitch_pressure == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("flow", FLOWS[:2], ids=str)

@@ -16,7 +16,7 @@ OVERLAPS = pytest.mark.parametrize("overlap", [0.05, 0.446, 1.0, 1.9951, 3.1])
 RAMPS = pytest.mark.parametrize("ramp", [0.0, 0.03])
 SLICES = 20001
 GIVEN = given_stiffness(2e8, 1.75)
-TEETH = tooth_stiffness(lambda s: 2e8 * (1.0 - 0.2 * s**2), 0.9)
+TEETH = tooth_stiffness(lambda s: 2e8 * (1.0 - 0.2 * s**2), PATH, 0.9)
 
 
 def total(table, cycle):
