@@ -69,7 +69,7 @@ def displacement_limit(scene: Scene) -> Limit:
     Args:
         scene: scene with supports.
     """
-    names, module = bearing_names(scene), scene.gearset.module
+    names, module = bearing_names(scene), scene.gearset.transverse.module
     return Limit(
         "displacement",
         "m",

@@ -127,8 +127,8 @@ def _test() -> LostMotion:
 def _pin_lever(scene: pt.Scene) -> float:
     """Distance that turns a DTE of both meshes of a planet into an angle of the carrier [m]."""
     gears = scene.gearset
-    centre = 0.5 * gears.module * (gears.teeth.sun + gears.teeth.planet)
-    return float(centre * np.cos(gears.pressure_angle))
+    centre = 0.5 * gears.transverse.module * (gears.teeth.sun + gears.teeth.planet)
+    return float(centre * np.cos(gears.transverse.pressure_angle))
 
 
 def _twist(scene: pt.Scene, torque: float) -> float:

@@ -68,9 +68,9 @@ def degrees_of_freedom(evidence: Evidence) -> Entry:
 def _draw(scene: Scene) -> Figure:
     figure, axes = panels(3, 3.2)
     sun, planet, ring = (
-        1e3 * pitch_radius(z, scene.gearset.module) for z in scene.gearset.tooth_numbers
+        1e3 * pitch_radius(z, scene.gearset.transverse.module) for z in scene.gearset.tooth_numbers
     )
-    angle, arm = scene.gearset.pressure_angle, sun + planet
+    angle, arm = scene.gearset.transverse.pressure_angle, sun + planet
     titles = ("a) sun-planet", "b) ring-planet", "c) planet-carrier")
     for place, title in zip(axes, titles, strict=True):
         drawing(place).set_title(title, loc="center")

@@ -36,7 +36,9 @@ def meshing_cycle(evidence: Evidence) -> Entry:
     gearset = scene.gearset
     paths = (sun_planet_path, planet_ring_path)
     ratios = [
-        path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum).contact_ratio
+        path(
+            gearset.tooth_numbers, gearset.transverse.pressure_angle, gearset.addendum
+        ).contact_ratio
         for path in paths
     ]
     levels = [len(np.unique(np.round(k, -3))) for k in cycle]

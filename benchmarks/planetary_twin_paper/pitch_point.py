@@ -55,13 +55,16 @@ def at_pitch_point(scene: Scene, kind: int) -> Contact:
         Film and friction.
     """
     gearset = scene.gearset
-    teeth, sine = gearset.tooth_numbers, math.sin(gearset.pressure_angle)
+    teeth, sine = gearset.tooth_numbers, math.sin(gearset.transverse.pressure_angle)
     first, second = ((teeth.sun, teeth.planet), (teeth.planet, teeth.ring))[kind]
     external = 1.0 if kind == SUN else -1.0
     speed = external * scene.operating_point.input_speed * teeth.sun / first
     return contact(
         scene,
-        (pitch_radius(first, gearset.module) * sine, pitch_radius(second, gearset.module) * sine),
+        (
+            pitch_radius(first, gearset.transverse.module) * sine,
+            pitch_radius(second, gearset.transverse.module) * sine,
+        ),
         (speed, -external * speed * first / second),
         external,
     )

@@ -20,8 +20,11 @@ def planet_forces(evidence: Evidence) -> Entry:
     """Figure 9."""
     ours, printed = (_forces(study) for study in (evidence.study, evidence.printed_study))
     gearset = evidence.scene.gearset
-    sine, cosine = math.sin(gearset.pressure_angle), math.cos(gearset.pressure_angle)
-    arm = pitch_radius(gearset.teeth.planet, gearset.module) * cosine
+    sine, cosine = (
+        math.sin(gearset.transverse.pressure_angle),
+        math.cos(gearset.transverse.pressure_angle),
+    )
+    arm = pitch_radius(gearset.teeth.planet, gearset.transverse.module) * cosine
     parts = {"tangential": cosine, "radial": sine, "total": 1.0, "torque": arm}
     mean, largest = ours["mean"].mean(), ours["largest"].mean(axis=(0, 1))
     speeds = evidence.study.grid.speeds

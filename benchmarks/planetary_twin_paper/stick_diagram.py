@@ -139,7 +139,9 @@ def _draw(scene: Scene) -> Figure:
 
 def _front(axes: Axes, scene: Scene) -> None:
     """Pitch circles seen along the axis [mm]."""
-    sun, planet, ring = (1e3 * pitch_radius(z, scene.gearset.module) for z in _teeth(scene))
+    sun, planet, ring = (
+        1e3 * pitch_radius(z, scene.gearset.transverse.module) for z in _teeth(scene)
+    )
     axes.add_patch(Circle((0, 0), ring, fill=False, color=GREEN, lw=2))
     axes.add_patch(Circle((0, 0), sun, fill=False, color=BLUE, lw=2))
     for i, angle in enumerate(scene.gearset.planet_angles, 1):
@@ -161,7 +163,9 @@ def _front(axes: Axes, scene: Scene) -> None:
 
 def _section(axes: Axes, scene: Scene) -> None:
     """Upper half of the axial section as a stick diagram [mm]; axial lengths are arbitrary."""
-    sun, planet, ring = (1e3 * pitch_radius(z, scene.gearset.module) for z in _teeth(scene))
+    sun, planet, ring = (
+        1e3 * pitch_radius(z, scene.gearset.transverse.module) for z in _teeth(scene)
+    )
     arm = sun + planet
     axes.plot([-34, 34], [0, 0], color="black", lw=0.8, ls="-.")
     axes.plot([-30, 0, 0], [0, 0, sun], color=BLUE, lw=2.5)

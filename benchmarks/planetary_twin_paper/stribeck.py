@@ -96,9 +96,10 @@ def _curve(scene: Scene) -> Curve:
 def _point(scene: Scene, speed: float) -> tuple[float, float]:
     """Lambda ratio and friction coefficient at a mean surface speed [m/s]."""
     gearset = scene.gearset
-    sine = math.sin(gearset.pressure_angle)
+    sine = math.sin(gearset.transverse.pressure_angle)
     first, second = (
-        pitch_radius(z, gearset.module) * sine for z in (gearset.teeth.sun, gearset.teeth.planet)
+        pitch_radius(z, gearset.transverse.module) * sine
+        for z in (gearset.teeth.sun, gearset.teeth.planet)
     )
     fast, slow = (speed * (1.0 + sign * 0.5 * SLIDE_TO_ROLL) for sign in (1.0, -1.0))
     found = contact(scene, (first, second), (fast / first, -slow / second), 1.0)

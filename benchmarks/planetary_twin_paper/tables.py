@@ -26,24 +26,24 @@ def _row(values: dict[str, float], unit: str = "", scale: float = 1.0) -> str:
 def geometry(evidence: Evidence) -> Entry:
     """Table 2."""
     gearset = evidence.scene.gearset
-    teeth, angle = gearset.tooth_numbers, math.degrees(gearset.pressure_angle)
-    radii = [1e3 * pitch_radius(z, gearset.module) for z in teeth]
+    teeth, angle = gearset.tooth_numbers, math.degrees(gearset.transverse.pressure_angle)
+    radii = [1e3 * pitch_radius(z, gearset.transverse.module) for z in teeth]
     ratios = [
-        path(teeth, gearset.pressure_angle, gearset.addendum).contact_ratio
+        path(teeth, gearset.transverse.pressure_angle, gearset.addendum).contact_ratio
         for path in (sun_planet_path, planet_ring_path)
     ]
     stated = (30, 20, 70, 0.8e-3, 21.34)
-    ours = (*teeth, gearset.module, angle)
+    ours = (*teeth, gearset.transverse.module, angle)
     radii_text = "/".join(f"{r:g}" for r in radii)
-    base_text = "/".join(f"{r * math.cos(gearset.pressure_angle):.4f}" for r in radii)
+    base_text = "/".join(f"{r * math.cos(gearset.transverse.pressure_angle):.4f}" for r in radii)
     return Entry(
         number="Table 2",
         title="geometry",
         claims=(
             Claim(
                 says="30/20/70 teeth (sun/planet/ring), module 0.8 mm, pressure angle 21.34 deg",
-                ours=f"{teeth.sun}/{teeth.planet}/{teeth.ring}, {1e3 * gearset.module:g} mm, "
-                f"{angle:g} deg",
+                ours=f"{teeth.sun}/{teeth.planet}/{teeth.ring}, "
+                f"{1e3 * gearset.transverse.module:g} mm, {angle:g} deg",
                 holds=agrees(ours, stated),
                 kind="number",
             ),
@@ -109,13 +109,16 @@ def masses(evidence: Evidence) -> Entry:
     """Table 4."""
     gearset, mesh = evidence.scene.gearset, evidence.scene.mesh
     ours, printed = (_masses(scene) for scene in (evidence.scene, evidence.printed))
-    cosine = math.cos(gearset.pressure_angle)
+    cosine = math.cos(gearset.transverse.pressure_angle)
     teeth = gearset.tooth_numbers
-    pitch = {name: 2.0 * pitch_radius(z, gearset.module) for name, z in teeth._asdict().items()}
-    pitch["carrier"] = 2.0 * pitch_radius(teeth.sun + teeth.planet, gearset.module)
+    pitch = {
+        name: 2.0 * pitch_radius(z, gearset.transverse.module)
+        for name, z in teeth._asdict().items()
+    }
+    pitch["carrier"] = 2.0 * pitch_radius(teeth.sun + teeth.planet, gearset.transverse.module)
     base = {name: cosine * diameter for name, diameter in pitch.items()}
     stiffness = (mesh.sun_planet_stiffness or 0.0, mesh.planet_ring_stiffness or 0.0)
-    slim = _least_ring_inertia(gearset.module * teeth.ring / 2, gearset.face_width)
+    slim = _least_ring_inertia(gearset.transverse.module * teeth.ring / 2, gearset.face_width)
     return Entry(
         number="Table 4",
         title="masses, inertias, stiffness",

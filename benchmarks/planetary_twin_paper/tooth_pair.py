@@ -56,7 +56,10 @@ def _outlines(scene: Scene, backlash: float) -> tuple[np.ndarray, np.ndarray]:
     action. The planet is rotated until its driven flanks contact those of the sun.
     """
     gearset = scene.gearset
-    teeth, data = gearset.tooth_numbers, (gearset.module, gearset.pressure_angle, gearset.addendum)
+    teeth, data = (
+        gearset.tooth_numbers,
+        (gearset.transverse.module, gearset.transverse.pressure_angle, gearset.addendum),
+    )
     first, second = SpurGear(teeth.sun, *data), SpurGear(teeth.planet, *data)
     sun_angle = -0.5 * math.pi / teeth.sun  # its leading flank at the pitch point
     angle = mount_angle(teeth.planet, math.pi, Mate(teeth.sun, sun_angle, 0.0))
@@ -72,8 +75,9 @@ def _thinned(gear: SpurGear, angle: float) -> np.ndarray:
     tooth = gear.tooth(POINTS)
     pitch, own = 2.0 * math.pi / gear.teeth, len(tooth) - 3  # the last three are the root's
     tooth[:own, 1] -= angle * np.sign(tooth[:own, 1])
-    outline = np.tile(tooth, (gear.teeth, 1))
-    outline[:, 1] += np.repeat(pitch * np.arange(gear.teeth), len(tooth))
+    teeth = np.arange(gear.teeth)
+    outline = np.tile(tooth, (len(teeth), 1))
+    outline[:, 1] += np.repeat(pitch * teeth, len(tooth))
     return outline
 
 
@@ -84,14 +88,14 @@ def _cartesian(polar: np.ndarray, angle: float) -> np.ndarray:
 
 def _line(scene: Scene, side: float) -> np.ndarray:
     """Direction of the line of action on which the sun pushes with one side of its teeth."""
-    angle = scene.gearset.pressure_angle
+    angle = scene.gearset.transverse.pressure_angle
     return np.array([math.sin(angle), side * math.cos(angle)])
 
 
 def _gap(sun: np.ndarray, planet: np.ndarray, scene: Scene, side: float) -> float:
     """Gap between the flanks nearest to the pitch point on a line of action [m]."""
     along = _line(scene, side)
-    reach = 2.0 * scene.gearset.module  # more than half a base pitch
+    reach = 2.0 * scene.gearset.transverse.module  # more than half a base pitch
     gaps = [
         b - a
         for a in _crossings(sun, along, 1.0)
@@ -117,7 +121,9 @@ def _draw(sun: np.ndarray, planet: np.ndarray, scene: Scene) -> Figure:
         _teeth(drawing(axes), sun, planet, scene, reach)
     wide.set_title("sun (left) and planet", loc="center")
     near.set_title(f"at the pitch point, gap enlarged {ENLARGED:g} times", loc="center")
-    away = 500.0 * base_pitch(scene.gearset.module, scene.gearset.pressure_angle)  # half of one
+    away = 500.0 * base_pitch(
+        scene.gearset.transverse.module, scene.gearset.transverse.pressure_angle
+    )  # half of one
     for text, point, place in (
         ("contact", (0.0, 0.0), (-1.55, 0.3)),
         ("gap B", tuple(away * _line(scene, COAST)), (-1.55, -1.0)),

@@ -133,6 +133,7 @@ _MESH_ROWS = (
     ("clearance of both tips from the mating root", "m"),
     ("stiffness of one pair, largest on its path", "N/m"),
     ("stiffness, mean over the mesh cycle", "N/m"),
+    ("the same of solid discs by ISO 6336-1, c_gamma", "N/m"),
     ("natural frequency of the two gears alone, one pair in contact", "Hz"),
     ("damping ratio of this mode", ""),
     ("static mesh force", "N"),

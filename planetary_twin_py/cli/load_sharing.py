@@ -119,7 +119,7 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     for heading in ("member", "bearing", "largest displacement", "orbit", "largest bearing force"):
         table.add_column(heading, justify="right")
     largest_force = float(found.mesh_force.max())
-    size = scene.gearset.module  # of the lengths that displacements change
+    size = scene.gearset.transverse.module  # of the lengths that displacements change
     for k, body in enumerate(CENTRAL):
         moved = found.displacement[:, k]
         displaced = float(np.linalg.norm(moved, axis=1).max())

@@ -60,7 +60,7 @@ def rim_masses(scene: Scene) -> dict[str, float]:
     """J/r^2 [kg] of each kind of body, with the r of `base_radii`."""
     gearset = scene.gearset
     mass = gearset.rim_masses
-    slant = 1.0 / math.cos(gearset.pressure_angle) ** 2  # (pitch radius/base radius)^2
+    slant = 1.0 / math.cos(gearset.transverse.pressure_angle) ** 2  # (pitch radius/base radius)^2
     # The mass of the planets turns with the carrier, unless they move on it.
     carried = mass.carrier
     if not scene.moving_axes:

@@ -25,7 +25,7 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
     """
     control, mesh = scene.drive.speed_control, scene.mesh
     gains = speed_loop_gains(scene, train, bandwidth(scene))
-    half_backlash_factor, least = mesh.flanks(1.0, scene.gearset.pressure_angle)
+    half_backlash_factor, least = mesh.flanks(1.0, scene.gearset.transverse.pressure_angle)
     started, torques = control.start_speed, parts(scene)
     return PointLaws(
         constant=Load(

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..gearset.involute import SpurGear
+from ..gearset.normal_plane import normal_angle, virtual_gear
 from ..mesh.stiffness import DIGITS, StiffnessLaw, given_stiffness, tooth_stiffness
 from ..mesh.tip_relief import PairGap, Relief
 from ..mesh.tooth_pairs import Along
@@ -34,7 +36,7 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
     if mesh.stiffness == "involute":
         first, second = (_tooth_law(scene, pair) for pair in tooth_pairs(scene))
         return first, second
-    along = math.cos(scene.gearset.pressure_angle) if mesh.motion == "pitch_arc" else 1.0
+    along = math.cos(scene.gearset.transverse.pressure_angle) if mesh.motion == "pitch_arc" else 1.0
     ratio = mesh.double_pair_ratio
     assert mesh.sun_planet_stiffness is not None and mesh.planet_ring_stiffness is not None
     return (
@@ -70,18 +72,35 @@ def loaded_force(scene: Scene) -> float:
 
 
 def tooth_pairs(scene: Scene) -> tuple[ToothPair, ToothPair]:
-    """Healthy pairs of sun and planet, and of planet and ring."""
-    gears, oil, how = scene.gearset.geometry, scene.lubrication, scene.mesh.tooth
-    material, contact = Material(oil.youngs_modulus, oil.poisson_ratio), _contact(scene)
-    sun, planet, ring = (
-        Tooth(gear, material, how.rim if gear.internal else how.hub)
-        for gear in (gears.sun, gears.planet, gears.ring)
+    """Healthy pairs of sun and planet, and of planet and ring.
+
+    Those of helical teeth are the pairs of their virtual spur gears in the normal plane, in which
+    radii of curvature are rho_t/cos(beta_b).
+    """
+    gears, contact, helix = scene.gearset.geometry, _contact(scene), scene.gearset.helix_angle
+    sun, planet, ring = (_tooth(scene, gear) for gear in (gears.sun, gears.planet, gears.ring))
+    slant = math.cos(scene.gearset.base_helix)
+    sun_planet, planet_ring = (
+        ToothPair(
+            first,
+            second,
+            mesh.path,
+            contact,
+            angle=normal_angle(mesh.pressure_angle, helix),
+            pitch=mesh.base_pitch / slant,
+        )
+        for first, second, mesh in zip((sun, planet), (planet, ring), gears.meshes, strict=True)
     )
-    sun_planet, planet_ring = gears.meshes
-    return (
-        ToothPair(sun, planet, sun_planet.path, contact, angle=sun_planet.pressure_angle),
-        ToothPair(planet, ring, planet_ring.path, contact, angle=planet_ring.pressure_angle),
-    )
+    return sun_planet, planet_ring
+
+
+def _tooth(scene: Scene, gear: SpurGear) -> Tooth:
+    """A tooth in its normal plane, on a body as thick as in the transverse plane."""
+    oil, how = scene.lubrication, scene.mesh.tooth
+    virtual = virtual_gear(gear, scene.gearset.helix_angle)
+    thickness = (how.rim if gear.internal else how.hub) - 1.0
+    held = 1.0 + thickness * (gear.root_radius / virtual.root_radius)
+    return Tooth(virtual, Material(oil.youngs_modulus, oil.poisson_ratio), held)
 
 
 def crack_factor(scene: Scene, crack: Crack, kind: int) -> Along:
@@ -97,7 +116,9 @@ def crack_factor(scene: Scene, crack: Crack, kind: int) -> Along:
 
 
 def _tooth_law(scene: Scene, pair: ToothPair) -> StiffnessLaw:
-    width = scene.gearset.face_width
+    # A slice of the width dz has a contact line of dz/cos(beta_b). In the transverse plane, its
+    # force is that of the normal plane times cos(beta_b), and its approach that over cos(beta_b).
+    width = scene.gearset.face_width * math.cos(scene.gearset.base_helix)
     return tooth_stiffness(lambda s: pair.stiffness(s, width), pair.path, pair.shared_body_factor)
 
 

@@ -48,7 +48,7 @@ def _warning(scene: Scene, forces: list[float]) -> str | None:
     """Warn of force over mean stiffness, which leaves out the motion within the backlash."""
     stiffness = mean_stiffness(build_teeth(scene)).tolist()
     deflections = [force / k if k else 0.0 for force, k in zip(forces, stiffness, strict=True)]
-    largest, module = max(deflections), scene.gearset.module
+    largest, module = max(deflections), scene.gearset.transverse.module
     if not largest > LARGEST * module:
         return None
     side = side_title(SIDES[deflections.index(largest)])

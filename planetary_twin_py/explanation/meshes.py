@@ -10,11 +10,14 @@ from ..dynamics.mean_stiffness import mean_stiffness
 from ..dynamics.mesh_damping import natural_frequencies
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
-from ..dynamics.stiffness_laws import GEARS
+from ..dynamics.stiffness_laws import GEARS, loaded_force
 from ..dynamics.train import build_train, held_axes
+from ..gearset.working import WorkingMesh
 from ..losses.ohlendorf import tooth_loss_factor
 from ..mesh.overlap import overlap_ratio
 from ..scene import Scene
+from ..tooth.iso import iso_pair
+from ..tooth.material import Material
 from .friction import friction_figures
 from .pressure import pitch_pressure
 
@@ -37,6 +40,7 @@ class MeshFigures(NamedTuple):
     tip_clearances: tuple[float, float]  # of the tips of both gears from the mating root [m]
     single_stiffness: float  # largest of one pair on its path of contact [N/m]
     mean_stiffness: float  # over the mesh cycle [N/m]
+    iso_stiffness: float  # c_gamma of ISO 6336-1 for solid discs with these teeth [N/m]
     natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
     damping_ratio: float  # of this mode at the operating point [-]
     static_force: float  # mean under the torque of the operating point, without friction [N]
@@ -108,6 +112,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             tip_clearances=working_meshes[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
             mean_stiffness=float(mean[kind]),
+            iso_stiffness=_iso_stiffness(scene, working_meshes[kind]),
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
             damping_ratio=0.5 * damping_time(train, kind, frequency) * float(natural[kind]),
             static_force=force,
@@ -120,6 +125,13 @@ def describe_meshes(scene: Scene) -> Meshes:
         for kind, (first, second) in enumerate(GEARS)
     )
     return Meshes(frequency, sun_planet, planet_ring)
+
+
+def _iso_stiffness(scene: Scene, mesh: WorkingMesh) -> float:
+    gearset, oil = scene.gearset, scene.lubrication
+    material, width = Material(oil.youngs_modulus, oil.poisson_ratio), gearset.face_width
+    pair = iso_pair(mesh, gearset.helix_angle)
+    return width * pair.mesh(material, mesh.path.contact_ratio, loaded_force(scene) / width)
 
 
 def _driver(from_sun: float, first: str, second: str) -> str | None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from .geometry import pitch_radius
-from .involute import SpurGear
+from .involute import DEDENDUM, TIP_ROUNDING, SpurGear
 from .kinematics import Teeth
 from .shift import PerGear, backlash_free_angle
 from .working import WorkingMesh
@@ -47,7 +47,7 @@ UNSHIFTED = PerGear(0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Sizes:
-    """What a gear set follows from."""
+    """What a gear set follows from, in the transverse plane."""
 
     teeth: Teeth
     module: float
@@ -62,6 +62,12 @@ class Sizes:
     """[m]; default: sun and planets mesh without backlash."""
     tip_diameters: tuple[float | None, float | None, float | None] = (None, None, None)
     """Of sun, planet and ring [m]; default: see `build_gear_set`."""
+    dedendum: float = DEDENDUM
+    """Of the basic rack [modules]."""
+    fillet: float = TIP_ROUNDING
+    """Tip radius of the basic rack [modules]."""
+    stated: float = 1.0
+    """See `SpurGear`."""
 
 
 def distance_without_play(sizes: Sizes, ring: bool = False) -> float | None:
@@ -109,8 +115,9 @@ def build_gear_set(sizes: Sizes) -> GearSet:
     if distance is None:
         distance = distance_without_play(sizes)
     if distance is None:
+        shifts = ", ".join(f"{x / sizes.stated:g}" for x in sizes.shift[:2])
         raise ValueError(
-            f"gearset.profile_shift.sun, planet = {sizes.shift.sun:g}, {sizes.shift.planet:g}: "
+            f"gearset.profile_shift.sun, planet = {shifts}: "
             "their sum is too small: sun and planets mesh without backlash at no centre distance"
         )
     heights = _addenda(sizes, distance)
@@ -122,14 +129,17 @@ def _gear(sizes: Sizes, kind: int, addendum: float) -> SpurGear:
     """Sun (0), planet (1) or ring (2)."""
     teeth, shift, internal = sizes.teeth[kind], sizes.shift[kind], kind == 2
     try:
-        return SpurGear(teeth, sizes.module, sizes.pressure_angle, addendum, internal, shift)
+        return SpurGear(
+            teeth, sizes.module, sizes.pressure_angle, addendum, internal, shift,
+            sizes.dedendum, sizes.fillet, sizes.stated,
+        )  # fmt: skip
     except ValueError as error:
         reason = str(error).partition(": ")[2]
         height = addendum + shift
         tip = 1e3 * sizes.module * (teeth + 2.0 * (-height if internal else height))
         raise ValueError(
             f"gearset.teeth.{Teeth._fields[kind]} = {teeth}: {reason}: change the tip diameter of "
-            f"{tip:.6g} mm, the profile shift of {shift:g} or the pressure angle"
+            f"{tip:.6g} mm, the profile shift of {shift / sizes.stated:g} or the pressure angle"
         ) from None
 
 

@@ -30,7 +30,7 @@ class PathOfContact(NamedTuple):
         return min(max(0.0, -self.approach), self.recess)
 
 
-def pitch_radius(teeth: int, module: float) -> float:
+def pitch_radius(teeth: float, module: float) -> float:
     """Pitch radius m z/2 [m].
 
     Args:
@@ -51,7 +51,7 @@ def base_pitch(module: float, pressure_angle: float) -> float:
 
 
 def external_tip_reach(
-    teeth: int, angle: float, height: float, working: float | None = None
+    teeth: float, angle: float, height: float, working: float | None = None
 ) -> float:
     """Distance from the pitch point to the tip circle along the line of action [modules].
 
@@ -68,7 +68,7 @@ def external_tip_reach(
 
 
 def internal_tip_reach(
-    teeth: int, angle: float, height: float, working: float | None = None
+    teeth: float, angle: float, height: float, working: float | None = None
 ) -> float:
     """Distance from the pitch point to the tip circle of an internal gear [modules].
 
@@ -90,7 +90,7 @@ def _tangent(pitch: float, angle: float, working: float | None) -> float:
 
 
 def on_involute(
-    reach: float, teeth: int, angle: float, tip: str, flank: str, working: float | None = None
+    reach: float, teeth: float, angle: float, tip: str, flank: str, working: float | None = None
 ) -> float:
     """Check that the tip of the mating gear does not pass the start of the involute.
 

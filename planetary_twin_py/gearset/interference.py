@@ -81,11 +81,12 @@ def _overlap(mesh: WorkingMesh) -> Iterator[str]:
         return
     if backlash < -OVERLAP_TOLERANCE * module:
         most = mesh.shift + backlash / (2.0 * module * math.sin(mesh.first.pressure_angle))
-        first, second = mesh.names
+        (first, second), stated = mesh.names, mesh.first.stated
         yield (
-            f"gearset.profile_shift.{first} + {second} = {mesh.shift:.4g}: must be at most "
-            f"{most:.4g} at gearset.centre_distance = {1e3 * mesh.centre_distance:.6g} mm: the "
-            f"teeth overlap by {-1e3 * backlash:.3g} mm{_sign_of_ring(mesh)}"
+            f"gearset.profile_shift.{first} + {second} = {mesh.shift / stated:.4g}: must be at "
+            f"most {most / stated:.4g} at gearset.centre_distance = "
+            f"{1e3 * mesh.centre_distance:.6g} mm: the teeth overlap by "
+            f"{-1e3 * backlash:.3g} mm{_sign_of_ring(mesh)}"
         )
 
 
@@ -97,7 +98,7 @@ def _sign_of_ring(mesh: WorkingMesh) -> str:
         return ""
     return (
         ". A positive shift makes teeth of the ring thicker (ISO 21771); if its source counts it "
-        f"outwards, set gearset.profile_shift.ring = {-ring:g}"
+        f"outwards, set gearset.profile_shift.ring = {-ring / mesh.second.stated:g}"
     )
 
 

@@ -1,10 +1,10 @@
 """Shape of involute spur gears, external and internal.
 
-The flanks are involutes of the base circle r cos(alpha). The thickness on the reference circle is
-m (pi/2 + 2 x tan(alpha)) with the profile shift x (ISO 21771:2007, eq. 34; no backlash): a positive
-shift makes the teeth of external and internal gears thicker. The dedendum of the basic rack is 1.25
-modules. The root is simplified: if the root circle is inside the base circle, a radial line
-connects it to the start of the involute, instead of the trochoid that a hob would cut.
+The flanks are involutes of the base circle r cos(alpha). The thickness on the reference circle is m
+(pi/2 + 2 x tan(alpha)) with the profile shift x (ISO 21771:2007, eq. 34; no backlash): a positive
+shift makes the teeth of external and internal gears thicker. The root is simplified: if the root
+circle is inside the base circle, a radial line connects it to the start of the involute, instead of
+the trochoid that a hob would cut.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from .geometry import pitch_radius
 
-DEDENDUM = 1.25  # of the module
+DEDENDUM = 1.25  # [modules] of basic rack A of ISO 53
+TIP_ROUNDING = 0.38  # [modules] of the same
 _TURN = 2.0 * math.pi
 
 
@@ -30,8 +31,8 @@ class SpurGear:
             base circle.
     """
 
-    teeth: int
-    """Number of teeth."""
+    teeth: float
+    """Number of teeth; a whole number, except of virtual gears."""
     module: float
     """[m]"""
     pressure_angle: float
@@ -42,6 +43,12 @@ class SpurGear:
     """Whether the teeth point inwards."""
     profile_shift: float = 0.0
     """x, positive if it makes the teeth thicker [modules]."""
+    dedendum: float = DEDENDUM
+    """Of the basic rack [modules]."""
+    fillet: float = TIP_ROUNDING
+    """Tip radius of the basic rack [modules]."""
+    stated: float = 1.0
+    """Module of the coefficients in the scene, which messages use [modules]."""
 
     def __post_init__(self) -> None:
         if self.internal and self.tip_radius <= self.base_radius:
@@ -73,7 +80,7 @@ class SpurGear:
     @property
     def root_radius(self) -> float:
         """Radius of the root circle [m]."""
-        depth = (DEDENDUM - self.profile_shift) * self.module
+        depth = (self.dedendum - self.profile_shift) * self.module
         return self.pitch_radius + (depth if self.internal else -depth)
 
     def half_thickness(self, radius: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -127,8 +134,9 @@ class SpurGear:
             `tooth`.
         """
         tooth = self.tooth(points)
-        outline = np.tile(tooth, (self.teeth, 1))
-        outline[:, 1] += np.repeat(_TURN / self.teeth * np.arange(self.teeth), len(tooth))
+        teeth = np.arange(self.teeth)
+        outline = np.tile(tooth, (len(teeth), 1))
+        outline[:, 1] += np.repeat(_TURN / self.teeth * teeth, len(tooth))
         return outline
 
 

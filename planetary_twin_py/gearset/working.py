@@ -50,7 +50,7 @@ class WorkingMesh:
         return ("planet", "ring") if self.internal else ("sun", "planet")
 
     @property
-    def teeth(self) -> int:
+    def teeth(self) -> float:
         """Sum of the numbers of teeth, of the ring their difference."""
         return self.second.teeth + (-1 if self.internal else 1) * self.first.teeth
 
@@ -134,8 +134,8 @@ class WorkingMesh:
             angle
         ):
             raise ValueError(
-                f"addendum = {second.tip_height:g} module: the tip circle of the ring is inside "
-                "its base circle"
+                f"addendum = {second.tip_height / second.stated:g} module: the tip circle of the "
+                "ring is inside its base circle"
             )
         reach = internal_tip_reach if self.internal else external_tip_reach
         late = external_tip_reach(first.teeth, angle, first.tip_height, working)

@@ -11,7 +11,7 @@ from itertools import pairwise
 from ..gearset.geometry import PathOfContact
 
 
-def slip_per_position(first: int, second: int, internal: bool) -> float:
+def slip_per_position(first: float, second: float, internal: bool) -> float:
     """Sliding speed of a pair a base pitch from the pitch point, over the speed of the flanks [-].
 
     The speed of the flanks is that along the line of action: 2 pi (1/z1 +- 1/z2).
@@ -25,7 +25,11 @@ def slip_per_position(first: int, second: int, internal: bool) -> float:
 
 
 def tooth_loss_factor(
-    path: PathOfContact, first: int, second: int, internal: bool = False, base_helix: float = 0.0
+    path: PathOfContact,
+    first: float,
+    second: float,
+    internal: bool = False,
+    base_helix: float = 0.0,
 ) -> float:
     """H_v [-], the mean of sliding speed times share of the load over the path of contact.
 

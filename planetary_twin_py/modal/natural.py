@@ -166,7 +166,7 @@ def _supports(scene: Scene) -> Supports:
 
 def _rim_masses(scene: Scene) -> dict[str, float]:
     """J/r^2 [kg]; r is the base radius, for the carrier the radius of the planet centres."""
-    mass, slant = scene.gearset.rim_masses, math.cos(scene.gearset.pressure_angle) ** -2
+    mass, slant = scene.gearset.rim_masses, math.cos(scene.gearset.transverse.pressure_angle) ** -2
     return {
         "sun": mass.sun * slant,
         "planet": mass.planet * slant,

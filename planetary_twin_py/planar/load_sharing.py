@@ -194,7 +194,7 @@ def _springs(
     if scene.supports is None:
         displaced = displaced + _held_pins(scene, rows, errors)
     backlash = scene.operating_point.backlash
-    _, offset = scene.mesh.flanks(backlash, scene.gearset.pressure_angle)
+    _, offset = scene.mesh.flanks(backlash, scene.gearset.transverse.pressure_angle)
     form = _harmonic_errors(scene, turns)
     gap = np.concatenate([side * form + offset - errors.closing for side in SIDES], axis=1)
     stiffness = np.concatenate([_stiffness(scene, turns, side) for side in SIDES], axis=1)

@@ -43,7 +43,7 @@ def wheel(gearset: Gearset, part: str, mount: float) -> list[Shape]:
     """
     gear: SpurGear = getattr(gearset.geometry, part)
     disc = Shape((gear.root_radius, gearset.face_width), part)
-    return [disc, *_around(_tooth(gear, gearset.face_width, part), gear.teeth, mount)]
+    return [disc, *_around(_tooth(gear, gearset.face_width, part), round(gear.teeth), mount)]
 
 
 def ring(gearset: Gearset, mount: float) -> list[Shape]:

@@ -12,8 +12,10 @@ from ..gearset.clearance import Size, check_clearance
 from ..gearset.gear_set import GearSet, Sizes, build_gear_set
 from ..gearset.geometry import pitch_radius
 from ..gearset.interference import check_fit
+from ..gearset.involute import DEDENDUM, TIP_ROUNDING
 from ..gearset.kinematics import Teeth
 from ..gearset.mount import Mount, mount
+from ..gearset.normal_plane import base_helix, transverse_sizes
 from ..gearset.phasing import check_assembly
 from ..gearset.shift import PerGear
 from ..tooth.undercut import check_undercut
@@ -23,6 +25,9 @@ from .quantity import Section, quantity
 FIELDS_ALONE = "fields alone"
 
 IN_RADIANS = "; an angle without a unit is in rad"
+
+# Names of module and pressure angle in the transverse and in the normal plane.
+_PLANES = ("module", "pressure_angle"), ("normal_module", "normal_pressure_angle")
 
 Member = Literal["sun", "ring", "carrier"]
 Held = Literal["sun", "ring", "carrier", "none"]
@@ -41,8 +46,7 @@ class ProfileShift(Section):
 
     A positive coefficient makes the tooth of any gear thicker on its reference circle. It moves the
     teeth of sun and planets outwards, and those of the ring inwards. Sources that count the ring's
-    shift outwards have the opposite sign there. In modules of the transverse plane: for helical
-    gears, x cos(helix angle) of the coefficient x of the normal plane.
+    shift outwards have the opposite sign there.
     """
 
     sun: float = quantity("", "profile shift of the sun in modules", 0.0, ge=-1.5, le=2.0)
@@ -87,16 +91,25 @@ class Inertias(Section):
 class Gearset(Section):
     """Geometry and inertia of a simple planetary gearset of involute gears.
 
-    Module and pressure angle are those of the transverse plane, on the reference circles. With a
-    helix angle, contact lines move along the face; axial forces act on bodies with dynamics:
-    spatial. Profile shift and centre distance determine the working pressure angle of
-    both meshes. Moments of inertia are given as `equivalent_mass` or as `inertia`.
+    Module and pressure angle on the reference circles are given in one plane: `normal_module` and
+    `normal_pressure_angle` in the normal plane, as drawings of helical gears have them, or `module`
+    and `pressure_angle` in the transverse plane. Addendum, dedendum, fillet radius and profile
+    shifts are in the module that is given. With a helix angle, contact lines move along the face;
+    axial forces act on bodies with dynamics: spatial. Profile shift and centre distance determine
+    the working pressure angle of both meshes. Moments of inertia are given as `equivalent_mass` or
+    as `inertia`.
     """
 
     teeth: ToothNumbers = Field(description="tooth numbers")
-    module: float = quantity("m", "module, in the transverse plane", gt=0.0, le=0.2)
-    pressure_angle: float = quantity(
-        "rad", "pressure angle, in the transverse plane", ge=0.15, le=0.6
+    module: float | None = quantity("m", "module, in the transverse plane", None, gt=0.0, le=0.2)
+    pressure_angle: float | None = quantity(
+        "rad", "pressure angle, in the transverse plane", None, ge=0.15, le=0.6
+    )
+    normal_module: float | None = quantity(
+        "m", "module in the normal plane, in place of module", None, gt=0.0, le=0.2
+    )
+    normal_pressure_angle: float | None = quantity(
+        "rad", "pressure angle in the normal plane, with normal_module", None, ge=0.15, le=0.6
     )
     helix_angle: float = quantity(
         "rad",
@@ -105,7 +118,17 @@ class Gearset(Section):
         ge=-0.8,
         le=0.8,
     )
-    addendum: float = quantity("", "addendum in transverse modules", 1.0, gt=0.0, le=1.5)
+    addendum: float = quantity(
+        "", "addendum of the basic rack in modules, those of the plane that is given",
+        1.0, gt=0.0, le=1.5,
+    )  # fmt: skip
+    dedendum: float = quantity(
+        "", "dedendum of the basic rack in the same modules", DEDENDUM, ge=0.5, le=2.0
+    )
+    fillet_radius: float = quantity(
+        "", "tip radius of the basic rack, which cuts the root fillet, in the same modules, or the "
+        "largest with room", TIP_ROUNDING, ge=0.05, le=0.8,
+    )  # fmt: skip
     profile_shift: ProfileShift = Field(ProfileShift(), description="profile shift coefficients")
     centre_distance: float | None = quantity(
         "m",
@@ -136,7 +159,7 @@ class Gearset(Section):
     @property
     def base_helix(self) -> float:
         """Helix angle on the base circle [rad], positive for a right-hand sun."""
-        return math.atan(math.tan(self.helix_angle) * math.cos(self.pressure_angle))
+        return base_helix(self.transverse.pressure_angle, self.helix_angle)
 
     @property
     def tooth_numbers(self) -> Teeth:
@@ -144,20 +167,32 @@ class Gearset(Section):
         return Teeth(self.teeth.sun, self.teeth.planet, self.teeth.ring)
 
     @property
+    def transverse(self) -> Sizes:
+        """Module, pressure angle and coefficients of the transverse plane."""
+        shift, tip = self.profile_shift, self.tip_diameter
+        given = Sizes(
+            self.tooth_numbers,
+            *self.module_and_angle,
+            self.addendum,
+            PerGear(shift.sun, shift.planet, shift.ring),
+            self.centre_distance,
+            (tip.sun, tip.planet, tip.ring),
+            self.dedendum,
+            self.fillet_radius,
+        )
+        return given if self.module else transverse_sizes(given, self.helix_angle)
+
+    @property
+    def module_and_angle(self) -> tuple[float, float]:
+        """Module [m] and pressure angle [rad] in the plane in which the scene gives them."""
+        names = next(plane for plane in _PLANES if getattr(self, plane[0]) is not None)
+        module, angle = (getattr(self, name) for name in names)
+        return module, angle
+
+    @property
     def geometry(self) -> GearSet:
         """The gears and their meshes at the centre distance."""
-        shift, tip = self.profile_shift, self.tip_diameter
-        return build_gear_set(
-            Sizes(
-                self.tooth_numbers,
-                self.module,
-                self.pressure_angle,
-                self.addendum,
-                PerGear(shift.sun, shift.planet, shift.ring),
-                self.centre_distance,
-                (tip.sun, tip.planet, tip.ring),
-            )
-        )
+        return build_gear_set(self.transverse)
 
     @property
     def mounted(self) -> Mount:
@@ -169,7 +204,7 @@ class Gearset(Section):
     def twist(self) -> PerGear:
         """Turn of the sections of helical gears per way along the axis [rad/m]; 0 of spur gears."""
         teeth = self.tooth_numbers
-        rise = math.tan(self.helix_angle) * 2.0 / self.module
+        rise = math.tan(self.helix_angle) * 2.0 / self.transverse.module
         return PerGear(rise / teeth.sun, -rise / teeth.planet, -rise / teeth.ring)
 
     @property
@@ -179,7 +214,7 @@ class Gearset(Section):
             assert self.equivalent_mass is not None
             return self.equivalent_mass
         radii = {
-            name: pitch_radius(teeth, self.module)
+            name: pitch_radius(teeth, self.transverse.module)
             for name, teeth in self.tooth_numbers._asdict().items()
         } | {"carrier": self.geometry.centre_distance}
         return EquivalentMasses(
@@ -190,9 +225,24 @@ class Gearset(Section):
     def _can_be_put_together(self, info: ValidationInfo) -> Self:
         if info.context == FIELDS_ALONE:
             return self
-        if errors := [*self._inertias(), *self._teeth(), *self._planets()]:
+        errors = [*self._planes()]
+        if not errors:
+            errors = [*self._teeth(), *self._planets()]
+        if errors := [*self._inertias(), *errors]:
             raise ValueError("\n".join(line.removeprefix("gearset.") for line in errors))
         return self
+
+    def _planes(self) -> Iterator[str]:
+        """Errors of a module and a pressure angle that are not given once, in one plane."""
+        transverse, normal = (
+            [n for n in plane if getattr(self, n) is not None] for plane in _PLANES
+        )
+        if transverse and normal:
+            either = ", or ".join(" and ".join(plane) for plane in _PLANES)
+            yield f"{', '.join(transverse + normal)}: given together: give {either}"
+            return
+        names = _PLANES[1] if normal else _PLANES[0]
+        yield from (f"{name}: missing" for name in names if getattr(self, name) is None)
 
     def _inertias(self) -> Iterator[str]:
         """Error of moments of inertia that are missing or given twice."""
@@ -233,7 +283,8 @@ class Gearset(Section):
             return
         errors = list(_error(lambda: check_clearance(size, angles)))
         if not errors:
-            errors = list(_error(lambda: check_assembly(teeth, angles, self.addendum, size)))
+            addendum = self.transverse.addendum
+            errors = list(_error(lambda: check_assembly(teeth, angles, addendum, size)))
         turns = max(map(abs, angles)) > 2.0 * math.pi  # as degrees without their unit are
         yield from (f"{line}{IN_RADIANS if turns else ''}" for line in errors)
 
@@ -244,16 +295,19 @@ class Gearset(Section):
             self.profile_shift == ProfileShift()
             and self.tip_diameter == TipDiameters()
             and self.centre_distance is None
+            and (self.dedendum, self.fillet_radius) == (DEDENDUM, TIP_ROUNDING)
+            and self.addendum < self.dedendum
         )
 
     def _size(self) -> Size:
+        sizes = self.transverse
         if self._standard:
-            return Size(self.tooth_numbers, self.module, self.addendum)
+            return Size(self.tooth_numbers, sizes.module, sizes.addendum)
         gears = self.geometry
         return Size(
             self.tooth_numbers,
-            self.module,
-            self.addendum,
+            sizes.module,
+            sizes.addendum,
             gears.centre_distance,
             2.0 * gears.planet.tip_radius,
         )

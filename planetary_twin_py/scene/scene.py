@@ -167,7 +167,7 @@ class Scene(Section):
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
         if self.moving_axes or self.dynamics == "auto":
             return  # there both flanks have their forces, or dynamics without them is refused later
-        runout, angle = self.mesh.runout, self.gearset.pressure_angle
+        runout, angle = self.mesh.runout, self.gearset.transverse.pressure_angle
         backlash = self.operating_point.backlash
         half = self.mesh.flanks(backlash, angle)[0]
         sines = [math.sin(mesh.pressure_angle) for mesh in self.gearset.geometry.meshes]
@@ -262,7 +262,9 @@ class Scene(Section):
         # Torques of sun, ring and carrier are as these tooth numbers.
         driven = {"sun": teeth.sun, "ring": teeth.ring, "carrier": teeth.sun + teeth.ring}
         count = driven[self.drive.input.member]
-        radius = 0.5 * gearset.module * count * math.cos(gearset.pressure_angle)
+        radius = (
+            0.5 * gearset.transverse.module * count * math.cos(gearset.transverse.pressure_angle)
+        )
         torque = max(abs(point.input_torque) - abs(point.torque_ripple), 0.0)
         force = torque / (gearset.planets * radius)
         given = mesh.sun_planet_stiffness, mesh.planet_ring_stiffness

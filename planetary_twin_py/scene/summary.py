@@ -14,14 +14,16 @@ def gears(scene: Scene) -> Iterator[str]:
     gearset = scene.gearset
     teeth = gearset.teeth
     yield f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth"
-    yield f"module {customary(gearset.module, 'm')}"
+    plane = "" if gearset.normal_module is None else "normal "
+    module, angle = gearset.module_and_angle
+    yield f"{plane}module {customary(module, 'm')}"
     shift, gears = gearset.profile_shift, gearset.geometry
     if shift.sun or shift.planet or shift.ring:
         yield f"profile shift {shift.sun:g}/{shift.planet:g}/{shift.ring:g}"
     if gears.centre_distance != gears.meshes[0].reference_distance:
         yield f"centre distance {customary(gears.centre_distance, 'm')}"
     yield f"face width {customary(gearset.face_width, 'm')}"
-    yield f"pressure angle {customary(gearset.pressure_angle, 'rad')}"
+    yield f"{plane}pressure angle {customary(angle, 'rad')}"
     if gearset.helix_angle:
         yield f"helix angle {customary(gearset.helix_angle, 'rad')}"
     for number, angle in enumerate(gearset.planet_angles, 1):

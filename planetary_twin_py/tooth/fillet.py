@@ -1,9 +1,9 @@
 """Root fillets, which connect the involute flank to the root circle.
 
 A fillet is a curve from the root circle (t = 0) to the flank (t = 1), given as radius [m] and half
-angle [rad] of the tooth. The fillet of an external tooth is the trochoid that the basic rack of ISO
-53 cuts; with undercut it ends at the intersection with the remaining involute. The fillet of an
-internal tooth is the circular arc tangent to the flank and the root circle.
+angle [rad] of the tooth. The fillet of an external tooth is the trochoid that the basic rack cuts;
+with undercut it ends at the intersection with the remaining involute. The fillet of an internal
+tooth is the circular arc tangent to the flank and the root circle.
 """
 
 from __future__ import annotations
@@ -14,9 +14,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..gearset.involute import DEDENDUM, SpurGear
-
-TIP_ROUNDING = 0.38  # of the module: basic rack A of ISO 53
+from ..gearset.involute import SpurGear
 
 Floats = NDArray[np.float64]
 Fillet = Callable[[Floats], tuple[Floats, Floats]]
@@ -46,7 +44,7 @@ def _trochoid(gear: SpurGear) -> Fillet:
     datum line (Salamoun and Suchy 1973).
     """
     pitch, alpha = gear.pitch_radius, gear.pressure_angle
-    depth = DEDENDUM * gear.module
+    depth = gear.dedendum * gear.module
     rounding = _rounding(gear)
     centre = depth - rounding
     offset = 0.25 * math.pi * gear.module - centre * math.tan(alpha) - rounding / math.cos(alpha)
@@ -69,26 +67,26 @@ def straight_reach(gear: SpurGear) -> float:
     Args:
         gear: the external gear that the rack cuts.
     """
-    depth, alpha = DEDENDUM * gear.module, gear.pressure_angle
+    depth, alpha = gear.dedendum * gear.module, gear.pressure_angle
     rounding = _rounding(gear)
     return depth - rounding * (1.0 - math.sin(alpha)) - gear.profile_shift * gear.module
 
 
 def _rounding(gear: SpurGear) -> float:
-    """Tip radius of the rack [m]: that of ISO 53, or one arc for both corners.
+    """Tip radius of the rack [m]: that of the basic rack, or one arc for both corners.
 
     Raises:
         ValueError: the pressure angle leaves no space for a tip.
     """
     alpha = gear.pressure_angle
-    room = 0.25 * math.pi * gear.module - DEDENDUM * gear.module * math.tan(alpha)
+    room = 0.25 * math.pi * gear.module - gear.dedendum * gear.module * math.tan(alpha)
     if room <= 0.0:
-        largest = math.degrees(math.atan(0.25 * math.pi / DEDENDUM))
+        largest = math.degrees(math.atan(0.25 * math.pi / gear.dedendum))
         raise ValueError(
             f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
             f"pointed above its tip; must be below {largest:.4g} deg"
         )
-    return min(TIP_ROUNDING * gear.module, room * math.cos(alpha) / (1.0 - math.sin(alpha)))
+    return min(gear.fillet * gear.module, room * math.cos(alpha) / (1.0 - math.sin(alpha)))
 
 
 def _undercuts(gear: SpurGear) -> bool:
@@ -131,7 +129,7 @@ def _arc(gear: SpurGear) -> Fillet:
             f"pressure_angle = {math.degrees(gear.pressure_angle):g} deg: the flanks of a gear "
             f"with {gear.teeth} internal teeth meet before its root circle"
         )
-    rounding = TIP_ROUNDING * gear.module
+    rounding = gear.fillet * gear.module
     if touch(rounding)[1] < 0.0:  # the two arcs of a gap would overlap: use one arc
         rounding = _root(lambda r: touch(r)[1], 0.0, rounding)
     _, middle, normal = touch(rounding)

@@ -35,6 +35,9 @@ class ToothPair:
     spall: Spall = NO_SPALL
     angle: float | None = None
     """Working pressure angle [rad]; default: that of the gears."""
+    pitch: float | None = None
+    """Distance that the contact moves in a base pitch of positions [m]; default: the gears' base
+    pitch. It is longer in the normal plane of helical teeth."""
 
     @property
     def _gears(self) -> tuple[SpurGear, SpurGear]:
@@ -47,7 +50,8 @@ class ToothPair:
     def _tangent_lengths(self, position: Floats) -> tuple[Floats, Floats]:
         """Distance of the contact from the tangent point on each base circle [m]."""
         first, second = self._gears
-        moved = position * base_pitch(first.module, first.pressure_angle)
+        pitch = self.pitch or base_pitch(first.module, first.pressure_angle)
+        moved = position * pitch
         tangent = math.tan(first.pressure_angle if self.angle is None else self.angle)
         return (
             first.base_radius * tangent + moved,

@@ -48,8 +48,8 @@ def check_undercut(mesh: WorkingMesh) -> Iterator[str]:
         involute_start = float(fillet(gear)(_END)[0])
         if touched < involute_start - TOLERANCE * gear.module:
             yield (
-                f"gearset.profile_shift.{name} = {gear.profile_shift:g}: must be at least "
-                f"{least_shift(gear):.4g} for {gear.teeth} teeth: undercut leaves no involute "
-                f"below {2e3 * involute_start:.6g} mm, and the {mate} touches it from "
-                f"{2e3 * touched:.6g} mm"
+                f"gearset.profile_shift.{name} = {gear.profile_shift / gear.stated:g}: must be at "
+                f"least {least_shift(gear) / gear.stated:.4g} for {gear.teeth} teeth: undercut "
+                f"leaves no involute below {2e3 * involute_start:.6g} mm, and the {mate} touches "
+                f"it from {2e3 * touched:.6g} mm"
             )

@@ -61,7 +61,7 @@ def scales(gearset: Gearset, axes: Series) -> Scales | None:
         max(np.nanmax(axes[f"{body}_{name}"], initial=0.0) for body in COMPONENTS)
         for name in ("displacement_peak", "bearing_force_peak")
     )
-    largest = _FAR * gearset.module / far if far > 0.0 else 1.0
+    largest = _FAR * gearset.transverse.module / far if far > 0.0 else 1.0
     scale = round_up(force) if force > 0.0 else 1.0
     return Scales(round_down(largest), scale, _LONG * carrier_radius(gearset))
 
@@ -107,7 +107,7 @@ def log_bearing_forces(
     index = timeline.columns(places.time, places.stamp)
     carrier = places.angle["carrier"]
     at = moved(axes, places, gearset, drawn)
-    front, thick = 0.75 * gearset.face_width, MILLIMETRES * _THICK * gearset.module
+    front, thick = 0.75 * gearset.face_width, MILLIMETRES * _THICK * gearset.transverse.module
     for body in MEMBERS:
         vectors = turned(_interpolated(axes, places.time, f"{body}_bearing_force"), carrier)
         shown = _Arrow(at[body], per_newton * vectors, front)
@@ -163,7 +163,7 @@ def _arrows(
 
 def _log_scale(layer: Layer, gearset: Gearset, drawn: Scales, thick: float) -> None:
     """An arrow of known force below the gears, with the scale of displacements."""
-    module = MILLIMETRES * gearset.module
+    module = MILLIMETRES * gearset.transverse.module
     reach = 0.5 * gearset.teeth.ring * module
     length = MILLIMETRES * drawn.length
     start, y = 1.05 * reach - length, -1.02 * reach

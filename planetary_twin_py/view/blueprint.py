@@ -95,7 +95,7 @@ def _gears(gearset: Gearset, axes: Scales | None) -> rrb.Spatial3DView:
     teeth = gearset.teeth
     held = "differential" if gearset.held == "none" else f"{gearset.held} held"
     enlarged = f"; {axes.text}" if axes else ""
-    reach = MILLIMETRES * gearset.module * (0.5 * teeth.ring + 4.0)
+    reach = MILLIMETRES * gearset.transverse.module * (0.5 * teeth.ring + 4.0)
     return rrb.Spatial3DView(
         origin="gears",
         name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held}{enlarged}",
@@ -114,7 +114,9 @@ def _planet(gearset: Gearset) -> rrb.Spatial3DView:
     psi = gearset.planet_angles[0]
     outwards = (math.cos(psi), math.sin(psi))
     x, y = (MILLIMETRES * carrier_radius(gearset) * part for part in outwards)
-    away = MILLIMETRES * (0.5 * gearset.face_width + 1.25 * gearset.module * gearset.teeth.planet)
+    away = MILLIMETRES * (
+        0.5 * gearset.face_width + 1.25 * gearset.transverse.module * gearset.teeth.planet
+    )
     return rrb.Spatial3DView(
         origin="gears/carrier",
         contents=["/gears/sun", "/gears/ring", "/gears/carrier/**"],

@@ -139,7 +139,13 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
     carries = mesh.load > 0.0
     level = np.minimum(mesh.load[carries] / full, 1.0)
     front = (0.5 + _OVERHANG) * gearset.face_width
-    bend = mesh.load[carries, None] / full * _LONGEST * gearset.module * mesh.direction[carries]
+    bend = (
+        mesh.load[carries, None]
+        / full
+        * _LONGEST
+        * gearset.transverse.module
+        * mesh.direction[carries]
+    )
     strips = np.empty((len(level), 4, 3), dtype=np.float32)
     strips[:, :2] = mesh.ends[carries]
     strips[:, 2:, :2] = mesh.ends[carries][:, 1:, :2]
@@ -148,13 +154,13 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
     return rr.LineStrips3D.columns(
         strips=MILLIMETRES * strips,
         colors=shade(level),
-        radii=MILLIMETRES * _THICKEST * gearset.module * (0.3 + 0.7 * level),
+        radii=MILLIMETRES * _THICKEST * gearset.transverse.module * (0.3 + 0.7 * level),
     ).partition(carries.sum(axis=1))
 
 
 def _log_scale(layer: Layer, gearset: Gearset, full: float) -> None:
     """Colour bar of the loads, below the gears."""
-    module = MILLIMETRES * gearset.module
+    module = MILLIMETRES * gearset.transverse.module
     reach = 0.5 * gearset.teeth.ring * module
     left, width, y = -1.12 * reach, 0.5 * reach, -1.02 * reach
     below = y - 3.0 * module

@@ -56,8 +56,8 @@ def test_a_number_in_place_of_a_list_is_said_to_be_no_list(field, example, numbe
 
 
 def test_an_empty_field_is_said_to_be_empty():
-    line = parsed(lambda data: data["gearset"].update(module=None))
-    assert line.startswith("gearset.module = None: must be a number within 0 and 0.2 m")
+    line = parsed(lambda data: data["gearset"].update(face_width=None))
+    assert line.startswith("gearset.face_width = None: must be a number within 0 and 5 m")
     assert line.endswith("the field is empty")
 
 

@@ -123,7 +123,7 @@ def test_a_missing_file_is_refused_with_the_packaged_names():
 def test_a_missing_section_is_named():
     data = yaml.safe_load(text())
     del data["gearset"]["module"]
-    with pytest.raises(pt.SceneError, match=r"^gearset\.module: missing$"):
+    with pytest.raises(pt.SceneError, match=r"^gearset: module: missing$"):
         pt.parse_scene(yaml.safe_dump(data))
 
 

@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from planetary_twin_py.gearset.involute import SpurGear
-from planetary_twin_py.tooth.fillet import TIP_ROUNDING, fillet
+from planetary_twin_py.gearset.involute import TIP_ROUNDING, SpurGear
+from planetary_twin_py.tooth.fillet import fillet
 from planetary_twin_py.tooth.profile import POINTS, ToothProfile
 
 ALPHA = math.radians(21.34)

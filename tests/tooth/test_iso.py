@@ -3,8 +3,8 @@
 import math
 
 import pytest
-from tooth.iso import IsoPair
 
+from planetary_twin_py.tooth.iso import IsoPair
 from planetary_twin_py.tooth.material import Material
 
 STEEL = Material(206e9, 0.3)

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tooth.iso import IsoPair
 from tooth.pairs import planet_ring_pair, sun_planet_pair
 
 from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.tooth.contact import weber_banaschek, yang_sun
 from planetary_twin_py.tooth.crack import Crack
+from planetary_twin_py.tooth.iso import IsoPair
 from planetary_twin_py.tooth.material import Material
 from planetary_twin_py.tooth.polynomial import fit
 from planetary_twin_py.tooth.spall import Spall
