@@ -49,6 +49,13 @@ HELIX = Limit(
 )
 
 
+TRANSVERSE_RACK = Limit(
+    "rack of the normal plane",
+    "addendum, dedendum, fillet and shifts count in the transverse module that the scene gives; "
+    "with gearset.normal_module, roots and tip clearances are those of a drawing",
+)
+
+
 IN_PLANE = Limit(
     "places of axes",
     "axes move in the plane; directions and lengths of the lines of action stay nominal",
@@ -77,7 +84,9 @@ NOMINAL_LINES = (
 
 def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model, and losses that are left out, that apply to `scene`."""
-    return (*_limits_of_motion(scene), *_missing_losses(scene), *NOT_MODELLED)
+    rack = scene.gearset.helix_angle != 0.0 and scene.gearset.normal_module is None
+    transverse = (TRANSVERSE_RACK,) if rack else ()
+    return (*_limits_of_motion(scene), *transverse, *_missing_losses(scene), *NOT_MODELLED)
 
 
 def _missing_losses(scene: Scene) -> tuple[Limit, ...]:

@@ -11,7 +11,7 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.losses import losses_in_words
 from planetary_twin_py.explanation.measure import explain
 from planetary_twin_py.explanation.meshes import describe_meshes
-from planetary_twin_py.explanation.terms import limits, terms
+from planetary_twin_py.explanation.terms import TRANSVERSE_RACK, limits, terms
 
 SCENES = pytest.mark.parametrize("name", pt.packaged_scenes())
 
@@ -56,7 +56,12 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
 def test_a_scene_with_a_helix_names_the_effects_that_are_not_modelled():
     straight = pt.load_scene("paper")
     helical = straight.replace(**{"gearset.helix_angle": "-15 deg"})
-    assert limits(helical)[0].name == "axial forces" and limits(helical)[1:] == limits(straight)
+    further = [limit.name for limit in limits(helical) if limit not in limits(straight)]
+    assert further == ["axial forces", "rack of the normal plane"]
+    drawn = {"gearset.module": None, "gearset.pressure_angle": None}
+    drawn |= {"gearset.normal_module": 0.8e-3, "gearset.normal_pressure_angle": "20 deg"}
+    assert TRANSVERSE_RACK not in limits(helical.replace(**drawn))
+    assert limits(helical)[0].name == "axial forces"
     assert limits(pt.load_scene("wind_turbine_stage"))[0].name == "axial forces"
     assert limits(pt.load_scene("helical_stage"))[0].name == "shuttling"
 
