@@ -1,5 +1,6 @@
 """The command `sweep` as typed."""
 
+import math
 import signal
 import subprocess
 import sys
@@ -132,3 +133,24 @@ def test_a_killed_study_continues_where_it_was(tmp_path):
     )
     assert one_go.exit_code == 0
     assert whole.equals(pyarrow.parquet.read_table(tmp_path / "b.parquet"), check_metadata=True)
+
+
+def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):
+    """The base radius grows with m_n/cos(beta): F = 2 T cos(beta)/(3 z m_n cos(alpha_t))."""
+    out = tmp_path / "helix.parquet"
+    drawing = tmp_path / "drawing.yaml"
+    drawing.write_text(
+        "base: paper\nname: drawing\ngearset: {module: null, pressure_angle: null, "
+        "normal_module: 0.8 mm, normal_pressure_angle: 20 deg}\n"
+    )
+    options = ["--set", "lubrication.friction=false", "--out", out, *QUICK]
+    done = run(drawing, "--gearset.helix_angle", "0deg,10deg,20deg", *options)
+    assert done.exit_code == 0, done.output
+    found = pyarrow.parquet.read_table(out)["sun_planet_mesh_force_mean"].to_pylist()
+    cosines = [math.cos(math.radians(degrees)) for degrees in (0.0, 10.0, 20.0)]
+    transverse = [math.atan(math.tan(math.radians(20.0)) / cosine) for cosine in cosines]
+    expected = [
+        2.0 * 63.0 * cosine / (3.0 * 30 * 0.8e-3 * math.cos(angle))
+        for cosine, angle in zip(cosines, transverse, strict=True)
+    ]
+    assert found == pytest.approx(expected, rel=1e-2)
