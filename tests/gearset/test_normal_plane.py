@@ -6,8 +6,17 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py.gearset.gear_set import Sizes, build_gear_set
 from planetary_twin_py.gearset.involute import SpurGear
-from planetary_twin_py.gearset.normal_plane import transverse_angle, virtual_gear
+from planetary_twin_py.gearset.kinematics import Teeth
+from planetary_twin_py.gearset.normal_plane import (
+    transverse_angle,
+    transverse_sizes,
+    virtual_gear,
+)
+from planetary_twin_py.gearset.shift import PerGear
+from planetary_twin_py.tooth.iso import iso_pair
+from planetary_twin_py.tooth.material import Material
 from planetary_twin_py.tooth.undercut import least_shift
 
 PAPER = pt.load_scene("paper")
@@ -79,6 +88,19 @@ def test_published_virtual_tooth_numbers():
         found = virtual_gear(gear, helix)
         assert found.teeth == pytest.approx(virtual, abs=1e-3)
         assert found.module == pytest.approx(M) and found.pressure_angle == pytest.approx(TWENTY)
+
+
+def test_published_contact_ratio_and_stiffness():
+    """The same example with x = 0.145/0, rack D and a = 500 mm. KISSsoft has c' 12.37047 and
+    c_gamma 17.46485 N/(mm um), so the contact ratio is (c_gamma/c' - 0.25)/0.75 = 1.5491."""
+    shift = PerGear(0.145, 0.0, -0.145)  # of a ring that does not touch the planets' tips
+    drawing = Sizes(Teeth(17, 103, 223), M, TWENTY, 1.0, shift, 0.5, dedendum=1.4, fillet=0.39)
+    mesh = build_gear_set(transverse_sizes(drawing, math.radians(15.8))).meshes[0]
+    assert mesh.path.contact_ratio == pytest.approx(1.5491, rel=1e-3)
+    stiffness = iso_pair(mesh, math.radians(15.8)).mesh(
+        Material(206e9, 0.3), mesh.path.contact_ratio
+    )
+    assert stiffness == pytest.approx(17.46485e9, rel=1e-3)
 
 
 @HELICES
