@@ -113,7 +113,7 @@ def _tips(mesh: WorkingMesh) -> Iterator[str]:
             yield (
                 f"gearset.tip_diameter.{name} = {2e3 * gear.tip_radius:.6g} mm: must be "
                 f"{'above' if gear.internal else 'below'} {limit:.6g} mm, where its tips reach the "
-                f"roots of the {mate}"
+                f"roots of the {mate}; or increase gearset.dedendum"
             )
 
 

@@ -18,6 +18,7 @@ from ..gearset.mount import Mount, mount
 from ..gearset.normal_plane import base_helix, transverse_sizes
 from ..gearset.phasing import check_assembly
 from ..gearset.shift import PerGear
+from ..tooth.fillet import largest_rounding
 from ..tooth.undercut import check_undercut
 from .quantity import Section, quantity
 
@@ -125,9 +126,9 @@ class Gearset(Section):
     dedendum: float = quantity(
         "", "dedendum of the basic rack in the same modules", DEDENDUM, ge=0.5, le=2.0
     )
-    fillet_radius: float = quantity(
-        "", "tip radius of the basic rack, which cuts the root fillet, in the same modules, or the "
-        "largest with room", TIP_ROUNDING, ge=0.05, le=0.8,
+    fillet_radius: float | None = quantity(
+        "", "tip radius of the basic rack, which cuts the root fillet, in the same modules; "
+        "default: 0.38, or the largest with room", None, ge=0.05, le=0.8,
     )  # fmt: skip
     profile_shift: ProfileShift = Field(ProfileShift(), description="profile shift coefficients")
     centre_distance: float | None = quantity(
@@ -178,7 +179,7 @@ class Gearset(Section):
             self.centre_distance,
             (tip.sun, tip.planet, tip.ring),
             self.dedendum,
-            self.fillet_radius,
+            self.fillet_radius or TIP_ROUNDING,
         )
         return given if self.module else transverse_sizes(given, self.helix_angle)
 
@@ -225,9 +226,7 @@ class Gearset(Section):
     def _can_be_put_together(self, info: ValidationInfo) -> Self:
         if info.context == FIELDS_ALONE:
             return self
-        errors = [*self._planes()]
-        if not errors:
-            errors = [*self._teeth(), *self._planets()]
+        errors = [*self._planes()] or [*self._fillet(), *self._teeth(), *self._planets()]
         if errors := [*self._inertias(), *errors]:
             raise ValueError("\n".join(line.removeprefix("gearset.") for line in errors))
         return self
@@ -243,6 +242,16 @@ class Gearset(Section):
             return
         names = _PLANES[1] if normal else _PLANES[0]
         yield from (f"{name}: missing" for name in names if getattr(self, name) is None)
+
+    def _fillet(self) -> Iterator[str]:
+        """Error of a fillet radius for which the basic rack has no room."""
+        if self.fillet_radius is not None:
+            largest = largest_rounding(self.dedendum, self.module_and_angle[1])
+            if self.fillet_radius > largest:
+                yield (
+                    f"fillet_radius = {self.fillet_radius:g}: must be at most {largest:.4g}, with "
+                    f"which one arc rounds the tip of a rack with dedendum = {self.dedendum:g}"
+                )
 
     def _inertias(self) -> Iterator[str]:
         """Error of moments of inertia that are missing or given twice."""
@@ -295,8 +304,8 @@ class Gearset(Section):
             self.profile_shift == ProfileShift()
             and self.tip_diameter == TipDiameters()
             and self.centre_distance is None
-            and (self.dedendum, self.fillet_radius) == (DEDENDUM, TIP_ROUNDING)
-            and self.addendum < self.dedendum
+            and self.fillet_radius is None
+            and self.addendum < self.dedendum == DEDENDUM
         )
 
     def _size(self) -> Size:

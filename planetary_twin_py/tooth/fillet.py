@@ -73,20 +73,29 @@ def straight_reach(gear: SpurGear) -> float:
 
 
 def _rounding(gear: SpurGear) -> float:
-    """Tip radius of the rack [m]: that of the basic rack, or one arc for both corners.
+    """Tip radius of the rack [m]: that of the basic rack, or one arc for both corners."""
+    largest = largest_rounding(gear.dedendum, gear.pressure_angle)
+    return min(gear.fillet, largest) * gear.module
+
+
+def largest_rounding(dedendum: float, pressure_angle: float) -> float:
+    """Tip radius with which one arc rounds both corners of a rack tooth [modules].
+
+    Args:
+        dedendum: height of the rack tooth [modules].
+        pressure_angle: [rad].
 
     Raises:
         ValueError: the pressure angle leaves no space for a tip.
     """
-    alpha = gear.pressure_angle
-    room = 0.25 * math.pi * gear.module - gear.dedendum * gear.module * math.tan(alpha)
+    room = 0.25 * math.pi - dedendum * math.tan(pressure_angle)
     if room <= 0.0:
-        largest = math.degrees(math.atan(0.25 * math.pi / gear.dedendum))
+        largest = math.degrees(math.atan(0.25 * math.pi / dedendum))
         raise ValueError(
-            f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
-            f"pointed above its tip; must be below {largest:.4g} deg"
+            f"pressure_angle = {math.degrees(pressure_angle):g} deg: the rack tooth that cuts the "
+            f"gear is pointed above its tip; must be below {largest:.4g} deg"
         )
-    return min(gear.fillet * gear.module, room * math.cos(alpha) / (1.0 - math.sin(alpha)))
+    return room * math.cos(pressure_angle) / (1.0 - math.sin(pressure_angle))
 
 
 def _undercuts(gear: SpurGear) -> bool:

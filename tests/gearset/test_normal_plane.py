@@ -141,6 +141,7 @@ def test_undercut_starts_at_the_shift_of_the_textbook(degrees):
         (PLANE | {"gearset.normal_pressure_angle": None}, "normal_pressure_angle: missing"),
         ({"gearset.module": None}, "module: missing"),
         ({"gearset.addendum": 1.3}, "tip_diameter.sun = 26.08 mm: must be below 26 mm"),
+        (DRAWN | {"gearset.fillet_radius": 0.5}, "fillet_radius = 0.5: must be at most 0.4719"),
         (DRAWN | {"gearset.dedendum": 0.9}, "must be below .* mm, where its tips reach the roots"),
     ],
 )  # fmt: skip
