@@ -50,7 +50,13 @@ def modal(
     ] = None,
     campbell: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.", callback=output_file),
+        typer.Option(
+            "--campbell",
+            "--picture",
+            metavar="FILE.png",
+            help="Draw the Campbell diagram.",
+            callback=output_file,
+        ),
     ] = None,
     json_: JsonOption = None,
 ) -> None:
@@ -259,9 +265,11 @@ def _print_resonances(console: Console, scene: Scene, found: Sequence[Resonance]
     from ..modal.excitation import EXCITED
 
     excited = [resonance for resonance in found if resonance.excitation == EXCITED]
-    console.print(_heading(scene), highlight=False)
+    strongest = max((resonance.weight for resonance in excited), default=0.0)
+    console.print(_heading(scene, strongest > 0.0), highlight=False)
     for resonance in excited:
-        console.print(_line(resonance))
+        share = f", {resonance.weight / strongest:.0%} of the strongest" if strongest else ""
+        console.print(_line(resonance) + share)
     if not excited:
         console.print("none")
     if len(excited) == len(found):
@@ -278,9 +286,16 @@ _NOT_EXCITED = (
 )
 
 
-def _heading(scene: Scene) -> str:
-    from ..modal.campbell import HARMONICS
+def _heading(scene: Scene, weighted: bool) -> str:
+    from ..modal.campbell import HARMONICS, LEAST_SHARE
 
+    which = f"harmonics 1 to {HARMONICS} of the mesh frequency"
+    if weighted:
+        torque = figure(scene.operating_point.input_torque, "N m")
+        which += (
+            f" and higher ones with {LEAST_SHARE:.0%} of the strongest (by the force of mesh "
+            f"stiffness and errors of form on the mode at input_torque = {torque}, undamped)"
+        )
     limit, second = scene.drive.speed_limit, scene.operating_point.second_input_speed
     speeds = f"speeds up to {_rpm(limit, '.0f')} (drive.speed_limit)"
     if second:
@@ -288,10 +303,7 @@ def _heading(scene: Scene) -> str:
             f"speeds of the first motor up to {_rpm(limit, '.0f')} (drive.speed_limit) in both "
         )
         speeds += f"senses, the second one at {_rpm(second)} (second_input_speed)"
-    return (
-        f"Resonances at mean mesh stiffness, harmonics 1 to {HARMONICS} of the mesh frequency, "
-        f"{speeds}:"
-    )
+    return f"Resonances at mean mesh stiffness, {which}, {speeds}:"
 
 
 def _line(resonance: Resonance) -> str:

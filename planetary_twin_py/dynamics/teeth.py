@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._core import TERMS, TOTAL
 from ..engineering_units import figure
 from ..mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from ..mesh.stiffness import StiffnessLaw
@@ -55,6 +56,17 @@ def build_teeth(scene: Scene) -> Teeth:
             teeth overlap too much (see `FaceMean`).
     """
     return _built(_shape(scene))
+
+
+def stiffness_at(teeth: Teeth, kind: int, fraction: np.ndarray) -> np.ndarray:
+    """Stiffness of a mesh with healthy teeth [N/m], at fractions of the mesh cycle."""
+    segments = int(teeth.segments[kind])
+    edge = teeth.edge[kind][: segments + 1]
+    fraction = edge[0] + np.mod(fraction - edge[0], 1.0)
+    segment = np.clip(np.searchsorted(edge, fraction, side="right") - 1, 0, segments - 1)
+    powers = (fraction - edge[segment])[:, None] ** np.arange(TERMS)
+    weight = np.sum(teeth.weight[kind][segment, TOTAL] * powers, axis=1)
+    return np.asarray(teeth.stiffness_base[kind] + teeth.stiffness_gain[kind] * weight)
 
 
 def _shape(scene: Scene) -> Scene:

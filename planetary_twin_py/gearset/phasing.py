@@ -15,8 +15,9 @@ from functools import lru_cache
 from .clearance import Size, are_clear
 from .kinematics import Teeth
 
-ASSEMBLY_TOLERANCE = 1e-6  # of the spacing between two assembly positions
-ROUNDED = 1e-2  # of this spacing: a smaller error may come from rounding
+EXACT = 1e-6  # of the spacing between two assembly positions: closer ones are these positions
+# Of angles from planet 1: two angles that are rounded to 0.01 deg are 0.01 deg apart at most.
+ASSEMBLY_TOLERANCE = math.radians(0.0101)
 
 
 def least_mesh_angle(teeth: Teeth) -> float:
@@ -37,6 +38,22 @@ def nearest_assembly(teeth: Teeth, angles: Sequence[float]) -> tuple[float, ...]
     """
     step = least_mesh_angle(teeth)
     return tuple(angles[0] + step * place for place in _places(teeth, angles))
+
+
+def assembled(teeth: Teeth, angles: Sequence[float]) -> tuple[float, ...]:
+    """Positions of planets that pass `check_assembly` without the rounding of their angles.
+
+    Args:
+        teeth: tooth numbers.
+        angles: given positions of the planets [rad], (planets,).
+
+    Returns:
+        The given positions, or the nearest ones if the given ones are rounded [rad], (planets,).
+    """
+    fitting = nearest_assembly(teeth, angles)
+    largest = EXACT * least_mesh_angle(teeth)
+    rounded = any(abs(a - b) > largest for a, b in zip(angles, fitting, strict=True))
+    return fitting if rounded else tuple(angles)
 
 
 def _places(teeth: Teeth, angles: Sequence[float]) -> list[int]:
@@ -61,28 +78,21 @@ def check_assembly(
     """
     fitting = nearest_assembly(teeth, angles)
     step = least_mesh_angle(teeth)
-    misses = [abs(a - b) / step for a, b in zip(angles, fitting, strict=True)]
-    if max(misses) > ASSEMBLY_TOLERANCE:
-        advice = f"nearest: {_degrees(fitting, step)}"
+    miss = max(abs(a - b) for a, b in zip(angles, fitting, strict=True))
+    if miss > min(ASSEMBLY_TOLERANCE, 0.25 * step):
+        advice = f"nearest: {_degrees(fitting)}"
         if not are_clear(size or Size(teeth, 1.0, addendum), fitting):
             advice = "at the nearest possible angles, planets touch each other"
         raise ValueError(
-            f"planets at {_degrees(angles, step)} cannot be assembled with "
-            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {advice}{_digits(max(misses), step)}"
+            f"planets at {_degrees(angles)} cannot be assembled with "
+            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {advice}"
         )
 
 
-def _digits(miss: float, step: float) -> str:
-    """Advice for angles that miss positions at each `step` [rad] as rounded ones do, or empty."""
-    if miss > ROUNDED:
-        return ""
-    return f": write as many digits, the tolerance is {ASSEMBLY_TOLERANCE * step:.1g} rad"
-
-
-def _degrees(angles: Sequence[float], step: float) -> str:
+def _degrees(angles: Sequence[float]) -> str:
     """Angles with the fewest decimals that leave no doubt whether they pass `check_assembly`."""
     # A position is relative to that of planet 1, which is rounded, too.
-    largest = math.degrees(0.25 * ASSEMBLY_TOLERANCE * step)
+    largest = math.degrees(0.25 * ASSEMBLY_TOLERANCE)
     return f"{', '.join(_shortest(math.degrees(angle), largest) for angle in angles)} deg"
 
 

@@ -8,11 +8,14 @@ import numpy as np
 
 from ..dynamics.bodies import rigid_speeds
 from ..scene import Scene
-from .excitation import excitation
+from .excitation import EXCITED, excitation
+from .forcing import forcing
 from .modes import NaturalModes, clusters
 from .springs import SpringModel
 
-HARMONICS = 5
+HARMONICS = 5  # of which all crossings are listed
+MOST_HARMONICS = 64
+LEAST_SHARE = 0.1  # of the strongest crossing, for which one of a higher harmonic is listed
 
 
 class Resonance(NamedTuple):
@@ -33,6 +36,10 @@ class Resonance(NamedTuple):
     excitation: str
     """`EXCITED`, `SUPPRESSED` or `NO_MESH` of `excitation`, for equal planets without errors of
     position and form."""
+    weight: float = 0.0
+    """Vibration of the mesh that moves most [m] under the force of the harmonic on the mode at the
+    torque of the scene, if the mode followed without inertia, see `Forcing.answer`; 0 if it is not
+    excited. In resonance it is larger by 1/(2 damping ratio)."""
 
 
 class MeshLine(NamedTuple):
@@ -83,6 +90,28 @@ def mesh_line(scene: Scene) -> MeshLine:
     return MeshLine(*(_passing(scene, inputs) for inputs in ((1.0, 0.0), (0.0, second))))
 
 
+def shaft_orders(scene: Scene) -> dict[str, MeshLine]:
+    """Frequencies of the shafts along the speed of the first motor, by what they are.
+
+    Unbalance and misalignment excite once a turn; errors of planets, each time that one passes.
+
+    Args:
+        scene: gives the members of motor and load, the number of planets, and the second motor.
+    """
+    second = scene.operating_point.second_input_speed
+    ends = [rigid_speeds(scene, inputs) for inputs in ((1.0, 0.0), (0.0, second))]
+    turns = {
+        "turn of the input shaft": (scene.drive.input.member, 1),
+        "turn of the output shaft": (scene.drive.output.member, 1),
+        "planet that passes": ("carrier", scene.gearset.planets),
+    }
+    return {
+        name: MeshLine(*(count * speeds[member] / (2.0 * np.pi) for speeds in ends))
+        for name, (member, count) in turns.items()
+        if any(speeds[member] for speeds in ends)
+    }
+
+
 def mesh_frequency_per_speed(scene: Scene) -> float:
     """Mesh frequency [Hz] per speed of the first motor [rad/s], with the second motor at rest.
 
@@ -103,36 +132,55 @@ def resonances(
     modes: NaturalModes,
     springs: SpringModel,
     highest_speed: float,
-    harmonics: int = HARMONICS,
+    harmonics: int | None = None,
     input_speed: float | None = None,
 ) -> tuple[Resonance, ...]:
     """Resonances up to a speed.
 
     Args:
-        scene: gives the mesh frequency and the mesh phases.
+        scene: gives the mesh frequency, the mesh phases, and the forces at its torque.
         modes: modes of the scene; a run resonates at the modes for the mean mesh stiffness.
         springs: springs of these modes.
         highest_speed: highest speed of the first motor [rad/s].
-        harmonics: number of mesh harmonics.
+        harmonics: number of mesh harmonics, of which all crossings are listed; None: all of the
+            first five, and those up to the 64th that reach a tenth of the strongest crossing.
         input_speed: speed of the first motor at which `modes` are computed [rad/s]; None: at rest.
 
     Returns:
         The resonances in ascending order of speed. Past a second motor that turns, they begin at
         -`highest_speed`; otherwise speeds of both senses have the same ones, and one is listed.
     """
+    pulled = forcing(scene, springs, harmonics or MOST_HARMONICS)
     line = mesh_line(scene)
     lowest = line.lowest_speed(highest_speed)
     turned = not line.start and (input_speed or 0.0) < 0.0  # the listed speeds are backward ones
     found = []
     for cluster in clusters(modes.frequencies):
         m, frequency = cluster.start, float(modes.frequencies[cluster.start])
-        for h in range(1, harmonics + 1):
-            for sense in (1.0, -1.0) if frequency else ():
+        shapes, count = modes.shapes[:, cluster], cluster.stop - cluster.start
+        for sense in (1.0, -1.0) if frequency else ():
+            backward = (sense < 0.0) != turned
+            answer = (pulled.backward if backward else pulled).answer(shapes, frequency)
+            for h, (felt, reach) in enumerate(zip(*answer, strict=True), 1):
                 speed = line.speed(sense * frequency / h)
-                if not lowest <= speed <= highest_speed:
-                    continue
-                backward = (sense < 0.0) != turned
-                felt = excitation(scene, springs, modes.shapes[:, cluster], h, backward)
-                count = cluster.stop - m
-                found.append(Resonance(m, count, modes.kinds[m], frequency, h, speed, felt))
-    return tuple(sorted(found, key=lambda r: (r.speed, r.mode)))
+                if lowest <= speed <= highest_speed:
+                    state = excitation(scene, springs, shapes, h, backward)
+                    weight = float(felt) if state == EXCITED else 0.0
+                    crossing = Resonance(
+                        m, count, modes.kinds[m], frequency, h, speed, state, weight
+                    )
+                    found.append((crossing, float(reach)))
+    listed = [c for c, _ in found] if harmonics is not None else _strong(found)
+    return tuple(sorted(listed, key=lambda r: (r.speed, r.mode)))
+
+
+def _strong(found: list[tuple[Resonance, float]]) -> list[Resonance]:
+    """Low harmonics, and a share of the strongest; what is not excited, by what it would reach."""
+    felt = LEAST_SHARE * max((crossing.weight for crossing, _ in found), default=0.0)
+    others = LEAST_SHARE * max((reach for _, reach in found), default=0.0)
+    return [
+        crossing
+        for crossing, reach in found
+        if crossing.harmonic <= HARMONICS
+        or (0.0 < crossing.weight >= felt if crossing.excitation == EXCITED else reach > others)
+    ]

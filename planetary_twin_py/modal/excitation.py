@@ -15,13 +15,13 @@ import numpy as np
 
 from ..dynamics.planet_groups import scene_phases
 from ..scene import Scene
+from .forcing import KINDS
 from .springs import SpringModel
 
 EXCITED = "excited"
 SUPPRESSED = "suppressed by phasing"
 NO_MESH = "deflects no mesh"
 
-KINDS = ("sun_planet", "planet_ring")
 LEAST = 1e-4  # share of a sum without cancellation, and of a whole deformation
 
 

@@ -14,14 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import TERMS, TOTAL
 from .._core.axes import RollingBearing
 from ..dynamics.bodies import rigid_ratios
 from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
 from ..dynamics.rolling_bearings import largest_element_load, rolling_bearing
 from ..dynamics.static_load import mesh_force
-from ..dynamics.teeth import Teeth, build_teeth
+from ..dynamics.teeth import build_teeth, stiffness_at
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..runaway import displacement_limit
 from ..scene import Scene, SceneError
@@ -299,20 +298,9 @@ def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
     lead = np.array([mesh.coast_lead for mesh in scene.gearset.geometry.meshes])[kinds]
     cycles = side * _mesh_cycles(scene, turns) + (lead if side == COAST else 0.0)
     fractions = cycles - np.floor(cycles)
-    nominal = [_mesh_stiffness(teeth, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
+    nominal = [stiffness_at(teeth, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
     factors = [scene.errors.of_planet(i).stiffness for i in range(planets)]
     return np.column_stack(nominal) * np.tile(factors, 2)
-
-
-def _mesh_stiffness(teeth: Teeth, kind: int, fraction: np.ndarray) -> np.ndarray:
-    """Stiffness of a mesh with healthy teeth [N/m], at fractions of the mesh cycle."""
-    segments = int(teeth.segments[kind])
-    edge = teeth.edge[kind][: segments + 1]
-    fraction = edge[0] + np.mod(fraction - edge[0], 1.0)
-    segment = np.clip(np.searchsorted(edge, fraction, side="right") - 1, 0, segments - 1)
-    powers = (fraction - edge[segment])[:, None] ** np.arange(TERMS)
-    weight = np.sum(teeth.weight[kind][segment, TOTAL] * powers, axis=1)
-    return np.asarray(teeth.stiffness_base[kind] + teeth.stiffness_gain[kind] * weight)
 
 
 def _assemble_result(

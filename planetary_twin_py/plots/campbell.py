@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..modal.campbell import HARMONICS, MeshLine, Resonance, mesh_line
+from ..modal.campbell import HARMONICS, MeshLine, Resonance, mesh_line, shaft_orders
 from ..modal.excitation import EXCITED
 from ..modal.modes import NaturalModes
 from ..scene import Scene
@@ -18,6 +19,8 @@ RPM = 30.0 / np.pi  # per rad/s
 LABEL_HEIGHT, LABEL_WIDTH = 0.045, 0.02  # of a digit over those of the picture
 COLUMN, ROW = 9.0, 12.0  # [pt] from a label at an edge to the next one outwards
 GAP = 3.0  # [pt] from an edge to a label
+DASHES = ("--", ":", "-.")
+SMALLEST, LARGEST = 8.0, 40.0  # [pt^2] circle of a weak crossing, and what is added to the largest
 MARGIN = 1.1  # highest frequency shown/highest natural frequency
 
 
@@ -26,7 +29,7 @@ def campbell_diagram(
     modes: NaturalModes,
     found: tuple[Resonance, ...],
     highest_speed: float,
-    harmonics: int = HARMONICS,
+    harmonics: int | None = None,
     model: str = "torsional",
 ) -> Figure:
     """Draw frequencies against the speed of the first motor.
@@ -36,7 +39,7 @@ def campbell_diagram(
         modes: modes at mean mesh stiffness; modes of one kind have the same colour.
         found: crossings to mark, from `resonances`.
         highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
-        harmonics: number of mesh harmonics.
+        harmonics: number of mesh harmonics; None: the first five, and those of `found`.
         model: of the modes, see `natural_modes`; for the title.
 
     Returns:
@@ -54,8 +57,12 @@ def campbell_diagram(
                 frequencies, ends[0] * RPM, ends[1] * RPM, label=kind, color=colour_of(kinds, kind)
             )
         speeds = _corners(line, *ends)
-        numbers = np.arange(1, harmonics + 1)
+        further = {r.harmonic for r in found} if harmonics is None else set()
+        numbers = np.array(sorted({*range(1, (harmonics or HARMONICS) + 1)} | further))
         axes.plot(speeds * RPM, np.outer(line.at(speeds), numbers), color=GREY, lw=0.8)
+        for k, (name, order) in enumerate(shaft_orders(scene).items()):
+            corners = _corners(order, *ends)
+            axes.plot(corners * RPM, order.at(corners), color=GREY, ls=DASHES[k], label=name)
         labels = _labels(line, *ends, top, numbers)
         for label in labels:
             axes.annotate(
@@ -82,13 +89,13 @@ def campbell_diagram(
             f"{scene.name}, {model} model: natural frequencies at mean mesh stiffness",
             pad=2.0 * ROW + max((label.offset[1] for label in labels), default=0.0) - GAP,
         )
-        figure.legend(loc="outside lower center", ncols=len(kinds) + 2)
+        figure.legend(loc="outside lower center", ncols=3)
     return figure
 
 
 def _corners(line: MeshLine, lowest: float, highest: float) -> np.ndarray:
     """Speeds [rad/s] between which the mesh frequency is straight: both ends, and where it is 0."""
-    zero = line.speed(0.0)
+    zero = line.speed(0.0) if line.slope else lowest
     return np.array([lowest, zero, highest] if lowest < zero < highest else [lowest, highest])
 
 
@@ -153,13 +160,14 @@ def _rows(places: list[float], gap: float) -> list[int]:
 
 
 def _mark(axes: Axes, found: list[Resonance], label: str, fill: str = "black") -> None:
-    """Draw circles with a colour inside where harmonics meet frequencies."""
-    axes.plot(
+    """Draw circles with a colour inside where harmonics meet frequencies, larger with weight."""
+    strongest = max((r.weight for r in found), default=0.0) or math.inf
+    axes.scatter(
         [r.speed * RPM for r in found],
         [r.frequency for r in found],
-        "o",
-        color="black",
-        markerfacecolor=fill,
+        [SMALLEST + LARGEST * r.weight / strongest for r in found],
+        facecolors=fill,
+        edgecolors="black",
         label=label,
         zorder=3,
     )

@@ -16,7 +16,7 @@ from ..gearset.involute import DEDENDUM, TIP_ROUNDING
 from ..gearset.kinematics import Teeth
 from ..gearset.mount import Mount, mount
 from ..gearset.normal_plane import base_helix, transverse_sizes
-from ..gearset.phasing import check_assembly
+from ..gearset.phasing import assembled, check_assembly
 from ..gearset.shift import PerGear
 from ..tooth.fillet import largest_rounding
 from ..tooth.undercut import check_undercut
@@ -141,7 +141,11 @@ class Gearset(Section):
     tip_diameter: TipDiameters = Field(TipDiameters(), description="tip diameters")
     face_width: float = quantity("m", "face width", gt=0.0, le=5.0)
     planet_angles: tuple[float, ...] = quantity(
-        "rad", "angular positions of the planets on the carrier", min_length=2, max_length=7
+        "rad",
+        "angular positions of the planets on the carrier; rounded to 0.01 deg, they are the "
+        "nearest ones at which teeth mesh",
+        min_length=2,
+        max_length=7,
     )
     held: Held = Field("carrier", description="fixed member; none: a differential with two inputs")
     equivalent_mass: EquivalentMasses | None = Field(
@@ -229,6 +233,8 @@ class Gearset(Section):
         errors = [*self._planes()] or [*self._fillet(), *self._teeth(), *self._planets()]
         if errors := [*self._inertias(), *errors]:
             raise ValueError("\n".join(line.removeprefix("gearset.") for line in errors))
+        exact = assembled(self.tooth_numbers, self.planet_angles)
+        object.__setattr__(self, "planet_angles", exact)  # before anyone has the frozen section
         return self
 
     def _planes(self) -> Iterator[str]:

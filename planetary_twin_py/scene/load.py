@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from ..printable import one_line
 from .names import did_you_mean
+from .paths import NoSuchPath, with_value
 from .quantity import SceneError
-from .scene import Scene, validated
+from .scene import Scene, path_of, validated
 from .yaml_file import read_text
 from .yaml_text import read_yaml
 
@@ -36,14 +38,56 @@ def load_scene(name_or_path: str | Path) -> Scene:
     Raises:
         SceneError: the scene does not exist, or a field is invalid; the message names the file.
     """
+    return load_changed(name_or_path, {})
+
+
+def load_changed(name_or_path: str | Path, changes: Mapping[str, Any]) -> Scene:
+    """Load a scene and change it; changes may repair what is invalid in the file.
+
+    Args:
+        name_or_path: name of a packaged scene, or path of a YAML file.
+        changes: values by name, see `Scene.replace`.
+
+    Returns:
+        The changed scene.
+
+    Raises:
+        SceneError: the scene does not exist, or a field is invalid.
+    """
     if str(name_or_path) in packaged_scenes():
-        file = resources.files(__package__) / "packaged" / f"{name_or_path}.yaml"
-        return parse_scene(file.read_text())
-    text = _read(Path(name_or_path))
+        return parse_scene(_packaged(str(name_or_path))).replace(**changes)
+    path = Path(name_or_path)
+    text = _read(path)
     try:
-        return parse_scene(text)
+        data = _fields(text, (path,))
+        scene = _valid(data)
+        if scene is None and changes:
+            return validated(_changed(data, changes))
+        scene = scene or validated(data)
     except SceneError as error:
         raise SceneError(f"{name_or_path}: {error}") from None
+    return scene.replace(**changes)
+
+
+def _valid(data: dict[str, Any]) -> Scene | None:
+    try:
+        return validated(data)
+    except SceneError:
+        return None
+
+
+def _changed(data: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields of a file with changes; as they are, if the file lacks what is to be changed."""
+    try:
+        for name, value in changes.items():
+            data = with_value(data, [Scene], path_of(name), value)
+    except NoSuchPath:  # of a name, or an entry of a list, which no valid scene would show either
+        raise SceneError(f"{name}: is not a field of the file, which is invalid") from None
+    return data
+
+
+def _packaged(name: str) -> str:
+    return (resources.files(__package__) / "packaged" / f"{name}.yaml").read_text()
 
 
 def _read(path: Path) -> str:
@@ -66,7 +110,8 @@ def parse_scene(text: str) -> Scene:
 
     Args:
         text: YAML. With the key ``base``, the name of a packaged scene, it contains only the
-            differences from that scene.
+            differences from that scene. In a file, ``base`` may be the path of another file, from
+            the folder of the first one.
 
     Returns:
         The scene.
@@ -74,26 +119,38 @@ def parse_scene(text: str) -> Scene:
     Raises:
         SceneError: the text is not a YAML mapping, a key occurs twice, or a field is invalid.
     """
+    return validated(_fields(text, ()))
+
+
+def _fields(text: str, files: tuple[Path, ...]) -> dict[str, Any]:
+    """Values of the fields of a scene and its base; `files` are those that lead here."""
     data = read_yaml(text)
     if not isinstance(data, dict):
         raise SceneError("scene is not a YAML mapping")
-    if "base" in data:
-        base = data.pop("base")
-        if base not in packaged_scenes():
-            name = one_line(str(base), 60)
-            raise SceneError(
-                f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
-                f"{did_you_mean(name, packaged_scenes())}{_no_file(name)}"
-            )
-        data = _overlaid(_without_other_inertia(load_scene(base).model_dump(), data), data)
-    return validated(data)
+    if "base" not in data:
+        return data
+    base = _base(data.pop("base"), files)
+    return _overlaid(_without_other_inertia(base, data), data)
 
 
-def _no_file(name: str) -> str:
-    """Part of a message if a base is the name of a file: a scene is one file."""
-    if "/" not in name and not name.endswith((".yaml", ".yml")):
-        return ""
-    return "; a file cannot be a base: copy its fields, or change it with --set NAME=VALUE"
+def _base(given: Any, files: tuple[Path, ...]) -> dict[str, Any]:
+    """Values of the fields of a base: a packaged scene, or a file beside the last of `files`."""
+    if given in packaged_scenes():
+        return load_scene(given).model_dump()
+    name = one_line(str(given), 60)
+    if files and name.endswith((".yaml", ".yml")):
+        path = files[-1].parent / str(given)
+        if any(path.resolve() == file.resolve() for file in files):
+            raise SceneError(f"base = {name!r}: leads back to itself")
+        try:
+            return _fields(read_text(path), (*files, path))
+        except (SceneError, OSError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            raise SceneError(f"base = {name!r}: {reason}") from None
+    raise SceneError(
+        f"base = {name!r}: must be a file NAME.yaml beside that of the scene, or one of "
+        f"{', '.join(packaged_scenes())}{did_you_mean(name, packaged_scenes())}"
+    )
 
 
 def _without_other_inertia(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
@@ -103,7 +160,7 @@ def _without_other_inertia(base: dict[str, Any], changes: dict[str, Any]) -> dic
     if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
         return base
     (form,) = forms.keys() & given.keys()
-    return base | {"gearset": base["gearset"] | {forms[form]: None}}
+    return base | {"gearset": (base.get("gearset") or {}) | {forms[form]: None}}
 
 
 def _overlaid(base: Any, changes: Any) -> Any:

@@ -306,9 +306,7 @@ class Scene(Section):
         data, errors = self.model_dump(), []
         given: dict[tuple[str, ...], str] = {}
         for name, value in changes.items():
-            path = tuple(name.split("."))
-            if name in OperatingPoint.model_fields:
-                path = ("operating_point", name)
+            path = path_of(name)
             if given.setdefault(path, name) != name:
                 errors.append(f"{path[-1]}: given twice, as {given[path]} and as {name}")
             try:
@@ -348,6 +346,11 @@ class Scene(Section):
             if any(there._errors()):
                 return self.replace(**data).operating_point  # for the message
         return found
+
+
+def path_of(name: str) -> tuple[str, ...]:
+    """Path of a dotted name in a scene; operating quantities need no section before them."""
+    return ("operating_point", name) if name in OperatingPoint.model_fields else (*name.split("."),)
 
 
 def validated(data: Any) -> Scene:

@@ -45,7 +45,7 @@ def settings(given: Sequence[str], option: str = "--set") -> dict[str, Any]:
 
 
 def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
-    """Load a scene, apply changes, and print in which unit each number without unit was read.
+    """Load a scene with changes, and print in which unit each number without unit was read.
 
     Args:
         name: packaged scene, or path of a YAML file.
@@ -57,9 +57,9 @@ def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
     Raises:
         SceneError: the scene does not exist, or a field is invalid.
     """
-    from ..scene import load_scene
+    from ..scene.load import load_changed
 
-    scene = load_scene(name).replace(**changes)
+    scene = load_changed(name, changes)
     say_units(scene, changes)
     return scene
 

@@ -7,8 +7,15 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import planetary_twin_py as pt
+from planetary_twin_py.dynamics.planet_groups import axes_stand, planet_groups
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.gearset.phasing import check_assembly, mesh_phases, nearest_assembly
+from planetary_twin_py.gearset.phasing import (
+    assembled,
+    check_assembly,
+    mesh_phases,
+    nearest_assembly,
+)
 
 PAPER = Teeth(30, 20, 70)
 FITTING = np.radians([90.0, -28.8, 208.8])
@@ -61,9 +68,8 @@ def suggested(teeth, degrees):
     "teeth, degrees",
     [
         (Teeth(27, 35, 99), (0.0, 90.0, 180.0, 270.0)),  # OH-58
-        (Teeth(27, 35, 99), (0.0, 88.5714, 180.0, 268.571)),  # rounded in print
         (Teeth(27, 35, 99), (12.3456789, 102.3456789, 192.3456789, 282.3456789)),
-        (Teeth(27, 35, 99), (0.0, 88.571425, 180.0, 268.571425)),  # beyond the tolerance by 25 %
+        (Teeth(27, 35, 99), (0.0, 88.584, 180.0, 268.584)),  # beyond the tolerance by 25 %
         (Teeth(30, 20, 70), (90.0, -30.0, 210.0)),  # Salagianni et al. 2017
         (Teeth(19, 17, 56), (0.0, 90.0, 180.0, 270.0)),  # 5 MW reference gearbox
         (Teeth(20, 31, 83), (math.pi, 123.0, 243.0)),
@@ -76,8 +82,28 @@ def test_the_printed_positions_are_accepted_when_copied(teeth, degrees):
 
 
 def test_positions_are_printed_as_short_as_they_may_be():
-    with pytest.raises(ValueError, match=r"nearest: 0, 88\.571429, 180, 268\.571429 deg"):
+    with pytest.raises(ValueError, match=r"nearest: 0, 88\.57, 180, 268\.57 deg"):
         check_assembly(Teeth(27, 35, 99), np.radians([0.0, 90.0, 180.0, 270.0]))
+
+
+@pytest.mark.parametrize("teeth", [Teeth(27, 35, 99), Teeth(29, 71, 171), Teeth(31, 31, 94)])
+def test_angles_rounded_to_a_hundredth_of_a_degree_are_the_exact_ones(teeth):
+    exact = nearest_assembly(teeth, [0.0, 1.3, 2.6, 3.9])
+    rounded = [math.radians(round(math.degrees(angle), 2)) for angle in exact]
+    check_assembly(teeth, rounded)
+    assert assembled(teeth, rounded) == pytest.approx(exact, rel=1e-15)
+    assert assembled(teeth, exact) == exact
+
+
+def test_equal_planets_at_rounded_angles_are_one_group():
+    teeth = {"sun": 30, "planet": 21, "ring": 72}
+    angles = ["0 deg", "119.99 deg", "240.01 deg"]
+    scene = pt.load_scene("paper").replace(
+        **{"gearset.teeth": teeth, "gearset.planet_angles": angles}
+    )
+    assert scene.gearset.planet_angles == pytest.approx((0.0, math.tau / 3, math.tau / 1.5), 1e-15)
+    assert planet_groups(scene).sizes == (3,)
+    assert axes_stand(scene)
 
 
 def test_no_positions_are_suggested_at_which_planets_touch():
