@@ -8,6 +8,7 @@ from typing import Any
 
 from ..printable import one_line
 from .names import did_you_mean
+from .oil_grade import without_other_oil
 from .quantity import SceneError
 from .scene import Scene, validated
 from .yaml_file import read_text
@@ -85,7 +86,7 @@ def parse_scene(text: str) -> Scene:
                 f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
                 f"{did_you_mean(name, packaged_scenes())}{_no_file(name)}"
             )
-        data = _overlaid(_without_other_inertia(load_scene(base).model_dump(), data), data)
+        data = _overlaid(_without_other_forms(load_scene(base).model_dump(), data), data)
     return validated(data)
 
 
@@ -96,8 +97,11 @@ def _no_file(name: str) -> str:
     return "; a file cannot be a base: copy its fields, or change it with --set NAME=VALUE"
 
 
-def _without_other_inertia(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """Return `base` without its moments of inertia if `changes` gives them in another form."""
+def _without_other_forms(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """Return `base` without moments of inertia and an oil that `changes` gives in another form."""
+    if isinstance(changes.get("lubrication"), dict):
+        oil = without_other_oil(base["lubrication"], changes["lubrication"])
+        base = base | {"lubrication": oil}
     given = changes.get("gearset")
     forms = {"equivalent_mass": "inertia", "inertia": "equivalent_mass"}
     if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
