@@ -125,6 +125,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
         table: results.
         scenes: scenes that were computed, such as those of `Study.extremes`.
     """
+    from ..explanation.backlash import backlash_of_scene
     from ..explanation.deflection import deflection_of_scene
     from ..explanation.pressure import pressure_of_scene
     from ..planar.held_axes import held_axes_warning
@@ -135,6 +136,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
 
     lines = (
         next(filter(None, map(held_axes_warning, scenes)), None),
+        next(filter(None, map(backlash_of_scene, scenes)), None),
         next(filter(None, map(deflection_of_scene, scenes)), None),
         next(filter(None, map(pressure_of_scene, scenes)), None),
         clipping_of_study(table),

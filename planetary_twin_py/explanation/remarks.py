@@ -10,6 +10,7 @@ from ..result import Result
 from ..scene import Scene
 from ..studies.clipping import clipping_of_run
 from ..studies.measures import clipped_friction
+from .backlash import backlash_of_scene
 from .deflection import deflection_of_run
 from .pressure import pressure_of_run
 from .turning import turning_warnings
@@ -24,6 +25,8 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
         tolerance: tolerance of the run.
     """
     if line := ledger_warning(balance_of_run(run.energy), tolerance):
+        yield line
+    if line := backlash_of_scene(scene):
         yield line
     yield from accuracy_warnings(scene, run)
     yield from turning_warnings(scene, run)

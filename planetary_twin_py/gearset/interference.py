@@ -12,6 +12,7 @@ from .gear_set import GearSet
 from .shift import involute
 from .working import WorkingMesh
 
+SENSE_OF_RING = "A positive shift makes teeth of the ring thicker (ISO 21771)"
 OVERLAP_TOLERANCE = 0.01  # [modules] overlap that the rounding of published shifts may leave
 
 
@@ -97,8 +98,8 @@ def _sign_of_ring(mesh: WorkingMesh) -> str:
     if not mesh.internal or backlash < -OVERLAP_TOLERANCE * module:
         return ""
     return (
-        ". A positive shift makes teeth of the ring thicker (ISO 21771); if its source counts it "
-        f"outwards, set gearset.profile_shift.ring = {-ring / mesh.second.stated:g}"
+        f". {SENSE_OF_RING}; if its source counts it outwards, set "
+        f"gearset.profile_shift.ring = {-ring / mesh.second.stated:g}"
     )
 
 

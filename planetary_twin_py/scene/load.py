@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from ..printable import one_line
 from .names import did_you_mean
+from .oil_grade import without_other_oil
 from .paths import NoSuchPath, with_value
 from .quantity import SceneError
 from .scene import Scene, path_of, validated
 from .yaml_file import read_text
 from .yaml_text import read_yaml
+
+_FORMS = (  # of a gear set: each is given in one of two
+    (("equivalent_mass",), ("inertia",)),
+    (("module", "pressure_angle"), ("normal_module", "normal_pressure_angle")),
+)
 
 
 def packaged_scenes() -> tuple[str, ...]:
@@ -130,7 +136,7 @@ def _fields(text: str, files: tuple[Path, ...]) -> dict[str, Any]:
     if "base" not in data:
         return data
     base = _base(data.pop("base"), files)
-    return _overlaid(_without_other_inertia(base, data), data)
+    return _overlaid(_without_other_forms(base, data), data)
 
 
 def _base(given: Any, files: tuple[Path, ...]) -> dict[str, Any]:
@@ -153,14 +159,23 @@ def _base(given: Any, files: tuple[Path, ...]) -> dict[str, Any]:
     )
 
 
-def _without_other_inertia(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """Return `base` without its moments of inertia if `changes` gives them in another form."""
-    given = changes.get("gearset")
-    forms = {"equivalent_mass": "inertia", "inertia": "equivalent_mass"}
-    if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
-        return base
-    (form,) = forms.keys() & given.keys()
-    return base | {"gearset": (base.get("gearset") or {}) | {forms[form]: None}}
+def _without_other_forms(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """Return `base` without what `changes` gives in another form: an oil, inertias, a plane."""
+    oil, gears = changes.get("lubrication"), changes.get("gearset")
+    if isinstance(oil, dict):
+        base = base | {"lubrication": without_other_oil(base.get("lubrication") or {}, oil)}
+    if isinstance(gears, dict):
+        replaced = {name: None for name in _replaced(gears.keys())}
+        base = base | {"gearset": (base.get("gearset") or {}) | replaced}
+    return base
+
+
+def _replaced(given: Collection[str]) -> Iterator[str]:
+    """Fields of the other form where only one form is `given`."""
+    for forms in _FORMS:
+        for form, other in (forms, forms[::-1]):
+            if any(name in given for name in form) and not any(name in given for name in other):
+                yield from other
 
 
 def _overlaid(base: Any, changes: Any) -> Any:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
+from ..lubrication.viscosity_grade import GRADES, HIGHEST_INDEX, LOWEST_INDEX
+from ..units import to_si
 from .friction_table import FrictionTable
+from .oil_grade import with_grade
 from .quantity import Section, quantity
+
+MINERAL_INDEX = 95.0  # of mineral gear oils, for which ISO 3448 lists viscosities
+DENSITY = 890.0  # [kg/m^3]
 
 
 class Lubrication(Section):
@@ -51,6 +57,20 @@ class Lubrication(Section):
     rolling: Literal["none", "goksem_hargreaves"] = Field(
         "none", description="law of rolling resistance"
     )
+    iso_vg: int | None = Field(
+        None,
+        description="viscosity grade of ISO 3448, such as 220; defines viscosity, "
+        "reference_temperature and viscosity_slope",
+        ge=GRADES[0],
+        le=GRADES[-1],
+    )
+    viscosity_index: float = quantity(
+        "",
+        "viscosity index of the oil (ASTM D2270), for iso_vg; about 95 for mineral gear oils",
+        MINERAL_INDEX,
+        ge=LOWEST_INDEX,
+        le=HIGHEST_INDEX,
+    )
     viscosity: float = quantity(
         "Pa s",
         "dynamic viscosity at atmospheric pressure and the reference temperature",
@@ -67,7 +87,7 @@ class Lubrication(Section):
         ge=0.0,
         le=6.0,
     )
-    oil_density: float = quantity("kg/m^3", "density of the oil", 890.0, ge=500.0, le=2000.0)
+    oil_density: float = quantity("kg/m^3", "density of the oil", DENSITY, ge=500.0, le=2000.0)
     pressure_viscosity: float = quantity(
         "1/Pa", "pressure coefficient of the viscosity", gt=0.0, le=1e-6
     )
@@ -100,7 +120,12 @@ class Lubrication(Section):
         "", "friction coefficient without a film, for load sharing", 0.11, ge=0.0, le=1.0
     )
     composite_roughness: float = quantity(
-        "m", "composite roughness sigma of both flanks", 2e-7, gt=0.0, le=1e-4
+        "m",
+        "composite roughness sigma: root of Rq^2 of one flank + Rq^2 of the other; 1.77 times the "
+        "Ra of two equal flanks",
+        2e-7,
+        gt=0.0,
+        le=1e-4,
     )
     sliding_threshold: float = quantity(
         "",
@@ -121,6 +146,19 @@ class Lubrication(Section):
     def includes_boundary_friction(self) -> bool:
         """Whether the law `traction` describes all friction, so that `boundary` is not used."""
         return self.traction in ("schlenk", "table")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_its_grade(cls, data: Any) -> Any:
+        if not isinstance(data, dict) or data.get("iso_vg") is None:
+            return data
+        try:
+            grade = float(data["iso_vg"])
+            index = float(to_si(data.get("viscosity_index", MINERAL_INDEX), ""))  # type: ignore[arg-type]
+            density = float(to_si(data.get("oil_density", DENSITY), "kg/m^3"))  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            return data  # the fields are refused one by one
+        return with_grade(data, grade, index, density)
 
     @model_validator(mode="after")
     def _has_its_table(self) -> Self:

@@ -21,6 +21,7 @@ from .losses import Losses
 from .lubrication import Lubrication
 from .mesh import Mesh, TipReliefs
 from .names import no_such_field
+from .oil_grade import without_other_oil
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, Section, limit_of, listed, quantity
@@ -304,6 +305,9 @@ class Scene(Section):
             SceneError: a name is unknown, or a value is out of range.
         """
         data, errors = self.model_dump(), []
+        prefix = "lubrication."
+        oil = {name.removeprefix(prefix): new for name, new in changes.items()}
+        data["lubrication"] = without_other_oil(data["lubrication"], oil)
         given: dict[tuple[str, ...], str] = {}
         for name, value in changes.items():
             path = path_of(name)

@@ -44,6 +44,8 @@ def not_in_use(scene: Scene, name: str) -> str | None:
             f"lubrication.boundary = {boundary} does not use it; "
             "set lubrication.boundary = load_sharing to use it"
         )
+    if plain == "lubrication.viscosity_index" and scene.lubrication.iso_vg is None:
+        return "lubrication.iso_vg is not given; set it to a grade, such as 220"
     if traction != "table" and plain.startswith("lubrication.friction_table"):
         return f"lubrication.traction = {traction}; set lubrication.traction = table to use it"
     if plain == "second_input_speed" and scene.drive.second_input is None:
