@@ -10,7 +10,7 @@ _CHOSEN = "ROS_LOG_DIR", "ROS_HOME"
 
 def choose_log_folder() -> None:
     """
-    Log below the folder for temporary files unless a folder is chosen or can be in the home folder.
+    Log below the folder for temporary files if no folder is chosen and there is no home folder.
 
     By default rcl logs into ~/.ros/log, and fails without HOME, as in services and containers.
     """
