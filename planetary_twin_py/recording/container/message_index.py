@@ -120,8 +120,8 @@ class Index:
 
 def _entries(stream: BinaryIO, chunk: ChunkPlace) -> Iterator[tuple[int, NDArray[np.int64]]]:
     """Log times of the index entries of a chunk, by channel."""
-    stream.seek(chunk.index)
-    data = stream.read(chunk.index_length)
+    stream.seek(chunk.indexes)
+    data = stream.read(chunk.indexes_length)
     place = 0
     while place < len(data):
         opcode, length, channel, size = _HEAD.unpack_from(data, place)

@@ -26,9 +26,9 @@ class ChunkPlace(NamedTuple):
     end: int
     """Log time of its last message."""
     place: int
-    index: int
+    indexes: int
     """Position of its message indexes."""
-    index_length: int
+    indexes_length: int
     channels: frozenset[int]
     """Channels that its message indexes list."""
 
