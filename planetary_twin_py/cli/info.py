@@ -96,8 +96,8 @@ def _print(console: Console, found: Info) -> None:
     console.print()
     if any(topic.lost is None for topic in found.topics.values()):
         console.print(
-            "lost          unknown: the count of lost messages, which the logger writes at the "
-            "end of each file, is missing",
+            "lost          unknown: the file has no count of lost messages, which the logger "
+            "writes at its end, or a file is missing",
             highlight=False,
             soft_wrap=True,
         )

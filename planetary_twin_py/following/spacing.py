@@ -43,6 +43,6 @@ class Spacing:
         mean = (self.last - self.first) / self.steps
         yield (
             f"readings are {mean:.3g} s apart, a bin has {period:g} s: is the unit of the time "
-            "right? A heading of a table with milliseconds must be time [ms]; readings that are "
-            "so slow are for fleet"
+            "right? The header.stamp of a message has s and ns; a table in milliseconds needs the "
+            "heading time [ms]; readings that are so slow are for fleet"
         )

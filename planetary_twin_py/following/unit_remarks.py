@@ -61,12 +61,13 @@ def unit_remarks(point: OperatingPoint, torque: float, speed: float) -> Iterator
     if 0.0 < torque < SMALL * usual_torque:
         yield (
             f"input_torque is at most {torque:.3g} N m, and that of the scene is "
-            f"{usual_torque:.3g} N m: is the unit of both torques right? The heading of a column "
-            "in kN m must be input_torque [kN m]"
+            f"{usual_torque:.3g} N m: is the unit of both torques right? The field effort of a "
+            "JointState must be in N m; a table in kN m needs the heading input_torque [kN m]"
         )
     if usual_speed > 0.0 and speed > FAST * usual_speed:
         yield (
             f"input_speed is {speed:.4g} rad/s on average, {speed / usual_speed:.3g} times that of "
             "the scene: is the unit of both speeds right? The number in rpm is 9.55 times that in "
-            "rad/s; the heading of a column in rpm must be input_speed [rpm]"
+            "rad/s. The field velocity of a JointState must be in rad/s; a table in rpm needs the "
+            "heading input_speed [rpm]"
         )

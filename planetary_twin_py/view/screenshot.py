@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
@@ -21,6 +21,7 @@ from .viewer import ViewerError, free_port, last_line, start_viewer, stop_viewer
 _START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
 _NOTICES = 4.0  # [s] until start-up notifications, shown for 2 to 3 s, have disappeared
 _SETTLE_LIMIT = 30.0  # [s] until all curves and solids are loaded, which takes 1 to 3 s
+_END_LIMIT = 5.0  # [s] for a viewer that fails to print why
 
 
 class ScreenshotError(ViewerError):
@@ -46,7 +47,8 @@ def save_screenshot(
         if at is not None:
             client.set_time(SIMULATED_TIME, duration=at, play_state="paused")
         time.sleep(_NOTICES)
-        png.write_bytes(_settled_picture(client))
+        picture = _settled_picture(client)
+    png.write_bytes(picture)
 
 
 @contextmanager
@@ -58,6 +60,10 @@ def _headless_viewer(size: tuple[int, int]) -> Iterator[ViewerClient]:
         viewer = start_viewer(port, options, output)
         try:
             yield _connect(viewer, port, output)
+        except ViewerError:
+            raise
+        except (RuntimeError, OSError) as lost:  # the viewer may answer before it fails
+            raise ScreenshotError(_ending(viewer, output) or f"the viewer: {lost}") from None
         finally:
             stop_viewer(viewer)
 
@@ -89,11 +95,19 @@ def _settled_picture(client: ViewerClient) -> bytes:
     return picture
 
 
+def _ending(viewer: subprocess.Popen[bytes], output: IO[bytes]) -> str:
+    """Why the viewer has ended; empty while it runs."""
+    with suppress(subprocess.TimeoutExpired):
+        viewer.wait(_END_LIMIT)
+        return _reason(output)
+    return ""
+
+
 def _reason(output: IO[bytes]) -> str:
     """Why the viewer ended, from what it printed."""
     output.seek(0)
     printed = output.read().decode(errors="replace")
-    if "adapter" in printed or "Vulkan" in printed:
+    if any(word in printed for word in ("adapter", "Vulkan", "render context")):
         return (
             "no Vulkan driver is installed; a software driver is sufficient, "
             "on Debian and Ubuntu the package mesa-vulkan-drivers"

@@ -6,6 +6,7 @@ is a wrapper that leaves the viewer running when it is stopped, so the binary is
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import socket
@@ -16,6 +17,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import IO
 from urllib.parse import quote
@@ -24,6 +26,7 @@ import rerun_cli
 
 from .own_page import served
 
+BINARY = Path(rerun_cli.__file__).parent / "rerun"
 _PORTS = (9090, 9091)  # of the page and of its data; constant, so that they can be forwarded
 _ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _TIMEOUT = 20.0  # [s] until the page and the data are served
@@ -129,14 +132,38 @@ def start_viewer(
     Returns:
         The process.
     """
-    binary = Path(rerun_cli.__file__).parent / "rerun"
-    command = [str(binary), "--bind", "127.0.0.1", "--port", str(port), *arguments]
+    command = [str(BINARY), "--bind", "127.0.0.1", "--port", str(port), *arguments]
     # Without the first-time welcome and without informational log lines.
-    environment = {"RUST_LOG": "error", **os.environ, "RERUN_APP_ONLY": "true"}
+    environment = {"RUST_LOG": "error", **private_environment(), "RERUN_APP_ONLY": "true"}
     # In a separate session: Ctrl-C reaches only this process, which then stops the viewer.
     return subprocess.Popen(
         command, stdout=output, stderr=output, env=environment, start_new_session=True
     )
+
+
+def private_environment() -> dict[str, str]:
+    """Environment in which Rerun collects no usage data and writes nothing to the home folder.
+
+    `rerun analytics disable` writes its choice to the configuration of the user, and there is no
+    variable for it. So this process has a temporary configuration with the same choice.
+    """
+    return {**os.environ, "XDG_CONFIG_HOME": _configuration().name}
+
+
+@cache
+def _configuration() -> tempfile.TemporaryDirectory[str]:
+    folder = tempfile.TemporaryDirectory(prefix="planetary_twin_rerun_")
+    file = Path(folder.name, "rerun", "analytics.json")
+    file.parent.mkdir()
+    choice = {
+        "analytics_enabled": False,
+        "analytics_id": "",
+        "metadata": {},
+        "config_file_path": str(file),
+        "data_dir_path": str(file.parent),
+    }
+    file.write_text(json.dumps(choice), encoding="utf-8")
+    return folder
 
 
 def stop_viewer(viewer: subprocess.Popen[bytes]) -> None:

@@ -73,15 +73,27 @@ def test_a_folder_without_room_or_rights_is_broken(tmp_path, monkeypatch):
 
 
 def test_a_viewer_that_does_not_start_is_broken(tmp_path, monkeypatch):
-    import rerun_cli
-
     fake = tmp_path / "rerun"
     fake.write_text("#!/bin/sh\necho no such library >&2\nexit 127\n")
     fake.chmod(0o755)
-    monkeypatch.setattr(rerun_cli, "__file__", str(tmp_path / "__init__.py"))
+    monkeypatch.setattr("planetary_twin_py.view.viewer.BINARY", fake)
     assert [*viewer.check()] == [
         Finding("viewer", "broken", "no such library", "pip install --force-reinstall rerun-sdk")
     ]
+
+
+@pytest.mark.parametrize("name", ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"])
+def test_a_graphics_driver_named_in_the_environment_is_found(tmp_path, monkeypatch, name):
+    for variable in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
+        monkeypatch.delenv(variable, raising=False)
+    driver = tmp_path / "lvp_icd.x86_64.json"
+    driver.touch()
+    for given in (driver, tmp_path):
+        monkeypatch.setenv(name, f"/nowhere/other.json:{given}")
+        assert viewer._driver() == Finding("graphics", "sound", "lvp_icd.x86_64")
+    monkeypatch.setenv(name, "/nowhere/other.json")
+    missing = viewer._driver()
+    assert missing.state == "absent" and f"{name} = /nowhere/other.json" in missing.details
 
 
 @pytest.mark.slow

@@ -9,8 +9,8 @@ import pytest
 from planetary_twin_msgs.msg import FollowerEstimate
 from sensor_msgs.msg import JointState, Temperature
 
-from planetary_twin_py.following.measured_recording import read_recording
 from planetary_twin_py.following.follower import Readings
+from planetary_twin_py.following.measured_recording import read_recording
 from planetary_twin_py.following.sensors import JointNames
 
 from .conftest import Start

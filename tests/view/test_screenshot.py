@@ -2,6 +2,7 @@
 
 import copy
 import os
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from synthetic_recording import write_recording
 
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
+from planetary_twin_py.view import screenshot
 from planetary_twin_py.view.blueprint import PICTURE
 from planetary_twin_py.view.gears import SUN
 from planetary_twin_py.view.layer import Layer
@@ -82,3 +84,18 @@ def test_without_a_vulkan_driver_one_line_names_the_package(rrd, tmp_path, monke
         save_screenshot(rrd, tmp_path / "a.png")
     assert "\n" not in str(caught.value)
     assert viewers() == []
+
+
+def test_a_viewer_that_answers_before_it_fails_is_reported_with_its_reason(tmp_path, monkeypatch):
+    class Client:
+        def open(self, path):
+            raise ConnectionError("transport error")
+
+    def failing(port, arguments, output):
+        script = "sleep 0.2; echo Failed to get render context; exit 101"
+        return subprocess.Popen(["sh", "-c", script], stdout=output)
+
+    monkeypatch.setattr(screenshot, "start_viewer", failing)
+    monkeypatch.setattr(screenshot, "_connect", lambda *_: Client())
+    with pytest.raises(ScreenshotError, match="no Vulkan driver is installed"):
+        save_screenshot(tmp_path / "a.rrd", tmp_path / "a.png")

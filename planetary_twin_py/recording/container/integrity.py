@@ -34,6 +34,14 @@ def damaged_summary(file: Path) -> bool:
     return expected not in (0, checksum)
 
 
+def start_of_summary(file: Path) -> int:
+    """Position of the summary in a file that is not truncated; that of the footer without one."""
+    with file.open("rb") as stream:
+        footer = stream.seek(-_FOOTER.size - len(MAGIC), 2)
+        *_, start, _, _ = _FOOTER.unpack(stream.read(_FOOTER.size))
+    return int(start) or footer
+
+
 def damaged_data(file: Path) -> bool:
     """Whether the data before the summary fail their checksum (MCAP 0, section Data End).
 

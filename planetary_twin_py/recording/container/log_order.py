@@ -105,7 +105,7 @@ def _is_in_log_order(file: Path) -> bool:
 
     Only heads of records are read, up to the end of the data or to the first that is damaged.
     """
-    newest = 0
+    newest, size = 0, file.stat().st_size
     with file.open("rb") as stream:
         stream.seek(len(MAGIC))
         while len(head := stream.read(_HEAD.size)) == _HEAD.size:
@@ -119,7 +119,7 @@ def _is_in_log_order(file: Path) -> bool:
                 if begin and begin < newest - DISORDER:
                     return False
                 newest = max(newest, begin)
-            elif opcode not in tuple(Opcode) or opcode == Opcode.DATA_END:
+            if end > size or opcode not in tuple(Opcode) or opcode == Opcode.DATA_END:
                 return True
             stream.seek(end)
     return True

@@ -1,25 +1,29 @@
 """Random access to the messages of a finished file, by its index.
 
-The index is used only if the checksums of the whole file are correct.
+The index is used only if the checksums of the whole file are correct. It takes some bytes for each
+chunk and channel, none for each message.
 """
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
+from array import array
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 from mcap.opcode import Opcode
-from mcap.reader import make_reader
-from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
+from mcap.records import Message
 from numpy.typing import NDArray
 
 from .framing import DAMAGED
-from .integrity import damaged_data, damaged_summary
-from .records import MOST_TOPICS, section_at
+from .integrity import damaged_data
+from .records import section_at
+from .summary import ChunkPlace, read_summary
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
@@ -27,8 +31,49 @@ UNSOUND: tuple[type[Exception], ...] = (*DAMAGED, KeyError)
 _KEPT = 8  # sections, so that neighbours are not unpacked again
 
 
+@dataclass
+class LogTimes:
+    """Number of messages, their first and last log time, and the longest gap between two [ns]."""
+
+    recorded: int = 0
+    first: int = 0
+    last: int = 0
+    longest_gap: int = 0
+    """Longest time between two messages [ns]."""
+
+    def add(self, times: Sequence[int] | NDArray[np.int64]) -> None:
+        """Count messages by their log times, which follow those of previous calls."""
+        if not len(times):
+            return
+        if not self.recorded:
+            self.first = self.last = int(times[0])
+        newest = np.maximum.accumulate(np.concatenate(([self.last], times)))
+        self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
+        self.last = int(newest[-1])
+        self.recorded += len(times)
+
+    def join(self, following: LogTimes) -> None:
+        """Add the messages of a following file."""
+        if not following.recorded:
+            return
+        if not self.recorded:
+            self.first = self.last = following.first
+        between = following.first - self.last
+        self.longest_gap = max(self.longest_gap, following.longest_gap, between)
+        self.last = max(self.last, following.last)
+        self.recorded += following.recorded
+
+
+class _Chunks:
+    """The chunks with messages of one channel, and how many messages are before each."""
+
+    def __init__(self) -> None:
+        self.places = array("q")
+        self.before = array("q")
+
+
 class Index:
-    """Index of a finished file: its channels, and `times[channel]` of their messages [ns]."""
+    """Index of a finished file: its channels, and `times[channel]` of their messages."""
 
     def __init__(self, file: Path) -> None:
         """Read the index of `file`.
@@ -36,27 +81,22 @@ class Index:
         Raises:
             one of `UNSOUND`: there is no index, or it is inconsistent.
         """
-        if damaged_summary(file) or damaged_data(file):
+        summary = read_summary(file)
+        if damaged_data(file):
             raise ValueError("checksum error")
+        self.schemas, self.channels = summary.schemas, summary.channels
+        self.metadata = summary.metadata
+        self.times = {channel: LogTimes() for channel in self.channels}
+        self._chunks = {channel: _Chunks() for channel in self.channels}
         with file.open("rb") as stream:
-            reader = make_reader(stream)
-            summary = reader.get_summary()
-            if summary is None or summary.statistics is None:
-                raise ValueError("no summary")
-            if len(summary.channels) > MOST_TOPICS:
-                raise ValueError("too many topics")
-            self.schemas: dict[int, Schema] = summary.schemas
-            self.channels: dict[int, Channel] = summary.channels
-            self.metadata: list[Metadata] = list(reader.iter_metadata())
-            entries_of: dict[int, list[tuple[int, NDArray[Any]]]] = {c: [] for c in self.channels}
-            for chunk in summary.chunk_indexes:
-                for channel, entries in _entries(stream, chunk):
-                    entries_of[channel].append((chunk.chunk_start_offset, entries))
-            self.times = {c: _joined([e["log_time"] for _, e in f]) for c, f in entries_of.items()}
-            self._places = {c: _joined([[p] * len(e) for p, e in f]) for c, f in entries_of.items()}
-            counts = summary.statistics.channel_message_counts
-            if any(counts.get(c, 0) != len(times) for c, times in self.times.items()):
-                raise ValueError("messages are missing in the index")
+            for chunk in summary.chunks:
+                for channel, times in _entries(stream, chunk):
+                    self._chunks[channel].places.append(chunk.place)
+                    self._chunks[channel].before.append(self.times[channel].recorded)
+                    self.times[channel].add(times)
+        counts = summary.statistics.channel_message_counts
+        if any(counts.get(c, 0) != times.recorded for c, times in self.times.items()):
+            raise ValueError("messages are missing in the index")
         self._section = lru_cache(_KEPT)(lambda place: section_at(file, place))
 
     def message(self, channel: int, number: int) -> Message:
@@ -65,22 +105,23 @@ class Index:
         Raises:
             one of `UNSOUND`: the message cannot be read.
         """
-        places = self._places[channel]
-        first = int(np.searchsorted(places, places[number]))
+        chunks = self._chunks[channel]
+        chunk = bisect_right(chunks.before, number) - 1
+        within = number - chunks.before[chunk]
         messages = [
             record
-            for record in self._section(int(places[number]))
+            for record in self._section(chunks.places[chunk])
             if isinstance(record, Message) and record.channel_id == channel
         ]
-        if len(messages) <= number - first:
+        if len(messages) <= within:
             raise ValueError("the index lists a message that does not exist")
-        return messages[number - first]
+        return messages[within]
 
 
-def _entries(stream: BinaryIO, chunk: ChunkIndex) -> Iterator[tuple[int, NDArray[Any]]]:
-    """Index entries of a chunk, by channel."""
-    stream.seek(chunk.chunk_start_offset + chunk.chunk_length)
-    data = stream.read(chunk.message_index_length)
+def _entries(stream: BinaryIO, chunk: ChunkPlace) -> Iterator[tuple[int, NDArray[np.int64]]]:
+    """Log times of the index entries of a chunk, by channel."""
+    stream.seek(chunk.indexes)
+    data = stream.read(chunk.indexes_length)
     place = 0
     while place < len(data):
         opcode, length, channel, size = _HEAD.unpack_from(data, place)
@@ -88,11 +129,8 @@ def _entries(stream: BinaryIO, chunk: ChunkIndex) -> Iterator[tuple[int, NDArray
             raise ValueError("no message index")
         entries = np.frombuffer(data, _ENTRY, size // _ENTRY.itemsize, place + _HEAD.size)
         times = entries["log_time"]
-        if ((times < chunk.message_start_time) | (times > chunk.message_end_time)).any():
+        if ((times < chunk.start) | (times > chunk.end)).any():
             raise ValueError("a time outside the range of the chunk")
-        yield channel, entries
+        if len(times):
+            yield channel, times.astype(np.int64)
         place += _HEAD.size + size
-
-
-def _joined(parts: list[Any]) -> NDArray[np.int64]:
-    return np.concatenate([np.empty(0, np.int64), *(np.asarray(p, np.int64) for p in parts)])

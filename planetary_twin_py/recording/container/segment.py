@@ -8,15 +8,13 @@ from itertools import takewhile
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from mcap.reader import make_reader
-from mcap.records import Channel, ChunkIndex, Message, Schema
-from mcap.summary import Summary
+from mcap.records import Channel, Message, Schema
 
 from .extent import Extent
 from .framing import DAMAGED
-from .integrity import damaged_summary
 from .log_order import merged, records_in_log_order
-from .records import MOST_TOPICS, chunk_at
+from .records import chunk_at
+from .summary import ChunkPlace, Summary, read_summary
 
 Warn = Callable[[str], None]
 
@@ -43,10 +41,11 @@ class Segment(Protocol):
 
 def open_segment(file: Path, warn: Warn) -> Segment:
     """Open a file; `warn` is called with a line for each unreadable part, now and later."""
-    summary = _summary(file)
-    if summary is None or summary.statistics is None or len(summary.channels) > MOST_TOPICS:
+    try:
+        summary = read_summary(file)
+    except DAMAGED:  # truncated, or the summary fails its checksum
         return _InOrder(file, warn)
-    if summary.statistics.message_count and not summary.chunk_indexes:
+    if summary.statistics.message_count and not summary.chunks:
         return _InOrder(file, warn)
     if len(summary.channels) < summary.statistics.channel_count:  # they are not repeated there
         return _InOrder(file, warn)
@@ -59,19 +58,12 @@ class _Indexed:
     def __init__(self, file: Path, summary: Summary, warn: Warn) -> None:
         self._file = file
         self._warn = warn
-        self._chunks = sorted(
-            summary.chunk_indexes,
-            key=lambda index: (index.message_start_time, index.chunk_start_offset),
-        )
+        self._chunks = sorted(summary.chunks)
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
         self.contents = _contents(summary)
 
     def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        parts = (
-            (index.message_start_time, self._read(index))
-            for index in self._chunks
-            if index.message_end_time >= begin
-        )
+        parts = ((chunk.start, self._read(chunk)) for chunk in self._chunks if chunk.end >= begin)
         for message in merged(parts):
             if message.log_time >= begin:
                 yield self._topics[message.channel_id], message
@@ -82,13 +74,13 @@ class _Indexed:
     def _last(self, topic: str, count: int, before: int) -> list[Message]:
         channels = {number for number, name in self._topics.items() if name == topic}
         messages: list[Message] = []
-        for index in reversed(self._chunks):
-            indexed = index.message_index_offsets
-            if index.message_start_time >= before or (indexed and not channels & indexed.keys()):
+        for chunk in reversed(self._chunks):
+            indexed = chunk.channels
+            if chunk.start >= before or (indexed and not channels & indexed):
                 continue
             matching = [
                 message
-                for message in self._read(index)
+                for message in self._read(chunk)
                 if message.channel_id in channels and message.log_time < before
             ]
             messages = matching + messages
@@ -96,13 +88,13 @@ class _Indexed:
                 break
         return messages[-count:]
 
-    def _read(self, index: ChunkIndex) -> Iterator[Message]:
+    def _read(self, chunk: ChunkPlace) -> Iterator[Message]:
         """Messages of a chunk; a damaged chunk is skipped with a warning."""
         try:
-            records = chunk_at(self._file, index.chunk_start_offset)
+            records = chunk_at(self._file, chunk.place)
         except DAMAGED as reason:
             begin = self.contents.extent.start
-            first, last = index.message_start_time - begin, index.message_end_time - begin
+            first, last = chunk.start - begin, chunk.end - begin
             self._warn(
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
                 f"({type(reason).__name__}); this part is skipped"
@@ -153,20 +145,8 @@ class _InOrder:
             self._warn(remark)
 
 
-def _summary(file: Path) -> Summary | None:
-    """The summary; None if the file is truncated or the summary fails its checksum."""
-    if damaged_summary(file):
-        return None
-    with file.open("rb") as stream:
-        try:
-            return make_reader(stream).get_summary()
-        except DAMAGED:
-            return None
-
-
 def _contents(summary: Summary) -> Contents:
     statistics = summary.statistics
-    assert statistics is not None
     extent = Extent()
     if statistics.message_count:
         extent.include(statistics.message_start_time)

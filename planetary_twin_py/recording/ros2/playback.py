@@ -12,8 +12,8 @@ from mcap.records import Channel, Message, Schema
 
 from ...printable import one_line
 from ..container.extent import Extent
-from ..container.records import RecordingError, files_of
 from ..container.log_order import DISORDER
+from ..container.records import RecordingError, files_of
 from ..container.segment import open_segment
 from .metadata import Topic, read_offered_qos
 from .no_run import no_run_yet

@@ -10,12 +10,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
 from mcap.records import Channel, Message, Metadata, Schema
-from numpy.typing import NDArray
 
 from ...printable import one_line
-from ..container.message_index import UNSOUND, Index
+from ..container.message_index import UNSOUND, Index, LogTimes
 from ..container.progress import may_be_written
 from ..container.records import files_of
 from ..ros2.account import recorded_losses
@@ -34,37 +32,21 @@ _ROUNDING = 1e3  # [ns]; intervals are many times as long
 
 
 @dataclass
-class TopicInfo:
-    """One topic; `first` and `last` are log times [ns]."""
+class TopicInfo(LogTimes):
+    """One topic, and the log times of its messages."""
 
-    type: str
-    recorded: int = 0
+    type: str = ""
     lost: int | None = None
     """Messages published but not received, by the recorder's account, and recorded ones that cannot
     be read; None without an account, or if files of the recording are missing."""
     before: int = 0
     """Lost messages that were published before the first received one."""
-    first: int = 0
-    last: int = 0
-    longest_gap: int = 0
-    """Longest time between two messages [ns]."""
 
     @property
     def rate(self) -> float:
         """Messages per second of log time; NaN with fewer than two."""
         span = self.last - self.first
         return (self.recorded - 1) / (span * 1e-9) if span > 0 else math.nan
-
-    def add(self, times: Sequence[int] | NDArray[np.int64]) -> None:
-        """Count messages by their log times, which follow those of previous calls."""
-        if not len(times):
-            return
-        if not self.recorded:
-            self.first = self.last = int(times[0])
-        newest = np.maximum.accumulate([self.last, *times])
-        self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
-        self.last = int(newest[-1])
-        self.recorded += len(times)
 
 
 class Changed(NamedTuple):
@@ -173,7 +155,7 @@ class _Collector:
             elif isinstance(record, Channel):
                 names[record.id] = record.topic
                 kind = schemas[record.schema_id].name
-                self.info.topics.setdefault(record.topic, TopicInfo(kind))
+                self.info.topics.setdefault(record.topic, TopicInfo(type=kind))
             elif isinstance(record, Message):
                 times.setdefault(names[record.channel_id], []).append(record.log_time)
             elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
@@ -195,9 +177,13 @@ class _Collector:
         changes = []
         for number, channel in index.channels.items():
             decoder.read(channel)
-            new, times = self._new(index, number), index.times[number]
             kind = index.schemas[channel.schema_id].name
-            self.info.topics.setdefault(channel.topic, TopicInfo(kind)).add(times[new])
+            topic = self.info.topics.setdefault(channel.topic, TopicInfo(type=kind))
+            new = self._new(index, number)
+            if self._repeats.is_latched(number):
+                topic.add([index.message(number, k).log_time for k in new])
+            else:
+                topic.join(index.times[number])
             if number not in decoder:
                 continue
             messages = _Messages(index, number, decoder)
@@ -208,25 +194,27 @@ class _Collector:
                 self._missing[channel.topic] += covered.missing
                 self._states[channel.topic] = messages[len(messages) - 1]
             elif channel.topic.endswith(f"/{POINT}"):
-                changes += [(times[k], channel.topic, messages[k]) for k in new]
+                changes += [
+                    (index.message(number, k).log_time, channel.topic, messages[k]) for k in new
+                ]
             elif channel.topic == REPORT:
                 self.info.report |= _newest_report(messages)
-        for _, topic, message in sorted(changes, key=lambda change: change[0]):
-            self._add_message(topic, message)
+        for _, name, message in sorted(changes, key=lambda change: change[0]):
+            self._add_message(name, message)
         accounts = [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
         counts = {
-            channel.topic: len(index.times[number]) for number, channel in index.channels.items()
+            channel.topic: index.times[number].recorded
+            for number, channel in index.channels.items()
         }
         self._add_losses(file, accounts, counts)
 
-    def _new(self, index: Index, channel: int) -> NDArray[np.intp]:
-        """Indices of the messages of a channel that are not in the previous files."""
-        count = len(index.times[channel])
+    def _new(self, index: Index, channel: int) -> Sequence[int]:
+        """Numbers of the messages of a channel that are not in the previous files."""
+        count = range(index.times[channel].recorded)
         self._repeats.repeated(index.channels[channel])
         if not self._repeats.is_latched(channel):
-            return np.arange(count)
-        new = [k for k in range(count) if not self._repeats.repeated(index.message(channel, k))]
-        return np.array(new, dtype=np.intp)
+            return count
+        return [k for k in count if not self._repeats.repeated(index.message(channel, k))]
 
     def _count_missing(self, topic: str, state: Any) -> None:
         """Count the states that are missing between the last one and `state`."""
@@ -306,7 +294,7 @@ class _Messages(Sequence[Any]):
         self._index, self._channel, self._decoder = index, channel, decoder
 
     def __len__(self) -> int:
-        return len(self._index.times[self._channel])
+        return self._index.times[self._channel].recorded
 
     def __getitem__(self, number: Any) -> Any:
         found = self._decoder.read(self._index.message(self._channel, number))

@@ -1,7 +1,9 @@
 """The description of a recording: its contents, its gaps and the changes during the run."""
 
 import json
+import operator
 import re
+from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
@@ -114,7 +116,9 @@ def test_the_index_leads_to_every_message(sound):
         if isinstance(entry, Message):
             found.setdefault(entry.channel_id, []).append(entry)
     for channel, messages in found.items():
-        assert index.times[channel].tolist() == [message.log_time for message in messages]
+        times = [message.log_time for message in messages]
+        gap = max(map(operator.sub, times[1:], times), default=0)
+        assert astuple(index.times[channel]) == (len(times), times[0], times[-1], gap)
         for number, message in enumerate(messages):
             assert index.message(channel, number) == message
 

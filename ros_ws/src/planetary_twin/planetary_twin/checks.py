@@ -16,6 +16,7 @@ from rclpy.utilities import get_rmw_implementation_identifier
 
 from planetary_twin_py.doctor.finding import Finding
 
+from .log_folder import choose_log_folder
 from .network import stay_on_this_machine
 
 _TIMEOUT = 5.0  # [s] for two participants to discover each other
@@ -26,6 +27,7 @@ _SWEEP = "rm /dev/shm/*fastrtps_*"
 def check() -> Iterator[Finding]:
     """Check ROS 2 itself, the transport between two participants, and shared memory."""
     stay_on_this_machine()
+    choose_log_folder()
     domain = os.environ.get("ROS_DOMAIN_ID", "0")
     distribution = os.environ.get("ROS_DISTRO", "jazzy, from wheels")
     middleware = get_rmw_implementation_identifier()

@@ -13,6 +13,8 @@ from rclpy.client import Client as Service
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
+from .log_folder import choose_log_folder
+
 TIMEOUT = 2.0  # [s] then call again: the first response after discovery may be lost
 _POLL = 0.02  # [s]
 
@@ -29,6 +31,7 @@ class Client:
         self, name: str, namespace: str, watch: Callable[[], None] = lambda: None
     ) -> None:
         self.watch = watch
+        choose_log_folder()
         self._context = rclpy.Context()
         # Python handles signals: they interrupt the waits below, never a middleware call.
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)

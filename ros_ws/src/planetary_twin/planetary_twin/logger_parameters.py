@@ -42,8 +42,8 @@ def declare_options(node: ParameterNode) -> None:
         node,
         "topics",
         [""],
-        "topics to record; empty: those of the namespace, measured ones also if they are remapped, "
-        "/diagnostics and /tf",
+        "topics to record; empty: those of the namespace, /diagnostics, /tf, and measured ones, "
+        "also if they are remapped",
     )
     declare_fixed(
         node, "scene", "", "scene to store in the recording, from which viewers draw the gears"

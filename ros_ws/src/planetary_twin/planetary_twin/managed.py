@@ -18,6 +18,7 @@ from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from planetary_twin_py.scene.names import did_you_mean
 
 from .heap import return_freed_memory
+from .log_folder import choose_log_folder
 from .namesakes import Namesakes
 from .parameter_node import ParameterNode
 from .parameters import brief, declare_at_start
@@ -299,6 +300,7 @@ def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
 
 
 def _initialize(args: list[str] | None) -> None:
+    choose_log_folder()
     try:
         rclpy.init(args=args)
     except RuntimeError as refusal:  # from rcl, or from rclpy for unknown options

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -17,9 +18,11 @@ from ..client import Client
 from ..reports import real_time_figures
 from ..topics import UNKNOWN_NODE, wanted_topics
 from .children import RunError
+from .sums import Sums
 
 _NODE = "simulation"
 _POLL = 0.1  # [s]
+_QUEUED = 1000  # states, 10 s at the default rate
 _REPORTED = 3.0  # [s] for which a report, sent once a second, is up to date
 
 
@@ -28,7 +31,8 @@ class Operator(Client):
     The node that controls the two nodes of a run in `namespace`.
 
     It keeps the newest `state`, the newest status of the `recorder`, the newest real-time
-    `figures`, and the names of all `recordings`. `watch` is called repeatedly while it waits.
+    `figures`, the names of all `recordings`, and the states received are `summed`. `watch` is
+    called repeatedly while it waits.
     """
 
     def __init__(self, namespace: str, watch: Callable[[], None]) -> None:
@@ -37,10 +41,11 @@ class Operator(Client):
         self.recorder = RecorderStatus()
         self.recordings: dict[str, None] = {}  # names of the folders, in order
         self.figures: dict[str, str] = {}
+        self.summed = Sums()
         self._reported = 0.0  # [s] when the figures were received
         self._advanced = 0.0  # [s] when the newest state was received
         subscribe = self.node.create_subscription
-        subscribe(GearboxState, "gearbox_state", self._on_state, 10)
+        subscribe(GearboxState, "gearbox_state", self._on_state, _QUEUED)
         subscribe(RecorderStatus, "logger/status", self._on_status, 10)
         subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 100)
         self._change = self._client(ChangeState, "change_state")
@@ -161,6 +166,7 @@ class Operator(Client):
 
     def _on_state(self, message: GearboxState) -> None:
         self.state, self._advanced = message, time.monotonic()
+        self.summed.add(partial(getattr, message))
 
     def _on_status(self, message: RecorderStatus) -> None:
         self.recorder = message

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mcap.reader import make_reader
-from planetary_twin_msgs.msg import GearboxState
-from rclpy.serialization import deserialize_message
 from rich.console import Console
 from rich.table import Table
 
+from planetary_twin_py.recording.ros2.topics import STATE
 from planetary_twin_py.recording.runs.info import TopicInfo, read_info
 
-_STATE = "planetary_twin_msgs/msg/GearboxState"
+from .sums import Sums, sums_of
 
 
 @dataclass(frozen=True)
@@ -87,55 +85,33 @@ def read_outcome(
     published: Mapping[str, int],
     figures: Mapping[str, str],
     stopped: bool,
+    summed: Sums,
 ) -> Outcome:
     """
     Compare the recordings in `folders` with the number of messages `published` by topic.
 
     There are several folders if the logger was `stopped` and started again. `figures` are the
-    values of the simulation's last report.
+    values of the simulation's last report, `summed` the sums over the states that were received
+    during the run: if any recorded one is not among them, all are read again.
     """
     info = read_info(*folders)
-    states = [state for file in info.files for state in _states(file)]
-    loss, span = (
-        np.array([getattr(state, name) for state in states]) for name in ("power_loss", "interval")
-    )
-    lost = float(np.sum(loss * span))
-    put_in = float(np.sum([driving_power(state) * state.interval for state in states]))
-    rates = [state.sample_rate for state in states] or [float("nan")]
+    recorded = sum(t.recorded for name, t in info.topics.items() if name.endswith(f"/{STATE}"))
+    sums = summed if summed.states == recorded else sums_of(info.files)
     return Outcome(
         files=info.files,
         stopped=stopped,
         topics={name: _tally(topic, published.get(name)) for name, topic in info.topics.items()},
-        duration=float(span.sum()),
-        power_loss=lost / float(span.sum()) if states else float("nan"),
-        efficiency=1.0 - lost / put_in if put_in > 0.0 else float("nan"),
+        duration=sums.duration,
+        power_loss=sums.lost / sums.duration if sums.states else float("nan"),
+        efficiency=1.0 - sums.lost / sums.put_in if sums.put_in > 0.0 else float("nan"),
         real_time_factor=float(figures.get("real_time_factor_mean", "nan")),
         overruns=int(figures.get("overruns", 0)),
         tolerance=float(figures.get("tolerance", "nan")),
         tolerance_choice=figures.get("tolerance_choice", "unknown"),
-        sample_rates=(min(rates), max(rates)),
+        sample_rates=(
+            (sums.lowest_rate, sums.highest_rate) if sums.states else (float("nan"), float("nan"))
+        ),
     )
-
-
-def driving_power(state: GearboxState) -> float:
-    """
-    Return the power of the machines that drive in the interval of `state` [W].
-
-    Each machine's power has the direction of its mean over the interval. 0 where none drives but
-    for rounding errors, which `state` shows by its efficiency.
-    """
-    if not np.isfinite(state.efficiency):
-        return 0.0
-    second = np.nan_to_num(state.second_input_torque * state.second_input_speed)
-    powers = state.input_power - second, second, -state.output_power
-    return float(np.maximum(powers, 0.0).sum())
-
-
-def _states(file: Path) -> Iterator[GearboxState]:
-    with file.open("rb") as stream:
-        for schema, _, message in make_reader(stream).iter_messages():
-            if schema is not None and schema.name == _STATE:
-                yield deserialize_message(message.data, GearboxState)
 
 
 def _tally(topic: TopicInfo, published: int | None) -> Tally:

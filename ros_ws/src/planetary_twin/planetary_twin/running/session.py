@@ -89,7 +89,8 @@ def _run(plan: Plan, console: Console) -> Outcome:
     names = dict.fromkeys([plan.folder.name, *operator.recordings])
     folders = [plan.folder.with_name(name) for name in names]
     stopped = len(names) > 1 or not operator.recorder.file
-    outcome = read_outcome(folders, operator.published(), operator.figures, stopped)
+    published, figures, summed = operator.published(), operator.figures, operator.summed
+    outcome = read_outcome(folders, published, figures, stopped, summed)
     if interrupted and outcome.duration == 0.0:
         shutil.rmtree(plan.folder, ignore_errors=True)
         raise KeyboardInterrupt
