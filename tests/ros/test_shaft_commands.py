@@ -140,6 +140,9 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
         assert not answer.success
         assert answer.message.startswith(reason)
         assert answer.simulated_time == now > 0.0
+    answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-12))
+    assert answer.message == "duration = 1e-12 s: must be within 1e-06 and 10 s"
+    assert answer.simulated_time == now
     both = Step.Request(duration=1e-3, command=command((1.0, 0.0)), commands=[command((1.0, 0.0))])
     answer = peer.call(Step, f"{NODE}/step", both)
     assert answer.message == "command: must be empty if there are commands"
