@@ -75,6 +75,10 @@ class Command(NamedTuple):
         for name, value in zip(NAMES, self, strict=True):
             if value is None:
                 continue
+            if ports.input == "brake":
+                raise ValueError(
+                    f"{name} = {value!r}: drive.input.port = 'brake' takes no commands"
+                )
             side, quantity = name.split("_")
             field, needed = f"drive.{side}.port", CAUSALITIES[quantity]
             port = getattr(ports, side)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 import numpy as np
 
-from ._core import REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
+from ._core import PORTS, REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
+from .braking import Braking, braking
 from .commands import NOTHING, Command, port_ranges
+from .dynamics.bodies import MOTOR
 from .dynamics.speed_loop import SpeedLoopCheck
 from .dynamics.start import LoadBuilder, begin_given
 from .dynamics.train import build_train, held_axes
 from .engine import Engine
-from .integrators.clock import NEVER, TICKS, instant, instant_of_ticks, sampling
+from .integrators.clock import NEVER, TICKS, Instant, instant, instant_of_ticks, sampling
 from .integrators.interpolant import new_samples
 from .scene import OperatingPoint, Scene
 
@@ -36,6 +39,9 @@ def kept_trim(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 class DrivenEngine(Engine):
     """An engine with torques and motions given at its ports, step by step.
 
+    A brake of the input is a course of the speed that the engine itself follows: no command acts
+    meanwhile, so none can be refused.
+
     Args:
         scene: scene to simulate.
         tolerance: see `Engine`.
@@ -46,10 +52,15 @@ class DrivenEngine(Engine):
     """
 
     def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
+        self._braking: Braking | None = None  # until the shaft is at rest
         super().__init__(scene, tolerance, method)
         self.port_ranges = port_ranges(scene, self.train)
         self._linear = scene.drive.interpolation == "linear"
         self._ports_set = -1  # [ticks] time of the last change of ports
+        self._unlimited = self._core.PortRanges(
+            torque=np.full(PORTS, np.inf), speed=np.full(PORTS, np.inf)
+        )
+        self._brake(0)
 
     def set_ports(self, scene: Scene, point: OperatingPoint, time: Fraction) -> None:
         """Continue with the ports of `scene` from `time` [s], the end of the last window.
@@ -88,6 +99,48 @@ class DrivenEngine(Engine):
         self._end.trim = share * self._end.trim
         if share[0] == 0.0:
             self._end.set_speed[0] = shown.input_speed
+        self._brake(ticks)
+
+    @property
+    def _braked(self) -> bool:
+        return self.scene.drive.input.port == "brake"
+
+    def _brake(self, ticks: int) -> None:
+        """Begin the brake of the scene, if it has one, at `ticks`, the end of the last window."""
+        self._braking = None
+        if not self._braked:
+            return
+        if self.scene.drive.output.port == "torque":
+            self._give(ticks, ticks, Command(output_torque=0.0))
+        speed, slew_rate = self.model.load.speed[MOTOR], self.scene.drive.speed_control.slew_rate
+        self._braking = braking(ticks, float(speed), slew_rate)
+        self._give(ticks, self._braking.rest, Command(input_speed=0.0))
+
+    def _give(self, begin: int, end: int, command: Command) -> None:
+        """Let speeds and torques of the engine itself be reached at `end` along straight lines."""
+        try:
+            self._core.apply_command(
+                self.model, self.integrator, begin, end, *command, True, self._unlimited
+            )
+        except ArithmeticError as reason:
+            self._fail(reason)
+        self._shown = None
+
+    def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
+        stops = super()._stops(until, goal)
+        if self._braking is None:
+            return stops
+        rest = Fraction(self._braking.rest, TICKS)
+        return iter(sorted({*stops, rest})) if rest < until else stops
+
+    def _pass(self, stop: float | Fraction) -> None:
+        if self._braking is not None and stop * TICKS >= self._braking.rest:
+            self._rest(self._braking.rest)
+
+    def _rest(self, ticks: int) -> None:
+        """End the braking of a shaft that is at rest."""
+        self._braking = None
+        self._give(ticks, ticks, Command(input_speed=0.0))
 
     def port_states(self, ticks: int) -> PortStates:
         """State of the ports at the end of the last window.
@@ -122,6 +175,12 @@ class DrivenEngine(Engine):
         """
         if self._failure is not None:
             raise self._failure
+        if self._braked:
+            if command != NOTHING:
+                self.refuse(begin, end, command)
+            if self._braking is not None and begin >= self._braking.rest:
+                self._rest(begin)
+            return
         try:
             accepted = self._core.apply_command(
                 self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges
@@ -171,9 +230,20 @@ class DrivenEngine(Engine):
         """
         if self._failure is not None:
             raise self._failure
+        linear, ranges, braked = self._linear, self.port_ranges, self._braking
+        if braked is not None and command == NOTHING:
+            if begin < braked.rest < end:
+                self.step(begin, braked.rest, NOTHING, out, reached)
+                begin = braked.rest
+            command = Command(input_speed=braked.at(end))
+            linear, ranges = True, self._unlimited
+            if begin >= braked.rest:
+                self._rest(begin)
+        elif self._braked and command != NOTHING:
+            return False
         try:
             outcome = self._core.step_ports(
-                self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges,
+                self.model, self.integrator, begin, end, *command, linear, ranges,
                 self._limits.record, reached, out,
             )  # fmt: skip
         except TypeError:  # only here: checks of every value would slow down each step

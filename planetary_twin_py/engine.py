@@ -174,6 +174,7 @@ class Engine:
             at = sampling(first_sample + done, sample_rate)
             self._run(stop, at, _rows(samples, done, part + 1))
             done = part
+            self._pass(stop)
         return _rows(samples, 0, room)
 
     def window(
@@ -197,14 +198,14 @@ class Engine:
                 report, first + done, rate, rows, end, closes,
             )  # fmt: skip
 
-        if delay(self._end, goal) > LONGEST_UNWATCHED:
-            for stop in self._stops(Fraction(until, TICKS), goal):
-                due = min(max(_due(stop, rate, first), done), room)
-                part = _wave_rows(out, done, due)
-                self._watch((yield part_to(instant(stop), part, False)), end)
-                self._watch_axes(part)
-                done = due
-            out = _wave_rows(out, done, room)
+        for stop in self._stops(Fraction(until, TICKS), goal):
+            due = min(max(_due(stop, rate, first), done), room)
+            part = _wave_rows(out, done, due)
+            self._watch((yield part_to(instant(stop), part, False)), end)
+            self._watch_axes(part)
+            self._pass(stop)
+            done = due
+        out = _wave_rows(out, done, room)
         self._watch((yield part_to(goal, out, True)), end)
         self._watch_axes(out)
 
@@ -236,12 +237,15 @@ class Engine:
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
     def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
-        """Instants [s] before `until` at which the run is checked against its limits."""
+        """Instants [s] before `until` at which the core returns, to check limits, for example."""
         if delay(self._end, goal) > LONGEST_UNWATCHED:
             stop = self.reached + WATCHED
             while stop < until:
                 yield stop
                 stop += WATCHED
+
+    def _pass(self, stop: float | Fraction) -> None:
+        """Continue after a stop."""
 
     def _run(self, until: float | Fraction, at: Sampling, samples: Samples) -> None:
         """Fill all `samples`; the last one is at `until`."""

@@ -105,6 +105,11 @@ def _print(console: Console, found: Info) -> None:
         size = path.stat().st_size / 1e6
         console.print(f"file          {path}, {size:.1f} MB", highlight=False, soft_wrap=True)
     console.print(f"gearbox time  {found.simulated:.3f} s", highlight=False)
+    if found.skips:
+        console.print(
+            f"skipped       {found.skipped:.3f} s of ROS time, in {found.skips} skips of stamps",
+            highlight=False,
+        )
     for number, ramp in enumerate(ramps(found.changes)):
         title = "" if number else "changes"
         print_list(console, f"{title:13} {ramp.times[0]:10.4f} s  ", _described(ramp))

@@ -27,6 +27,7 @@ import numpy as np
 
 from .._core import AXES, MACHINES, Train, damping_time
 from ..scene import OperatingPoint, Scene, SceneError
+from ..scene.drive import MOVED
 from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .mean_stiffness import mean_stiffness
 from .static_load import static_torques
@@ -222,7 +223,7 @@ def _masses(scene: Scene, train: Train) -> np.ndarray:
     """Masses of the bodies [kg], (bodies,); very large where motion is given."""
     mass = train.mass[: train.bodies].copy()
     for place, port in enumerate(scene.drive.ports):
-        if port == "motion":
+        if port in MOVED:
             mass[train.coupling[place, 0]] = IMMOVABLE * mass.sum()
     return mass
 
@@ -261,7 +262,8 @@ class SpeedLoopCheck:
     def __init__(self, scene: Scene, train: Train) -> None:
         self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
         self._linear = LinearTrain(scene, train)
-        self._holds = _holds_a_speed(scene)
+        # A brake is never refused.
+        self._checks = _holds_a_speed(scene) and "brake" not in scene.drive.ports
         self._stable: set[float] = set()  # recent mesh frequencies [Hz] that are stable
 
     def check(self, point: OperatingPoint) -> None:
@@ -273,7 +275,7 @@ class SpeedLoopCheck:
         Raises:
             SceneError: the loop is not stable at sqrt(2) times its bandwidth.
         """
-        if not self._holds:
+        if not self._checks:
             return
         speeds = np.zeros(AXES)
         speeds[:] = point.input_speed, point.second_input_speed

@@ -28,7 +28,12 @@ from .static_load import mesh_force
 UNBALANCED = 1e-3  # of the mean mesh force, above which the start is no equilibrium
 LIGHTEST = 1.0  # [N] mean mesh force that counts at least
 
-_CAUSALITIES = {"machine": BY_MACHINE, "torque": BY_TORQUE, "motion": BY_MOTION}
+_CAUSALITIES = {
+    "machine": BY_MACHINE,
+    "torque": BY_TORQUE,
+    "motion": BY_MOTION,
+    "brake": BY_MOTION,
+}
 
 
 class LoadBuilder:

@@ -110,3 +110,5 @@ def _check(scene: Scene) -> None:
         raise ValueError(f"dynamics = {scene.dynamics!r}: must be torsional for an FMU")
     if scene.gearset.held == "none":
         raise ValueError("gearset.held = 'none': must be sun, ring or carrier for an FMU")
+    if scene.drive.input.port == "brake":
+        raise ValueError("drive.input.port = 'brake': must be machine, torque or motion for an FMU")

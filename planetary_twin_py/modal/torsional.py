@@ -13,6 +13,7 @@ import numpy as np
 from ..dynamics.bodies import base_radii, build_bodies, machines
 from ..dynamics.train import held_axes
 from ..scene import Scene
+from ..scene.drive import MOVED
 from .mesh_stiffness import MeshStiffness
 from .springs import Rows, Spring, SpringModel
 
@@ -27,7 +28,7 @@ def torsional_model(
         mesh: stiffnesses of the meshes.
         factors: factors on the stiffness of both meshes of each planet, (planets,).
         with_machines: whether to include motors and load with their couplings. The end of a shaft
-            whose motion is given (port "motion") is at rest.
+            whose motion is given (port "motion" or "brake") is at rest.
 
     Returns:
         Masses and springs.
@@ -35,7 +36,7 @@ def torsional_model(
     scene = held_axes(scene)
     bodies, machine_data = build_bodies(scene), machines(scene)
     ground = len(bodies.mass) - 1
-    moving = [name for name, machine in machine_data.items() if machine.port != "motion"]
+    moving = [name for name, machine in machine_data.items() if machine.port not in MOVED]
     still = set(machine_data) - set(moving if with_machines else ())
     names = [name for name, place in bodies.place.items() if place != ground and name not in still]
     coordinates = tuple(f"{name}.u" for name in names)

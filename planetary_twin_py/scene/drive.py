@@ -9,7 +9,9 @@ from pydantic import Field, model_validator
 from .gearset import Member
 from .quantity import Section, quantity
 
-Causality = Literal["machine", "torque", "motion"]
+Causality = Literal["machine", "torque", "motion", "brake"]
+MOVED = ("motion", "brake")
+"""Causalities with which the motion of a shaft is given, and its torque is a result."""
 
 
 class Ports(NamedTuple):
@@ -31,7 +33,7 @@ class Ports(NamedTuple):
 
         A machine does unless the motion of the other shaft is given: then it only gives its torque.
         """
-        return "machine" in self and "motion" not in self
+        return "machine" in self and not any(port in MOVED for port in self)
 
     @property
     def hold_second_speed(self) -> bool:
@@ -39,7 +41,12 @@ class Ports(NamedTuple):
 
         It does unless the motions of both other shafts are given, which determine its speed.
         """
-        return self != Ports("motion", "motion")
+        return not all(port in MOVED for port in self)
+
+    @property
+    def braked(self) -> Ports:
+        """The ports while a brake stops the input: an output with a client is free of torque."""
+        return Ports("brake", "machine" if self.output == "machine" else "torque")
 
 
 class Machine(Section):
@@ -57,7 +64,8 @@ class Machine(Section):
         "machine",
         description="input at the shaft: machine, a motor or load with its controller; torque, "
         "given from outside, the speed is a result; motion, given from outside, the torque is a "
-        "result (the inertia is then not part of the train)",
+        "result (the inertia is then not part of the train); brake, of the input only, slows "
+        "the shaft down to rest at the slew rate of the drive and ends a given output torque",
     )
 
 

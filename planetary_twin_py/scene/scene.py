@@ -125,6 +125,8 @@ class Scene(Section):
                 f"drive.input.port = {ports.input!r}: requires drive.output.port = torque or "
                 "motion in a differential (gearset.held = 'none')"
             )
+        if ports.output == "brake":
+            yield "drive.output.port = 'brake': only drive.input.port can be brake"
         for side, port in ports._asdict().items():
             if port != "machine" and self.quasi_static:
                 yield f"drive.{side}.port = {port!r}: requires dynamics other than quasi-static"

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import time
+from collections import deque
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin.live_interface import Progress, State
 from planetary_twin.real_time import RealTimeReport
+from planetary_twin.stamps import Skip
 
 import planetary_twin_py as pt
 from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
@@ -25,6 +28,7 @@ class Reports:
 
     def __init__(self) -> None:
         self.log = [pt.Change(0.0, POINT, 1e-3, FULL)]
+        self.stamps = SimpleNamespace(lag=0.0, skips=deque[Skip]())
         self._now = time.monotonic()
         started = Progress(0.0, self._now - 10.0, 0.0, 0.0, 0.0, 0, False, State.RUNNING)
         self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, started)
@@ -41,7 +45,7 @@ class Reports:
         lasted = 10.0 - ago if state == State.RUNNING else simulated
         wall = self._now - ago
         now = Progress(simulated, wall, simulated, lasted, 0.0, overruns, False, state)
-        return self._report.message(now, AFFORDABLE, {}, last=last)
+        return self._report.message(now, AFFORDABLE, {}, self.stamps, last=last)
 
 
 @pytest.mark.parametrize(
@@ -70,6 +74,25 @@ def test_the_level_says_how_far_behind_the_twin_is(
     status = Reports()(simulated, ago, **more).status[0]
     assert status.level == level
     assert status.message.startswith(text)
+
+
+def test_late_stamps_are_a_warning_with_their_lag_and_its_growth() -> None:
+    reports = Reports()
+    reports.stamps.lag = 0.09
+    assert reports(9.0, 1.0).status[0].level == DiagnosticStatus.OK
+    reports.stamps.lag = 8.79
+    status = reports(10.0, 0.0).status[0]
+    assert status.level == DiagnosticStatus.WARN
+    assert "stamps are late: 8.79 s behind ROS time, growing by 8.700 s/s" in status.message
+
+
+def test_each_skip_of_stamps_is_reported_once_and_their_total_always() -> None:
+    reports = Reports()
+    reports.stamps.skips += [Skip(3.1, 8.75), Skip(4.0, 0.25)]
+    first, second = (figures([reports(10.0, 0.0)]) for _ in range(2))
+    assert (first["skip.3.1"], first["skip.4.0"]) == ("8.750000000", "0.250000000")
+    assert not any(key.startswith("skip.") for key in second)
+    assert (second["skips"], second["skipped"]) == ("2", "9.000")
 
 
 def test_a_wait_from_one_report_to_the_next_is_a_warning() -> None:
@@ -101,12 +124,10 @@ def test_a_halted_twin_has_no_speed() -> None:
 
 def test_pauses_are_no_part_of_the_mean() -> None:
     """Nine seconds of waiting, or of a pause, and one at half the rate."""
-    report = Reports()._report
+    reports = Reports()
     now = Progress(0.5, time.monotonic(), 0.5, 1.0, 0.0, 0, False, State.RUNNING)
-    assert (
-        figures([report.message(now, AFFORDABLE, {}, last=False)])["real_time_factor_mean"]
-        == "0.5000"
-    )
+    message = reports._report.message(now, AFFORDABLE, {}, reports.stamps, last=False)
+    assert figures([message])["real_time_factor_mean"] == "0.5000"
 
 
 def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:

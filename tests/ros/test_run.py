@@ -18,7 +18,6 @@ from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
 from planetary_twin.running.node_settings import node_settings
-from planetary_twin.running.session import SILENCE
 from planetary_twin.running.tour import LENGTH, tour_of
 from planetary_twin.telemetry import STALL
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
@@ -156,10 +155,10 @@ def test_losses_while_the_logger_was_stopped_are_reported_and_both_recordings_co
     assert "while the logger was stopped" in output
 
 
-def _logger_of(folder: Path) -> int:
-    """The process of the logger that a run in `folder` has started."""
+def _process_of(node: str, folder: Path) -> int:
+    """The process of a node that a run in `folder` has started."""
     commands = {n: Path(f"/proc/{n}/cmdline").read_bytes() for n in working_in(folder)}
-    (number,) = [n for n, command in commands.items() if b"planetary_twin.logger" in command]
+    (number,) = [n for n, each in commands.items() if f"planetary_twin.{node}".encode() in each]
     return number
 
 
@@ -171,7 +170,7 @@ def test_a_run_whose_logger_stalls_longer_than_messages_are_kept_fails_and_repor
     _line(process, "rpm")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: states)
-    logger = _logger_of(tmp_path)
+    logger = _process_of("logger", tmp_path)
     os.kill(logger, signal.SIGSTOP)
     until = states[-1].simulated_time + STALL + 1.0
     peer.until(lambda: states[-1].simulated_time > until)
@@ -341,12 +340,28 @@ def test_a_long_pause_and_a_reset_do_not_fail_a_run(
     _line(process, "rpm")
     assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
     _line(process, "paused")
-    time.sleep(SILENCE + 2.0)  # the subject of the test
+    time.sleep(12.0)  # the subject of the test
     assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
     assert peer.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
     output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run after the reset
+    assert "efficiency" in output
+
+
+@pytest.mark.exhaustive
+def test_a_run_waits_for_a_twin_that_was_stopped(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "3", "--no-tour", "--record", "bag")
+    _line(process, "rpm")
+    simulation = _process_of("simulation", tmp_path)
+    os.kill(simulation, signal.SIGSTOP)
+    _line(process, "no answer")
+    time.sleep(15.0)  # the subject of the test
+    os.kill(simulation, signal.SIGCONT)
+    output, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 0, errors
     assert "efficiency" in output
 
 

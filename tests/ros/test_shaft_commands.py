@@ -30,10 +30,10 @@ PAPER = pt.load_scene("paper")
 SUN, RING = "sun_joint", "ring_joint"
 
 
-def driven(folder: Path, input: str, output: str) -> str:
-    """A scene file with these ports."""
+def driven(folder: Path, input: str, output: str, more: str = "") -> str:
+    """A scene file with these ports, and `more` fields of the drive."""
     path = folder / "driven.yaml"
-    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}}}"
+    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}{more}}}"
     path.write_text(f"base: paper\nname: driven\ndrive: {ports}\n")
     return str(path)
 
@@ -45,9 +45,11 @@ def command(effort: tuple[float, float], stamp: int = 0) -> JointState:
     return message
 
 
-def running(peer: Peer, start: Start, folder: Path, *options: str) -> list[JointState]:
+def running(
+    peer: Peer, start: Start, folder: Path, *options: str, more: str = ""
+) -> list[JointState]:
     """Joint states of a simulation whose torques are given."""
-    path = driven(folder, "torque", "torque")
+    path = driven(folder, "torque", "torque", more)
     given = [part for option in (f"scene:={path}", *options) for part in ("-p", option)]
     start("planetary_twin.simulation", "--ros-args", *given)
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
@@ -138,6 +140,9 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
         assert not answer.success
         assert answer.message.startswith(reason)
         assert answer.simulated_time == now > 0.0
+    answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-12))
+    assert answer.message == "duration = 1e-12 s: must be within 1e-06 and 10 s"
+    assert answer.simulated_time == now
     both = Step.Request(duration=1e-3, command=command((1.0, 0.0)), commands=[command((1.0, 0.0))])
     answer = peer.call(Step, f"{NODE}/step", both)
     assert answer.message == "command: must be empty if there are commands"
@@ -194,6 +199,32 @@ def test_silence_holds_releases_or_brakes(
         # The shaft stands; the sun swings about it, since the torque on the ring has gone.
         assert abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0
     peer.until(follows)  # the next command acts again
+
+
+def test_a_node_brakes_a_shaft_that_its_client_left_beyond_the_limit(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    """Also without a command that could be refused: the port itself brakes."""
+    limit = 200.0
+    options = ("command_timeout:=0.3", "command_silence:=brake")
+    joints = running(peer, start, tmp_path, *options, more=f", speed_limit: {limit}")
+    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+
+    def is_fast() -> bool:
+        publisher.publish(command((65.0, 0.0)))
+        return speed(joints[-1], SUN) > 1.1 * limit
+
+    peer.until(is_fast)
+    count = len(joints)
+    peer.until(lambda: abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0)
+    speeds = [speed(state, SUN) for state in joints[count:]]
+    braked = [now for now in speeds[int(np.argmax(speeds)) :] if now > 30.0]
+    # The sun swings on the shaft, whose end is braked.
+    slope = np.polyfit(np.arange(len(braked)) * 0.01, braked, 1)[0]
+    assert -slope == pytest.approx(PAPER.drive.speed_control.slew_rate, rel=0.1)
+    faults = [status for each in reports for status in each.status if "s: brake" in status.message]
+    assert {status.level for status in faults} == {DiagnosticStatus.ERROR}
 
 
 def received(
@@ -402,12 +433,11 @@ def test_refused_commands_do_not_keep_a_brake_off(clock: list[float], refused: J
     commands.given(braked, 0.01)
     for clock[0] in (0.3, 0.6):
         commands.receive(refused)
-        given = commands.given(braked, 0.01)
-    assert braked.ports == ("motion", "torque")
-    assert given["input_speed"] < pt.rpm(1000)
+        assert commands.given(braked, 0.01) == {}
+    assert braked.ports == ("brake", "torque")
     commands.receive(refused)
-    assert "output_torque" in commands.given(braked, 0.01)
-    assert braked.ports == ("motion", "torque")
+    assert commands.given(braked, 0.01) == {}
+    assert braked.ports == ("brake", "torque")
 
 
 def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> None:
@@ -415,9 +445,10 @@ def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> Non
     assert commands.given(braked, 0.01) == {"input_torque": 63.0, "output_torque": 147.0}
     clock[0] = 0.6
     commands.receive(JointState(name=[SUN], effort=[60.0]))
-    slower = pytest.approx(pt.rpm(1000) - 0.01 * PAPER.drive.speed_control.slew_rate)
-    assert commands.given(braked, 0.01) == {"input_speed": slower, "output_torque": 0.0}
-    assert braked.ports == ("motion", "torque")
+    assert commands.given(braked, 0.01) == {}
+    assert braked.ports == ("brake", "torque")
+    status = commands.status("/twin")
+    assert (status.level, status.message[-7:]) == (DiagnosticStatus.ERROR, ": brake")
     commands.receive(command((61.0, 140.0)))
     assert commands.given(braked, 0.01) == {"input_torque": 61.0, "output_torque": 140.0}
     assert braked.ports == ("torque", "torque")
@@ -434,13 +465,75 @@ def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) ->
     commands.given(braked, 0.01)
     clock[0] = 0.6
     braked.advance(0.01, **commands.given(braked, 0.01))
-    assert braked.ports == ("motion", "torque")
+    assert braked.ports == ("brake", "torque")
     speed = braked.port_states.output_speed
     commands.receive(JointState(name=[RING], velocity=[speed]))
     commands.receive(JointState(name=[SUN], effort=[50.0]))
     given = commands.given(braked, 0.01)
     assert given == {"input_torque": 50.0, "output_speed": speed}
     assert braked.ports == ("torque", "motion")
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("output", ["torque", "motion", "machine"])
+@pytest.mark.parametrize("input", ["torque", "motion"])
+def test_silence_brakes_a_live_twin_far_beyond_the_limit_of_commands(
+    clock: list[float], input: str, output: str, sign: float
+) -> None:
+    """Interval by interval as a node does, with an error until the shaft is at rest."""
+    limit, slew = 50.0, PAPER.drive.speed_control.slew_rate
+    fast = pt.Twin(
+        PAPER.replace(
+            input_speed=0.0,
+            **{
+                "drive.input.port": input,
+                "drive.output.port": output,
+                "drive.speed_limit": limit,
+                "drive.speed_control.start_speed": sign * 3.0 * limit,
+            },
+        )
+    )
+    value = {"effort": [1.0]} if input == "torque" else {"velocity": [sign * limit]}
+    commands = received(JointState(name=[SUN], **value), timeout=0.5, silence="brake")
+    taken = commands.given(fast, 0.01)
+    assert len(taken) == 1
+    clock[0] = 0.6
+    fast.advance(0.01, **commands.given(fast, 0.01))
+    before = abs(fast.port_states.input_speed)
+    assert before == pytest.approx(3.0 * limit - 0.01 * slew, rel=0.05)
+    while before > 0.02 * slew:
+        fast.advance(0.01, **commands.given(fast, 0.01))
+        now = abs(fast.port_states.input_speed)
+        assert before - now == pytest.approx(0.01 * slew, rel=1e-6)
+        before = now
+        assert commands.status("/twin").level == DiagnosticStatus.ERROR
+    fast.advance(0.1, **commands.given(fast, 0.01))
+    assert abs(fast.port_states.input_speed) < 1e-9
+
+
+def test_a_defect_in_taking_commands_is_a_silence(clock: list[float]) -> None:
+    """The thread of the twin goes on, and brakes; without a client, too."""
+    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
+    commands.given(braked, 0.01)
+
+    def fail() -> list[tuple[int, JointState]]:
+        raise RuntimeError("the middleware is gone")
+
+    commands._take = fail
+    clock[0] = 0.6
+    assert commands.given(braked, 0.01) == {}
+    assert braked.ports == ("brake", "torque")
+    assert "not taken (RuntimeError: the middleware is gone)" in commands.status("/twin").message
+
+
+def test_commands_from_before_a_stall_do_not_end_a_silence(clock: list[float]) -> None:
+    """A node that was stopped finds them in its queue when it continues."""
+    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
+    commands.given(braked, 0.01)
+    clock[0] = 8.0
+    commands.receive(command((65.0, 147.0)), waited=7_900_000_000)
+    assert commands.given(braked, 0.01) == {}
+    assert braked.ports == ("brake", "torque")
 
 
 def test_a_joint_whose_port_takes_something_else_is_counted() -> None:
@@ -519,4 +612,5 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     assert verdict.identical, verdict
     (run,) = read_runs(folder, TWIN, [])
     assert len(run.given) > 20
-    assert {"input_torque", "input_speed"} <= {name for each in run.given.values() for name in each}
+    ports = [change.values["drive.input.port"] for change in run.changes]
+    assert ports == ["torque", "brake", "torque"]

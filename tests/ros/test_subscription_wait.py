@@ -5,8 +5,9 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin import subscription_wait
-from planetary_twin.subscription_wait import TIMEOUT, SubscriptionWait
+from planetary_twin.subscription_wait import RECORDER, TIMEOUT, SubscriptionWait
 from planetary_twin.topics import UNKNOWN_NODE
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
@@ -54,6 +55,28 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
     simulation.terminate()
     _, errors = simulation.communicate(timeout=LONG)
     assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
+
+
+def test_a_recorder_that_has_gone_is_an_error_until_another_one_comes(
+    peer: Peer, start: Start
+) -> None:
+    logger = start("planetary_twin.logger")
+    start("planetary_twin.simulation", *WAITING)
+    arrays = peer.listen(DiagnosticArray, "/diagnostics")
+
+    def recorder() -> tuple[bytes, str]:
+        arrays.clear()
+        found = peer.until(
+            lambda: [s for array in arrays for s in array.status if s.name.endswith(RECORDER)]
+        )
+        return found[-1].level, found[-1].message
+
+    peer.until(lambda: recorder() == (DiagnosticStatus.OK, "logger subscribes"))
+    logger.terminate()
+    gone = (DiagnosticStatus.ERROR, "logger does not subscribe: nothing is recorded by it")
+    peer.until(lambda: recorder() == gone)
+    start("planetary_twin.logger")
+    peer.until(lambda: recorder()[0] == DiagnosticStatus.OK)
 
 
 def waited(

@@ -71,6 +71,16 @@ class Info:
     remarks: list[str] = field(default_factory=list)
 
     @property
+    def skips(self) -> int:
+        """Number of skips of stamps that were late, see the parameter `max_lag`."""
+        return int(self.report.get("skips", 0))
+
+    @property
+    def skipped(self) -> float:
+        """ROS time [s] between stamps for which the gearbox was not simulated."""
+        return float(self.report.get("skipped", 0.0))
+
+    @property
     def is_empty(self) -> bool:
         """Whether there are neither messages nor, undamaged, topics, nor a recorder that writes."""
         nothing = not any(topic.recorded for topic in self.topics.values())
@@ -98,6 +108,8 @@ class Info:
             "duration_s": self.simulated,
             "real_time_factor": None if factor is None else float(factor),
             "overruns": None if overruns is None else int(overruns),
+            "skips": self.skips,
+            "skipped_s": self.skipped,
             "file": str(self.files[0]),
         }
 

@@ -21,20 +21,20 @@ from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.runs.written import write_run
 
 DRIVEN = {"drive.input.port": "torque", "drive.output.port": "torque"}
-BRAKED = {"drive.input.port": "motion"}
 BRAKE = range(6, 12)  # intervals with the brake
 
 
-def braked_run():
-    """A run whose torques are given, with a brake of the input in between."""
+def braked_run(port="motion"):
+    """A run whose torques are given, with a brake of the input in between, as of both versions."""
     run = _run(Plan(pt.load_scene("paper").replace(**DRIVEN), 0.16, 10_000.0, 1e-3))
     given, changes = {}, list(run.changes)
     for n, interval in enumerate(run.intervals):
         values = {"input_torque": 63.0 + n, "output_torque": 147.0 - n}
         if n in BRAKE:
             values = {"input_speed": 104.7 - 5.0 * (n - BRAKE[0]), "output_torque": 0.0}
-        given[interval.stamp] = values
-    for number, ports in ((BRAKE[0], DRIVEN | BRAKED), (BRAKE[-1] + 1, DRIVEN)):
+        if port == "motion" or n not in BRAKE:
+            given[interval.stamp] = values
+    for number, ports in ((BRAKE[0], DRIVEN | {"drive.input.port": port}), (BRAKE[-1] + 1, DRIVEN)):
         begin, stamp = run.intervals[number].begin, run.intervals[number - 1].stamp
         values = run.changes[0].values | ports
         changes.append(Change(0, stamp, begin * 1e-12, values))
@@ -110,3 +110,11 @@ def test_commands_that_are_not_recorded_are_named_where_the_result_differs(tmp_p
     result = verify(bag.file, NAMESPACE)
     assert result.first_difference is not None
     assert any("applied_commands has no message of it" in remark for remark in result.remarks)
+
+
+def test_a_brake_is_recorded_as_a_port_and_verified(tmp_path):
+    file = written(braked_run("brake"), tmp_path / "bag")
+    assert ports_of(file)[1:] == [(0.06, "brake", "torque"), CHANGED[1]]
+    assert verify(file, NAMESPACE).identical
+    made = resimulate(file, NAMESPACE, Branch({"backlash": 4e-7}, 0.08), tmp_path / "branch")
+    assert verify(made.file, NAMESPACE).identical

@@ -24,6 +24,7 @@ _ARGUMENTS = (
     ("namespace", "planetary_twin", "namespace of the nodes, one for each twin"),
     ("frame_prefix", "", "prefix of all frame names in /tf, one for each twin"),
     ("record", "true", "record with the logger, into recordings/ of the working directory"),
+    ("respawn", "false", "start a logger that has died again; it makes another recording"),
     ("rate_factor", "1.0", "simulated seconds per second"),
     ("params", _CONFIG, "deprecated name of params_file"),
     ("params_file", LaunchConfiguration("params"), "YAML file with parameters of both nodes"),
@@ -38,6 +39,7 @@ _ARGUMENTS = (
     ),
 )
 
+_RESPAWN_DELAY = 1.0  # [s]
 _RECORDED_BY = IfElseSubstitution(LaunchConfiguration("record"), "logger", "")
 
 
@@ -51,14 +53,19 @@ def generate_launch_description() -> LaunchDescription:
     both = AndSubstitution(record, LaunchConfiguration("use_composition"))
     apart = NotSubstitution(both)
     nodes = [
-        _node("logger", AndSubstitution(record, apart)),
+        _node(
+            "logger",
+            AndSubstitution(record, apart),
+            respawn=LaunchConfiguration("respawn"),
+            respawn_delay=_RESPAWN_DELAY,
+        ),
         _node("simulation", apart, on_exit=Shutdown()),
         _node("twin", both, on_exit=Shutdown()),
     ]
     return LaunchDescription([*arguments, *nodes])
 
 
-def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node:
+def _node(executable: str, condition: Substitution, **options: object) -> Node:
     given = {
         "scene": ParameterValue(LaunchConfiguration("scene"), value_type=str),
         "use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool),

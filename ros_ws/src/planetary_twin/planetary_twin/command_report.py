@@ -56,14 +56,19 @@ class CommandReport:
                 self._stranger = strangers[-1]
 
     def status(
-        self, hardware: str, silence: str, without: Sequence[str], received: bool
+        self,
+        hardware: str,
+        silence: str,
+        without: Sequence[str],
+        received: bool,
+        braking: bool,
     ) -> DiagnosticStatus:
         """
         Return the report.
 
         `hardware` is the namespace of the twin, `silence` the reaction to missing commands, and
         `without` are joints with a given torque or motion that have not had a command. Some joint
-        has `received` one.
+        has `received` one. A twin that is `braking` is an error.
         """
         with self._lock:
             faults = [silence, self._fresh(), *self._excesses.values()]
@@ -77,8 +82,9 @@ class CommandReport:
                 counts["fewer values than names"] = self._short
             self._reported, self._excesses, self._stranger = Counter(self.ignored), {}, ""
         faults = [fault for fault in faults if fault]
+        worst = DiagnosticStatus.ERROR if braking else DiagnosticStatus.WARN
         return DiagnosticStatus(
-            level=DiagnosticStatus.WARN if faults else DiagnosticStatus.OK,
+            level=worst if faults else DiagnosticStatus.OK,
             name=status_name(COMMANDS, hardware),
             message="; ".join(faults) or _in_order(received, without),
             hardware_id=hardware,

@@ -22,7 +22,7 @@ from .ramps import Ramps
 from .turns import Turns
 
 NO_CLOCK = "use_sim_time: the twin waits for the first message on /clock"
-LONGEST_STEP = 10.0  # [s] simulated time of one step of a paused twin
+SHORTEST_STEP, LONGEST_STEP = 1e-6, 10.0  # [s] of a paused twin; stamps have whole nanoseconds
 _STOP_POLL = 0.1  # [s] between two checks of a halted twin whether it may run
 _ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
 _STOPPED = "the simulation has stopped"
@@ -234,7 +234,8 @@ class LiveTwin:
         prepared = time.monotonic()
         wait()
         waited = time.monotonic() - prepared
-        self._listener.publish()
+        if self._listener.publish():
+            self._pace.start()
         work = time.thread_time() - cpu
         quality.observe(time.monotonic() - begin - waited, work, window.repeated)
         self._repeated = window.repeated
@@ -298,9 +299,10 @@ class LiveTwin:
         self._refuse_after_failure()
         if not self._paused:
             raise ValueError(f"duration = {duration:g} s: the twin runs; pause it first")
-        if not 0.0 < duration <= LONGEST_STEP:
+        if not SHORTEST_STEP <= duration <= LONGEST_STEP:
             raise ValueError(
-                f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
+                f"duration = {duration:g} s: must be within {SHORTEST_STEP:g} and "
+                f"{LONGEST_STEP:g} s"
             )
         if duration * len(commands) > LONGEST_STEP * (1.0 + 1e-9):
             raise ValueError(

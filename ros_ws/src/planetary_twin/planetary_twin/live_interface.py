@@ -16,8 +16,12 @@ class Listener(Protocol):
     def prepare(self, window: Window) -> None:
         """Receive a computed interval before the wall time of its end."""
 
-    def publish(self) -> None:
-        """Publish the prepared interval; its end is at the present wall time."""
+    def publish(self) -> bool:
+        """
+        Publish the prepared interval; its end is at the present wall time.
+
+        Returns whether its stamps have skipped a lag: then the schedule starts again from now.
+        """
 
     def changed(self, change: Change) -> None:
         """Receive operating point and ports, and the time from which they apply."""
@@ -78,7 +82,8 @@ class PortCommands(Protocol):
         """
         Return the commands for the next `interval` [s], as arguments of `Twin.advance`.
 
-        For a step of a paused twin, the interval is 0.
+        For a step of a paused twin, the interval is 0. If commands are missing, the twin may be
+        braked.
         """
 
     def refuse(self, reason: str) -> None:

@@ -13,11 +13,13 @@ from planetary_twin_py.quality_control import QualityControl
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
 
 from .live_interface import Progress, State
+from .stamps import Stamps
 
 _TOLERATED_LAG = 0.01  # share of the rate factor; a larger lag is a warning
 _TOLERATED_INTERVALS = 2.0  # lag that the instants of two reports within intervals can cause
 _BROKEN = 0.5  # share of the rate factor; a lower real-time factor is an error
 _SHORTEST = 0.5  # [s] in a shorter time, one late wake-up would look like a lag
+_LONGEST_LAG = 0.1  # [s] of stamps behind ROS time; consumers of stamps beside it reject more
 _STALL = 2.0  # [s] beyond its period, after which an interval may never end
 
 
@@ -34,6 +36,7 @@ PAUSED = Verdict(DiagnosticStatus.OK, "paused")
 WAITS = Verdict(DiagnosticStatus.OK, "waits")
 WAITS_LONG = Verdict(DiagnosticStatus.WARN, "waits")
 THINNED = Verdict(DiagnosticStatus.WARN, "keeps up with a thinned waveform")
+LATE = Verdict(DiagnosticStatus.WARN, "keeps up, but its stamps are late")
 FALLS_BEHIND = Verdict(DiagnosticStatus.WARN, "falls behind")
 FALLS_FAR_BEHIND = Verdict(DiagnosticStatus.ERROR, "falls far behind")
 FAILED = Verdict(DiagnosticStatus.ERROR, "failed")
@@ -65,6 +68,8 @@ class RealTimeReport:
         self._changes = {"tolerance": 0, "sample_rate": 0}
         self._start = self._last = start
         self._waited = False  # at the previous report
+        self._lag = 0.0  # [s] at the previous report
+        self._skips, self._skipped = 0, 0.0  # number and total [s] of skips
         self._process_cpu = time.process_time()
         self._wall = time.monotonic()
         self.verdict = KEEPS_UP
@@ -74,6 +79,7 @@ class RealTimeReport:
         now: Progress,
         quality: QualityControl,
         published: Mapping[str, int],
+        stamps: Stamps,
         *,
         last: bool,
     ) -> DiagnosticArray:
@@ -81,20 +87,28 @@ class RealTimeReport:
         Return the report, not stamped yet.
 
         `now` is the progress, `quality` the quality control, `published` the number of messages by
-        topic. The `last` report is sent when the twin has stopped, so its counts are final.
+        topic, `stamps` are those of the intervals. The `last` report is sent when the twin has
+        stopped, so its counts are final.
         """
         lasted = now.lasted - self._last.lasted
         idle = 0.0 if now.state != State.RUNNING else self._rate_factor
         recent = _ratio(now.ran - self._last.ran, lasted, idle)
         overruns = now.overruns - self._last.overruns
         silence = time.monotonic() - now.wall
-        self.verdict = self._judge(now, quality, recent, 0.0 if last else silence)
+        lag, growth = stamps.lag, _ratio(stamps.lag - self._lag, lasted, 0.0)
+        late = lag if self._rate_factor == 1.0 else 0.0  # other rates leave ROS time on purpose
+        self.verdict = self._judge(now, quality, recent, 0.0 if last else silence, late)
         if self.verdict == STALLED:
             recent = 0.0
+        behind = f"real-time factor {recent:.3f}, {overruns} overruns"
+        if late > _LONGEST_LAG:
+            behind += f", stamps {lag:.2f} s behind ROS time"
         details = {
+            LATE: f"{lag:.2f} s behind ROS time, growing by {growth:.3f} s/s: a pause ends the "
+            "lag, and max_lag limits it",
             THINNED: f"{self._log[-1].sample_rate:g} of {quality.full_sample_rate:g} Hz",
-            FALLS_BEHIND: f"real-time factor {recent:.3f}, {overruns} overruns",
-            FALLS_FAR_BEHIND: f"real-time factor {recent:.3f}, {overruns} overruns",
+            FALLS_BEHIND: behind,
+            FALLS_FAR_BEHIND: behind,
             WAITS_LONG: "for the first message on /clock, or for the node that wait_for names",
             FAILED: f"{now.failure}; ~/reset starts a new run with the parameters",
             STALLED: f"the interval in progress has not ended for {silence:.1f} s",
@@ -115,6 +129,9 @@ class RealTimeReport:
             "simulated_time": f"{now.simulated:.6f}",
             "overruns": now.overruns,
             "held": f"{now.held:.3f}",
+            "stamp_lag": f"{lag:.3f}",
+            "stamp_lag_growth": f"{growth:.4f}",
+            **self._skips_of(stamps),
             **self._cpu(now),
             "computing": f"{quality.load:.3f}",
             "mesh_cycles": "repeated" if now.repeats else "computed",
@@ -126,11 +143,16 @@ class RealTimeReport:
             **{f"published.{topic}": count for topic, count in published.items()},
         }
         status.values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
-        self._last = now
+        self._last, self._lag = now, lag
         return DiagnosticArray(status=[status])
 
     def _judge(
-        self, now: Progress, quality: QualityControl, recent: float, silence: float
+        self,
+        now: Progress,
+        quality: QualityControl,
+        recent: float,
+        silence: float,
+        late: float,
     ) -> Verdict:
         if now.state == State.FAILED:
             return FAILED
@@ -152,6 +174,8 @@ class RealTimeReport:
                 return FALLS_BEHIND
         if now.overruns > self._last.overruns:
             return FALLS_BEHIND
+        if late > _LONGEST_LAG:
+            return LATE
         thinned = self._log[-1].sample_rate < quality.full_sample_rate
         return THINNED if thinned else KEEPS_UP
 
@@ -181,6 +205,16 @@ class RealTimeReport:
             new[name] = repr(getattr(log[-1], name))
             new[f"{name}_changes"] = count
         return new
+
+    def _skips_of(self, stamps: Stamps) -> dict[str, object]:
+        """Return number and total of the skips of stamps, and each one since the last report."""
+        new: dict[str, object] = {}
+        while stamps.skips:
+            skip = stamps.skips.popleft()
+            new[f"skip.{skip.time!r}"] = f"{skip.lag:.9f}"
+            self._skips += 1
+            self._skipped += skip.lag
+        return {"skips": self._skips, "skipped": f"{self._skipped:.3f}", **new}
 
     def _cpu(self, now: Progress) -> dict[str, str]:
         """Return the shares of one core since the previous report."""

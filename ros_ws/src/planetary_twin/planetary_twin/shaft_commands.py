@@ -26,6 +26,7 @@ SILENCE = ("hold", "zero", "brake")
 """Reaction to missing commands: hold the last one, remove it, or brake the input shaft."""
 _TURN = 2.0 * math.pi
 _OUT_OF_RANGE = "out of range"
+_NOT_TAKEN = "not taken"
 _MOST_NAMES = 3  # in a message
 _LONGEST_NAME = 40  # characters
 _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two computers differ
@@ -87,9 +88,12 @@ class ShaftCommands:
         return self._report.ignored
 
     def collect(self) -> None:
-        """Take the commands that have arrived."""
-        for arrival, message in self._take():
-            self.receive(message, time.time_ns() - arrival)
+        """Take the commands that have arrived; a defect in this makes the joints silent."""
+        try:
+            for arrival, message in self._take():
+                self.receive(message, max(time.time_ns() - arrival, 0))
+        except Exception as defect:
+            self._report.ignore(_NOT_TAKEN, f"{type(defect).__name__}: {defect}")
 
     def receive(self, message: JointState, waited: int = 0) -> None:
         """
@@ -114,7 +118,7 @@ class ShaftCommands:
                     reasons |= faults
                 elif own:
                     self._newest[side] = stamp or self._newest[side]
-                    self._arrived[side] = _Arrived(own, time.monotonic())
+                    self._arrived[side] = _Arrived(own, time.monotonic() - 1e-9 * waited)
         self._report.look_at(message)
         for reason, detail in reasons.items():
             self._report.ignore(reason, detail)
@@ -146,7 +150,8 @@ class ShaftCommands:
             names = dict(zip(SIDES, self.joints, strict=True))
             joints = " and ".join(names[side] for side in silent)
             reaction = f"no command for {joints} for {max(silent.values()):.1f} s: {self._silence}"
-        return self._report.status(hardware, reaction, without, received)
+        braking = bool(silent) and self._silence == "brake"
+        return self._report.status(hardware, reaction, without, received, braking)
 
     def _silent(self) -> dict[str, float]:
         """Return the sides without a command for longer than the timeout, and for how long [s]."""
@@ -177,7 +182,8 @@ class ShaftCommands:
             self._watch(ports)
             silent = self._silent() if interval else {}
         if silent and self._silence == "brake":
-            return self._brake.slow(twin, interval)
+            self._brake.begin(twin)
+            return {}
         if any(taken.values()):
             self._brake.release(twin)
         given = {name: value for own in taken.values() for name, value in own.items()}

@@ -67,7 +67,7 @@ class Simulation(ManagedNode):
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._wait: SubscriptionWait | None = None
         self._commands: ShaftCommands | None = None
-        self._commands_faulty = False  # in the last report
+        self._faulty: set[str] = set()  # statuses with a fault in the last report
         self._inlet: PolledSubscription | None = None
         self._point = OperatingPointControl(self, self)
         self._backlog: Backlog | None = None
@@ -145,9 +145,9 @@ class Simulation(ManagedNode):
         self._ledger.add(window)
         self._accuracy.add(window)
 
-    def publish(self) -> None:
-        """Publish these messages at that time."""
-        self._telemetry.publish()
+    def publish(self) -> bool:
+        """Publish these messages at that time; returns whether stamps have skipped a lag."""
+        return self._telemetry.publish()
 
     def changed(self, change: Change) -> None:
         """Publish operating point and ports."""
@@ -281,7 +281,8 @@ class Simulation(ManagedNode):
             return
 
         def report_now(published: Mapping[str, int]) -> DiagnosticArray:
-            message = report.message(live.progress, live.quality, published, last=last)
+            stamps = self._telemetry.stamps
+            message = report.message(live.progress, live.quality, published, stamps, last=last)
             message.status += [self._ledger.status(), self._accuracy.status()]
             if self._given.choice is not None:
                 point = self._running_twin().operating_point
@@ -289,7 +290,11 @@ class Simulation(ManagedNode):
                     dynamics_status(self._given.choice, point, self.get_namespace())
                 )
             if self._running_twin().ports.given:
-                message.status.append(self._report_commands())
+                status = self._commands.status(self.get_namespace())
+                message.status.append(self._noted("commands", status))
+            if self._given.wait_for:
+                status = self._wait.status(self.get_namespace())
+                message.status.append(self._noted("recorder", status))
             return message
 
         self._check_held_axes(self._running_twin())
@@ -299,13 +304,13 @@ class Simulation(ManagedNode):
             self._verdict = report.verdict
             self._log(message.status[0])
 
-    def _report_commands(self) -> DiagnosticStatus:
-        """Return the report on commands; a fault is logged when it begins."""
-        status = self._commands.status(self.get_namespace())
-        faulty = status.level == DiagnosticStatus.WARN
-        if faulty and not self._commands_faulty:
+    def _noted(self, name: str, status: DiagnosticStatus) -> DiagnosticStatus:
+        """Log a fault of `status` when it begins; returns `status`."""
+        if status.level == DiagnosticStatus.OK:
+            self._faulty.discard(name)
+        elif name not in self._faulty:
+            self._faulty.add(name)
             self._log(status)
-        self._commands_faulty = faulty
         return status
 
     def _check_held_axes(self, twin: pt.Twin) -> None:

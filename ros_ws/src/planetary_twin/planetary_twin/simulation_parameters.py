@@ -41,6 +41,7 @@ TOLERANCE = pt.Tunable(
 # Changes after which the speed loop may not be stable.
 _CONTROLLED = ("input_speed", "second_input_speed", *PORT_FIELDS)
 _GEARSET = "gearset"
+_SHORTEST_LAG = 0.01  # [s] late wake-ups of a thread are no lag
 SETTINGS = (
     "frame_id",
     "frame_prefix",
@@ -52,6 +53,7 @@ SETTINGS = (
     "sample_rate",
     "rate_factor",
     "compute_share",
+    "max_lag",
     "command_timeout",
     "command_silence",
 )
@@ -102,6 +104,8 @@ class SimulationParameters:
         self.sample_rate: float = value["sample_rate"]
         self.rate_factor: float = value["rate_factor"]
         self._compute_share: float = value["compute_share"]
+        self.max_lag: float = value["max_lag"]
+        _check_lag(self.max_lag)
         self.command_timeout: float = value["command_timeout"]
         self.command_silence: str = value["command_silence"]
         _check_silence(self.command_silence)
@@ -160,6 +164,8 @@ class SimulationParameters:
                 ladder_of(values[TOLERANCE.name])
             if "rate_factor" in values:
                 check_rate_factor(values["rate_factor"])
+            if "max_lag" in values:
+                _check_lag(values["max_lag"])
             if "command_silence" in values:
                 _check_silence(values["command_silence"])
         except ValueError as refusal:
@@ -212,6 +218,13 @@ def _declare_settings(node: ParameterNode) -> None:
     declare_rate_factor(node)
     declare_bounded(
         node,
+        "max_lag",
+        0.0,
+        (0.0, 60.0),
+        "lag of stamps behind ROS time above which they skip it [s], 0.01 at least; 0: never",
+    )
+    declare_bounded(
+        node,
         "compute_share",
         0.4,
         (0.05, 0.9),
@@ -231,6 +244,11 @@ def _declare_settings(node: ParameterNode) -> None:
         "after command_timeout: hold the last command; zero torque and speed; or brake the input "
         "shaft to rest at the slew rate of the drive",
     )
+
+
+def _check_lag(value: float) -> None:
+    if 0.0 < value < _SHORTEST_LAG:
+        raise ValueError(f"max_lag = {value:g} s: must be 0, or within {_SHORTEST_LAG:g} and 60 s")
 
 
 def _check_silence(value: str) -> None:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import time
 
+from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
+from planetary_twin_py.recording.ros2.topics import status_name
+
 from .topics import UNKNOWN_NODE, is_of_twin
 
+RECORDER = "simulation: recorder"
 TIMEOUT = 10.0  # [s]
 _SETTLED = 3.0  # [s] without a new subscription, after which no more are expected
 _POLL = 0.05  # [s]
@@ -64,6 +68,21 @@ class SubscriptionWait:
                 "starts without it"
             )
         return self._present
+
+    def status(self, hardware: str) -> DiagnosticStatus:
+        """
+        Return the report on the node that the twin has waited for; `hardware` is the namespace.
+
+        A node that was killed counts as present until the middleware forgets its process.
+        """
+        missing = self._present and self._subscriptions() == (0, 0)
+        text = "does not subscribe: nothing is recorded by it" if missing else "subscribes"
+        return DiagnosticStatus(
+            level=DiagnosticStatus.ERROR if missing else DiagnosticStatus.OK,
+            name=status_name(RECORDER, hardware),
+            message=f"{self._name} {text}",
+            hardware_id=hardware,
+        )
 
     def _published(self) -> list[Publisher]:
         """Return the publishers of the twin's own topics."""

@@ -74,8 +74,9 @@ class Telemetry:
         )
         self._prepared: list[tuple[LifecyclePublisher, Any, list[Time], float]] = []
         self._end = 0.0
-        newest = before._stamps.newest if before else 0
-        self._stamps = Stamps(node.get_clock(), given.clock, newest)
+        newest = before.stamps.newest if before else 0
+        self.stamps = Stamps(node.get_clock(), given.clock, newest, given.max_lag)
+        """ROS times of simulated instants."""
         self._now = before._now if before else StrictClock(node.get_clock())
         self._published = dict.fromkeys(self._topics, 0)
         if before is not None:
@@ -150,20 +151,20 @@ class Telemetry:
 
     def ready(self) -> bool:
         """Return whether ROS time is available."""
-        return self._stamps.ready()
+        return self.stamps.ready()
 
     def begin(self, simulated: float) -> None:
         """Map time `simulated` [s] to the present ROS time."""
-        self._stamps.begin(simulated)
+        self.stamps.begin(simulated)
 
     def stamp(self, simulated: float) -> int:
         """Return the ROS time [ns] of the instant `simulated` [s] in the newest interval."""
-        return self._stamps.of(simulated)
+        return self.stamps.of(simulated)
 
     @property
     def newest(self) -> int:
         """Newest stamp [ns]."""
-        return self._stamps.newest
+        return self.stamps.newest
 
     def streamed(self) -> dict[LifecyclePublisher, int]:
         """Return the number of messages by publisher, for topics with one message per interval."""
@@ -212,14 +213,15 @@ class Telemetry:
                 (self._axes_waveform, wave, [wave.header.stamp], wave.start_time)
             )
 
-    def publish(self) -> None:
-        """Stamp and publish the prepared messages."""
-        self._stamps.reach(self._end)
+    def publish(self) -> bool:
+        """Stamp and publish the prepared messages; whether their stamps have skipped a lag."""
+        skipped = self.stamps.reach(self._end)
         for publisher, message, times, instant in self._prepared:
             stamp = self.stamp(instant)
             for time in times:
                 set_stamp(time, stamp)
             self._send(publisher, message)
+        return skipped
 
     def announce(self, change: Change) -> None:
         """Publish operating point and ports after `change`."""

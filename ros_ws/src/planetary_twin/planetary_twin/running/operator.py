@@ -23,6 +23,7 @@ from .sums import Sums
 _NODE = "simulation"
 _POLL = 0.1  # [s]
 _QUEUED = 1000  # states, 10 s at the default rate
+_QUIET = 5.0  # [s] without a state, which is shown
 _REPORTED = 3.0  # [s] for which a report, sent once a second, is up to date
 
 
@@ -44,6 +45,7 @@ class Operator(Client):
         self.summed = Sums()
         self._reported = 0.0  # [s] when the figures were received
         self._advanced = 0.0  # [s] when the newest state was received
+        self._answered = 0.0  # [s] when a state was last received or expected
         subscribe = self.node.create_subscription
         subscribe(GearboxState, "gearbox_state", self._on_state, _QUEUED)
         subscribe(RecorderStatus, "logger/status", self._on_status, 10)
@@ -54,11 +56,13 @@ class Operator(Client):
 
     def next_state(self, after: int, seconds: float) -> GearboxState | None:
         """
-        Return the newest state whose number exceeds `after`; None while simulated time is halted.
+        Return the newest state whose number exceeds `after`.
 
-        Raises `RunError` if the twin has failed, or after `seconds` without a state.
+        Returns None while simulated time is halted, and after 5 s without a state. Raises
+        `RunError` if the twin has failed, or after `seconds` without a state though it runs.
         """
-        deadline = time.monotonic() + seconds
+        begin = time.monotonic()
+        self._answered = self._answered or begin
 
         def later() -> bool:
             return self.state is not None and self.state.sequence > after
@@ -66,19 +70,24 @@ class Operator(Client):
         while not self.wait(later, _POLL):
             if failure := self.figures.get("failure"):
                 raise RunError(f"simulation: {failure}")
+            now = time.monotonic()
             if self.halted():
+                self._answered = now
                 return None
-            if time.monotonic() > deadline:
-                raise RunError(f"simulation: {self._silent(seconds)}")
+            if now > begin + _QUIET:
+                self._check_active()
+                if now > self._answered + seconds:
+                    raise RunError(f"simulation: publishes no state within {seconds:g} s")
+                return None
+        self._answered = time.monotonic()
         return self.state
 
-    def _silent(self, seconds: float) -> str:
-        """Return the reason why no state has been received for `seconds`."""
+    def _check_active(self) -> None:
+        """Raise `RunError` if another client has ended the run by a lifecycle request."""
         answer = self.call(self._get, GetState.Request())
-        label = answer.current_state.label if answer else ""
-        if label in ("", "active"):
-            return f"publishes no state within {seconds:g} s"
-        return f"is {label} after a lifecycle request"
+        label = answer.current_state.label if answer else "active"
+        if label != "active":
+            raise RunError(f"simulation: is {label} after a lifecycle request")
 
     def halted(self) -> str:
         """Return `paused` or `waits` if the newest report, after all states, says so, else ''."""

@@ -26,7 +26,7 @@ from .tour import Stop
 _START = 60.0  # [s] longest wait for the nodes to discover each other
 _BUILD = 300.0  # [s] longest wait for the model
 _END = 3.0  # [s] longest wait for the twin's last report
-SILENCE = 10.0  # [s] longest silence of a running twin
+SILENCE = 300.0  # [s] longest silence of a running twin, the lease of config/loopback.xml
 
 
 @dataclass(frozen=True)
@@ -170,9 +170,9 @@ def _drive(operator: Operator, plan: Plan, show: Show) -> None:
     stops = list(plan.stops)
     seen, number = 0.0, 0
     while seen < plan.duration:
-        state = operator.next_state(number, SILENCE / min(plan.rate_factor or 1.0, 1.0))
+        state = operator.next_state(number, SILENCE)
         if state is None:
-            show.halt(seen, operator.halted())
+            show.halt(seen, operator.halted() or "no answer")
             continue
         seen, number = state.simulated_time, state.sequence
         show.update(state, operator.figures.get("real_time_factor", "-"))
