@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .exchange import check_exchange
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
@@ -86,6 +87,7 @@ _EXPORTS = {
     "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
+    "exchange": ("check_exchange",),
     "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent", "FleetScatter"),
     "following.balance_filter": ("Innovation",),
     "following.baseline": ("LearnedCell",),
@@ -163,6 +165,7 @@ __all__ = [
     "Waveform",
     "Window",
     "amplitude_spectrum",
+    "check_exchange",
     "choose_dynamics",
     "export_fmu",
     "friction_table",

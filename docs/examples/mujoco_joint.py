@@ -66,6 +66,7 @@ class GearedJoint:
             )
         rest = {"input_speed": 0.0, "input_torque": 0.0}
         ports = {"drive.input.port": "torque", "drive.output.port": "motion"}
+        ports["drive.interpolation"] = "hold"  # `linear` is late by half a step: unstable
         self.twin = pt.Twin(scene.replace(**ports, **rest), tolerance=1e-3)
         self.ports = self.twin.port_states
 

@@ -90,6 +90,8 @@ def modal(
     for judge in (_bearings_of_load, _bearings_without_stiffness, _planets_without_load):
         if line := judge(loaded, model):
             remark(f"warning: {line}")
+    if turning and (line := _whirl(loaded, speed)):
+        remark(f"warning: {line}")
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
@@ -120,6 +122,14 @@ def _speed(text: str | None, model: str) -> float | None:
             f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
         )
     return speed if model in MOVING_AXES else None
+
+
+def _whirl(scene: Scene, speed: float | None) -> str:
+    """A remark on whirl that damping makes grow at a speed of the first motor [rad/s]."""
+    from ..modal.whirl import whirl_warning
+
+    point = scene.operating_point.model_copy(update={"input_speed": speed})
+    return whirl_warning(scene, point)
 
 
 def _bearings_of_load(scene: Scene, model: str) -> str | None:

@@ -79,7 +79,8 @@ def start_state(scene: Scene, model: Model) -> tuple[State, str]:
         model: its train at the operating point.
 
     Returns:
-        The state; and a warning if axes that move are not in equilibrium there, else "".
+        The state; and a warning if axes that move are not in equilibrium there, or leave it, else
+        "".
     """
     speed = model.load.target_speed.copy()
     if scene.drive.speed_control.start_speed is not None:
@@ -87,7 +88,9 @@ def start_state(scene: Scene, model: Model) -> tuple[State, str]:
     force = mesh_force(scene, float(model.load.torque[MOTOR]))
     state, unbalanced, body = library(scene).initial_state(model, speed, force)
     if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
-        return state, ""
+        from ..modal.whirl import whirl_warning  # whose gear sets are built from scenes
+
+        return state, whirl_warning(scene, scene.operating_point)
     place = build_bodies(scene).place
     name = next(name for name, number in place.items() if number == body)
     return state, (

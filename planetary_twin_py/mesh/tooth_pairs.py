@@ -161,7 +161,7 @@ def segmented(
 
 def _shared(path: PathOfContact, ramp: float, sharing: float, s: np.ndarray) -> np.ndarray:
     """Factor on the weight of a pair at `s` by other pairs on the same gear body."""
-    others = [n for n in range(-PAIRS, PAIRS + 1) if n != 0]
+    others = [n for n in range(-MOST_PAIRS, MOST_PAIRS + 1) if n != 0]
     count = sum(np.clip(_ramp(path, ramp, s + n), 0.0, 1.0) for n in others)
     return 1.0 + (sharing - 1.0) * count
 

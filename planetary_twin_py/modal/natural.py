@@ -112,7 +112,7 @@ def spring_model(scene: Scene, model: str | None = None, stiffness: str = "singl
     if model == "printed":
         return printed_model(_printed_set(scene, mesh))
     if model == "planar":
-        built = planar_model(_planar_set(scene, mesh))
+        built = planar_model(_planar_set(scene, mesh, _mesh_factors(scene, "planar")))
     else:
         built = spatial_model(_spatial_set(scene, mesh))
     return built.holding(f"{scene.gearset.held}.u")
@@ -175,7 +175,21 @@ def _rim_masses(scene: Scene) -> dict[str, float]:
     }
 
 
-def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
+def loaded_planar_model(scene: Scene) -> SpringModel:
+    """Masses and springs in the plane at mean mesh stiffness, with load on every planet.
+
+    Args:
+        scene: scene with supports.
+
+    Returns:
+        The spring model; it does not depend on static equilibrium if bearings are linear.
+    """
+    every = tuple(scene.errors.of_planet(i).stiffness for i in range(scene.gearset.planets))
+    built = planar_model(_planar_set(scene, mesh_stiffness(scene, "mean"), every))
+    return built.holding(f"{scene.gearset.held}.u")
+
+
+def _planar_set(scene: Scene, mesh: MeshStiffness, factors: tuple[float, ...]) -> PlanarSet:
     supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
     sun_planet, planet_ring = gearset.geometry.meshes
 
@@ -194,7 +208,7 @@ def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
         mesh.planet_ring,
         sun_planet.pressure_angle,
         planet_ring.pressure_angle,
-        _mesh_factors(scene, "planar"),
+        factors,
         _pin_factors(scene),
     )
 

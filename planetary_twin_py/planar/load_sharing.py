@@ -10,11 +10,13 @@ Singh 2008, on epicyclic load sharing.
 from __future__ import annotations
 
 import math
+import warnings
 from typing import NamedTuple
 
 import numpy as np
 
 from .._core.axes import RollingBearing
+from ..accuracy import AccuracyWarning
 from ..dynamics.bodies import rigid_ratios
 from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
@@ -121,9 +123,18 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     solution = equilibrium(springs, force, closed)
     if scene.supports is not None:
         _check_displacements(scene, eccentricities(springs, solution.displacement))
+        _warn_of_whirl(scene)
     elements = _element_loads(scene, springs, solution)
     on_bodies = weight + inertia.on(solution.displacement @ basis.T)
     return _assemble_result(scene, rows, turns, errors, basis, solution, on_bodies, elements)
+
+
+def _warn_of_whirl(scene: Scene) -> None:
+    """Warn of an equilibrium that vibration leaves."""
+    from ..modal.whirl import whirl_warning  # whose springs are linear about load sharing
+
+    if warning := whirl_warning(scene, scene.operating_point):
+        warnings.warn(warning, AccuracyWarning, stacklevel=3)
 
 
 def _check_displacements(scene: Scene, displaced: np.ndarray) -> None:

@@ -6,7 +6,9 @@ line search finds it (Nocedal and Wright 2006, Numerical Optimization, algorithm
 piecewise smooth; a step is exact once the set of touching flanks is that of the solution and no
 bearing rolls. The energy of centrifugal forces is concave: where Newton's step does not decrease
 the whole energy, it is replaced by its tangent, an upper bound (Yuille and Rangarajan 2003, Neural
-Comput. 15, 915). All positions are solved together.
+Comput. 15, 915). Above a critical speed, where bearings yield to centrifugal forces, the centred
+equilibrium is a saddle of the energy; there the unbalanced forces decrease instead. All positions
+are solved together.
 """
 
 from __future__ import annotations
@@ -48,6 +50,11 @@ class Springs(NamedTuple):
     rolling: tuple[RollingBearing | None, ...]
     """Law of each rolling bearing, None of the others, (bearings,)."""
 
+    @property
+    def linear(self) -> bool:
+        """Whether no bearing has clearance or rolling elements."""
+        return not self.clearance.any() and not any(self.rolling)
+
 
 class Equilibrium(NamedTuple):
     """Displacements and forces in equilibrium, at P positions."""
@@ -79,11 +86,12 @@ def equilibrium(springs: Springs, force: np.ndarray, closed: np.ndarray) -> Equi
     """
     q = _guess(springs, force, closed)
     limit = BALANCED * np.abs(force).max()
+    saddle = _is_saddle(springs, q)
     for _ in range(MOST_STEPS):
         gradient = _gradient(springs, force, q)
         if np.abs(gradient).max() <= limit:
             return Equilibrium(q, _contact_forces(springs, q), _bearing_forces(springs, q))
-        q = _line_search(springs, force, q, gradient)
+        q = _line_search(springs, force, q, gradient, saddle)
     raise ValueError("no static equilibrium is found: bearings or meshes cannot balance the load")
 
 
@@ -96,6 +104,14 @@ def _guess(springs: Springs, force: np.ndarray, closed: np.ndarray) -> np.ndarra
     matrix = np.einsum("bdn,bdm->nm", per_bearing, springs.bearing)
     matrix = matrix + np.einsum("pf,fn,fm->pnm", stiffness, springs.contact, springs.contact)
     return _solve(matrix, rhs)
+
+
+def _is_saddle(springs: Springs, q: np.ndarray) -> np.ndarray:
+    """Whether linear bearings yield to centrifugal forces with these flanks in contact, (P,)."""
+    if not springs.linear or not springs.softening.any():
+        return np.zeros(len(q), dtype=bool)
+    values = np.linalg.eigvalsh(_tangent(springs, q) - springs.softening)
+    return np.asarray(values[:, 0] < -LOOSE * values[:, -1])
 
 
 def _solve(matrix: np.ndarray, rhs: np.ndarray) -> np.ndarray:
@@ -172,21 +188,27 @@ def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
 
 
 def _line_search(
-    springs: Springs, force: np.ndarray, q: np.ndarray, gradient: np.ndarray
+    springs: Springs, force: np.ndarray, q: np.ndarray, gradient: np.ndarray, saddle: np.ndarray
 ) -> np.ndarray:
-    """A Newton step at each position, shortened until the energy decreases."""
+    """A Newton step at each position, shortened until the energy decreases; where it has a saddle,
+    until the forces that are not balanced do."""
     tangent, before = _tangent(springs, q), _energy(springs, force, q)
+    unbalanced = np.linalg.norm(gradient, axis=1)
 
     def is_high(step: np.ndarray, part: np.ndarray) -> np.ndarray:
         """Whether the energy decreases too little, or the step leads upwards."""
         slope = np.sum(gradient * step, axis=1)
         after = _energy(springs, force, q + part[:, None] * step)
         allowed = before + DECREASE * part * slope + 1e-15 * np.abs(before)
-        return np.asarray((after > allowed) | (slope > 0.0))
+        high = (after > allowed) | (slope > 0.0)
+        if saddle.any():
+            left = np.linalg.norm(_gradient(springs, force, q + part[:, None] * step), axis=1)
+            high[saddle] = (left > (1.0 - DECREASE * part) * unbalanced)[saddle]
+        return np.asarray(high)
 
     part = np.ones(len(q))
     step = _solve(tangent - springs.softening, -gradient)
-    uphill = is_high(step, part)
+    uphill = is_high(step, part) & ~saddle
     step[uphill] = _solve(tangent[uphill], -gradient[uphill])
     for _ in range(MOST_HALVINGS):
         high = is_high(step, part)

@@ -133,10 +133,40 @@ def test_a_rigid_rotation_stays_rigid_though_the_carrier_turns():
     assert modes_at(planar_model(free), 300.0, data.planet_angles).kinds[:2] == ("rigid", "rigid")
 
 
-def test_a_speed_beyond_the_bearings_is_refused():
-    weak = lin_parker(3, sun=PlanarBody(0.4, 0.39, 1.0), sun_planet=1e-3)
-    with pytest.raises(ValueError, match="centrifugal forces exceed"):
-        modes_at(planar_model(weak), 300.0, weak.planet_angles)
+def test_an_axis_above_its_critical_speed_centres_itself():
+    """Its bearing yields to centrifugal forces, but Coriolis forces turn it back."""
+    speed, weak = 300.0, lin_parker(3, sun=PlanarBody(0.4, 0.39, 4e3), sun_planet=1e-6)
+    found = modes_at(planar_model(weak), speed, weak.planet_angles).frequencies
+    own = math.sqrt(4e3 / 0.4)
+    assert own < speed
+    for expected in ((speed - own) / (2 * math.pi), (own + speed) / (2 * math.pi)):
+        assert np.abs(found - expected).min() == pytest.approx(0.0, abs=1e-6)
+
+
+def uneven(square):
+    """Planets on pins that are stiffer along one direction, on a carrier that does not move."""
+    return lin_parker(
+        3,
+        carrier=PlanarBody(1e9, 1e9, 1e8),
+        planet=PlanarBody(0.5, 0.6, 0.5 * square, across=0.5 * 4.0 * square),
+        sun_planet=1e-3,
+        planet_ring=1e-3,
+    )
+
+
+def test_unequal_stiffness_is_unstable_between_its_critical_speeds_alone():
+    """Growth of an asymmetric rotor: s^4 + (a + b + 2 W^2) s^2 + (a - W^2)(b - W^2) = 0 with the
+    squares a and b of both critical speeds (Den Hartog 1956, Mechanical Vibrations)."""
+    first, second = 200.0, 400.0
+    data = uneven(first**2)
+    for speed in (0.9 * first, 1.1 * second):
+        modes_at(planar_model(data), speed, data.planet_angles)
+    speed = 300.0
+    half = 0.5 * (first**2 + second**2) + speed**2
+    product = (first**2 - speed**2) * (second**2 - speed**2)
+    growth = math.sqrt(math.sqrt(half**2 - product) - half)
+    with pytest.raises(ValueError, match=f"it grows with {growth:.3g} 1/s"):
+        modes_at(planar_model(data), speed, data.planet_angles)
 
 
 def test_modes_of_a_scene_are_those_at_the_speed_of_its_carrier():

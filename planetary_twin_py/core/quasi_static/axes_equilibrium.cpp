@@ -19,6 +19,7 @@
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/machines.hpp"
 #include "train/bearings.hpp"
+#include "train/critical_speed.hpp"
 #include "train/equations.hpp"
 #include "train/observe.hpp"
 #include "train/set_step_constants.hpp"
@@ -216,10 +217,14 @@ public:
     void start(const Train& train, const Equilibrium& run, const double* force) {
         alignas(64) SquareMatrix stiffness;
         assemble(train, run, stiffness);
-        factorise(stiffness, train.bodies);
         std::copy_n(run.state.x, BODIES, start_);
         std::copy_n(force, BODIES, direction_);
-        solve(stiffness, train.bodies, direction_);
+        const double turning = run.step.rigid[train.moving.frame];
+        convex_ = !displace_above_critical_speed(train, turning, stiffness, direction_);
+        if (convex_) {
+            factorise(stiffness, train.bodies);
+            solve(stiffness, train.bodies, direction_);
+        }
         initial_work_ = short_work_ = along(train, force);
         fraction_ = 1.0;
         short_ = 0.0;
@@ -233,6 +238,7 @@ public:
 
     // Whether the step needs another length, which is then chosen, with these forces at its end.
     bool corrects(const Train& train, const double* force) {
+        if (!convex_) return false;
         const double work = along(train, force);
         if (work < -OVERSHOOT * initial_work_) {
             long_ = fraction_;
@@ -257,6 +263,7 @@ private:
 
     alignas(64) double start_[BODIES];
     alignas(64) double direction_[BODIES];
+    bool convex_;                // whether springs are stiffer than centrifugal forces
     double initial_work_;        // force along the step at its start, times its length [J]
     double fraction_;            // of the step
     double short_, short_work_;  // largest fraction that is too short, and its work [J]

@@ -11,6 +11,7 @@
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "train/bearings.hpp"
+#include "train/critical_speed.hpp"
 #include "train/equations.hpp"
 #include "train/set_step_constants.hpp"
 #include "tribology/bristles.hpp"
@@ -103,8 +104,11 @@ void displace_by_forces(Start& start) {
         add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
     if constexpr (MOVING) add_bearing_stiffness(start);
     for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling[2 * a][0]);
-    factorise(balance.stiffness, train.bodies);
-    solve(balance.stiffness, train.bodies, balance.force);
+    const double turning = MOVING ? start.step.rigid[train.moving.frame] : 0.0;
+    if (!displace_above_critical_speed(train, turning, balance.stiffness, balance.force)) {
+        factorise(balance.stiffness, train.bodies);
+        solve(balance.stiffness, train.bodies, balance.force);
+    }
     for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += balance.force[j];
 }
 
