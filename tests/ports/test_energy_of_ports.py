@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from ports.ports_of_paper import CAUSALITIES, RATIO, driven
+from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, RATIO, driven
 
 import planetary_twin_py as pt
 from planetary_twin_py.integrators.clock import TICKS
@@ -109,3 +109,72 @@ def test_efficiency_counts_the_work_put_in_before_and_after_a_reversal():
     assert energy.both_ways > 0.9 * put_in  # without these, no work would be left
     assert energy.driving_work == pytest.approx(put_in, rel=0.01)
     assert run.efficiency == pytest.approx(1.0 - energy.friction / put_in, abs=2e-4)
+
+
+DRIVES = {
+    "steady": {},
+    "ripple": {"torque_ripple": 20.0},
+    "fast ripple": {"torque_ripple": 20.0, "drive.speed_control.ripple_order": 29},
+    "run-up": {"drive.speed_control.start_speed": 50.0, "torque_ripple": 20.0},
+    "rattle": {"torque_ripple": 0.6, "input_torque": 0.3, "input_speed": 300.0, "backlash": 1e-4},
+}
+METHODS = ("march", "auto", "collocation", "rosenbrock")
+
+
+@pytest.mark.parametrize("changes", DRIVES.values(), ids=DRIVES)
+@pytest.mark.parametrize("ports", list(itertools.product(CAUSALITIES, repeat=2)), ids="-".join)
+def test_all_methods_find_the_same_work_of_every_drive_at_every_port(ports, changes):
+    scene = driven(*ports, **changes)
+    found = [pt.simulate(scene, 0.01, 1e4, method, 1e-6).energy for method in METHODS]
+    for energy in found:
+        assert abs(energy.residual) < 1e-7 * turnover(energy)
+        assert energy.machines == pytest.approx(found[-1].machines, rel=1e-5)
+
+
+def test_work_of_a_motor_is_the_integral_of_its_torque_times_speed():
+    """Torque ripple and speed at the shaft, by the trapezoidal rule from steps of 5 us."""
+    scene = driven("torque", "torque", torque_ripple=20.0)
+    control, dt = scene.drive.speed_control, 5e-6
+    twin, work = pt.Twin(scene, tolerance=1e-5), 0.0
+    shown = twin.step(dt)
+    before = twin._engine.books(Fraction(twin._ticks, TICKS)).ledger[0]
+
+    def power(shown):
+        ripple = 20.0 * np.sin(control.ripple_order * shown.input_angle)
+        return (scene.operating_point.input_torque + ripple) * shown.input_speed
+
+    last = power(shown)
+    for _ in range(4000):
+        now = power(twin.step(dt))
+        work += 0.5 * dt * (last + now)
+        last = now
+    after = twin._engine.books(Fraction(twin._ticks, TICKS)).ledger[0]
+    assert after - before == pytest.approx(work, rel=1e-6)
+
+
+def test_the_ledger_converges_where_shafts_swing_many_times_in_free_flight():
+    """Light gears with runout, and a stiff shaft whose swing lasts a small part of a step."""
+    scene = pt.load_scene("paper").replace(
+        **{
+            "gearset.equivalent_mass": {"sun": 4e-3, "planet": 0.02, "ring": 0.04, "carrier": 0.02},
+            "mesh.runout": {"sun": 2e-6, "planet": 2e-6},
+            "mesh.damping.law": "natural_frequency",
+            "drive.input.member": "ring",
+            "drive.input.inertia": 9e-7,
+            "drive.input.coupling_stiffness": 12.0,
+            "drive.input.coupling_damping": 1e-4,
+            "drive.output.member": "sun",
+            "drive.output.inertia": 5e-7,
+            "drive.output.coupling_stiffness": 3400.0,
+            "drive.output.coupling_damping": 8e-4,
+            "input_speed": 0.73,
+            "input_torque": 0.6,
+            "torque_ripple": 0.18,
+            "backlash": 1e-4,
+        },
+        **NO_FRICTION,
+    )
+    for tolerance, allowed in ((1e-4, 1e-4), (1e-6, 1e-5), (1e-8, 1e-8)):
+        run = pt.simulate(scene, 0.02, 2e4, "march", tolerance)
+        assert run.stats.flank_events > 50
+        assert abs(run.energy.residual) < allowed * turnover(run.energy)

@@ -7,7 +7,7 @@
 #include "integrators/collocation.hpp"
 #include "integrators/flanks.hpp"
 #include "integrators/frame.hpp"
-#include "integrators/given_work.hpp"
+#include "integrators/work_of_machines.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/step_ledger.hpp"
 #include "mesh/deflection.hpp"
@@ -82,7 +82,7 @@ void finish_end(const Model& model, Integrator& integrator) {
     const double h = integrator.control.step;
     trim_at(model, integrator, h, integrator.end.x, integrator.end.trim);
     integrate_powers<L>(model.train, integrator, h);
-    add_given_work<L>(model, integrator, h);
+    add_work_of_machines<L>(model, integrator, h);
     advance_clock(model, integrator, h);
 }
 

@@ -79,6 +79,15 @@ ALWAYS_INLINE void apply_couplings(const Train& train, const double* x, const do
     }
 }
 
+// Phase of the torque ripple of the first motor [rad], which follows the angle of its shaft.
+ALWAYS_INLINE double ripple_phase(const Model& model, const State& state, const double* x,
+                                  double delay) {
+    const std::int64_t body = model.train.coupling[MOTOR][0];
+    double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
+    angle += x[body] / model.train.radius[body];
+    return model.load.ripple_order * angle;
+}
+
 // Add the torques of the motors, which control their speeds, and of the load; or given ones.
 //
 // The torque of a shaft with given motion is that of its coupling. The force here accelerates the
@@ -94,11 +103,8 @@ ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const 
         const double spin = v[body] * train.inverse_radius[body], speed = step.rigid[body] + spin;
         double torque = drive.torque + drive.rate * delay - drive.gain * spin;
         for (std::int64_t a = 0; a < train.axes; ++a) torque += load.trim_gain[c][a] * trim[a];
-        if (c == MOTOR && load.ripple != 0.0) {
-            double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
-            angle += x[body] / train.radius[body];
-            torque += load.ripple * sin_cos(load.ripple_order * angle).sine;
-        }
+        if (c == MOTOR && load.ripple != 0.0)
+            torque += load.ripple * sin_cos(ripple_phase(model, state, x, delay)).sine;
         double force = torque * train.inverse_radius[body];
         if (load.port[c] == BY_MOTION) {
             torque = -forces.machine[c] * train.radius[body];

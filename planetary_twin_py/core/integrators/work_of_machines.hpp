@@ -1,12 +1,13 @@
 #pragma once
 
-// Exact work of given torques and motions at the ports: quadrature at the nodes of a step would
-// miss the free waves of the members, on which the torques of shafts with given motion depend.
+// Exact work of the machines: quadrature at the nodes of a step would miss the free waves of the
+// shafts, which may be faster, and on which the torques of shafts with given motion depend.
 
 #include "integrators/given_motion.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
 #include "train/body_speed.hpp"
+#include "train/equations.hpp"
 
 namespace gearbox {
 
@@ -57,25 +58,46 @@ inline double damped_across(const Model& model, const Propagation& run, std::int
     return -2.0 * model.train.coupling_damping[c] * (across - at_nodes);
 }
 
-// Impulse and work of a given torque on the shaft of machine c over h seconds. The torque is known;
-// the speeds at the nodes are those before the last sweep.
+// Work of the torque ripple of the first motor over h seconds, exact at any speed: the torque is a
+// function of the angle of the shaft.
+inline double work_of_ripple(const Model& model, const Integrator& integrator, double h) {
+    const Load& load = model.load;
+    if (load.ripple == 0.0) return 0.0;
+    const double first = ripple_phase(model, integrator.begin, integrator.begin.x, 0.0);
+    const double last = ripple_phase(model, integrator.begin, integrator.end.x, h);
+    return load.ripple / load.ripple_order * (sin_cos(first).cosine - sin_cos(last).cosine);
+}
+
+// Work of the torque of machine c on its shaft over h seconds. What is known of the torque before
+// the step does work by the motion of the shaft. The part that the speed loop changes within the
+// step is integrated at the nodes.
 template <int L>
-void add_work_of_given_torque(const Model& model, Integrator& integrator, std::int64_t c,
-                              double h) {
+void add_work_of_torque(const Model& model, Integrator& integrator, std::int64_t c, double h) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;
+    const State &begin = integrator.begin, &end = integrator.end;
     const std::int64_t body = train.coupling[c][0];
-    const double torque = integrator.constants.torque[c], rate = model.load.torque_rate[c];
-    const double x = integrator.end.x[body], passed = integrator.constants.rigid[body] * h;
-    double turned = passed + (x - integrator.begin.x[body]) * train.inverse_radius[body];
-    double later = 0.0;  // integral of time times speed [rad s]
-    if (rate != 0.0) {
-        Moments own = moments<L>(run, body, h, run.end_cosine, run.end_sine);
-        later = 0.5 * passed * h + (h * x - own.zeroth) * train.inverse_radius[body];
+    const Drive& drive = integrator.constants.drive[c];
+    const double* gain = model.load.trim_gain[c];
+    const double per_radius = train.inverse_radius[body], rigid = integrator.constants.rigid[body];
+    const double passed = rigid * h, swung = (end.x[body] - begin.x[body]) * per_radius;
+    double torque = drive.torque, controlled = 0.0;
+    for (std::int64_t a = 0; a < train.axes; ++a) torque += gain[a] * begin.trim[a];
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
+        const Node& node = run.node[n];
+        const double spin = node.v[body] * per_radius;
+        double trimmed = 0.0;
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            trimmed += gain[a] * (node.trim[a] - begin.trim[a]);
+        controlled += run.weight[n] * (trimmed * (rigid + spin) - drive.gain * spin * spin);
     }
-    double impulse = h * (torque + 0.5 * rate * h), work = torque * turned + rate * later;
-    integrator.end.energy[IMPULSE + c] = integrator.begin.energy[IMPULSE + c] + impulse;
-    integrator.end.energy[WORK + c] = integrator.begin.energy[WORK + c] + work;
+    double work = torque * (passed + swung) - drive.gain * rigid * swung + controlled;
+    if (drive.rate != 0.0) {
+        Moments own = moments<L>(run, body, h, run.end_cosine, run.end_sine);
+        work += drive.rate * (0.5 * passed * h + (h * end.x[body] - own.zeroth) * per_radius);
+    }
+    if (c == MOTOR) work += work_of_ripple(model, integrator, h);
+    integrator.end.energy[WORK + c] = begin.energy[WORK + c] + work;
 }
 
 // Impulse and work at the end of the shaft of machine c, whose motion is given, over h seconds.
@@ -105,13 +127,15 @@ void add_work_of_given_motion(const Model& model, Integrator& integrator, std::i
     after.energy[DAMPING] += damped_across(model, run, c, end, across);
 }
 
-// Add impulse and work at the ports with given torque or motion to the ledger, h seconds after the
-// start of the step.
+// Add the work of the machines, and the impulse of given motions, to the ledger, h seconds after
+// the start of the step.
 template <int L>
-void add_given_work(const Model& model, Integrator& integrator, double h) {
+void add_work_of_machines(const Model& model, Integrator& integrator, double h) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
-        if (model.load.port[c] == BY_TORQUE) add_work_of_given_torque<L>(model, integrator, c, h);
-        if (model.load.port[c] == BY_MOTION) add_work_of_given_motion<L>(model, integrator, c, h);
+        if (model.load.port[c] == BY_MOTION)
+            add_work_of_given_motion<L>(model, integrator, c, h);
+        else
+            add_work_of_torque<L>(model, integrator, c, h);
     }
 }
 
