@@ -6,13 +6,14 @@ of ever more, which costs less.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.contradictions import CHANNELS, Contradictions, Rows, impossible_temperature
+from ..following.contradictions import CHANNELS, Contradictions, Rows
+from ..following.plausibility import beyond, ranges_of
+from ..following.reading_check import impossible_text
 from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..following.unit_remarks import FEWEST, TURNING, unit_remarks
@@ -37,7 +38,9 @@ class Faults:
         self.lines: dict[int, str] = {}
         """Channel, value and correction by index of a gearbox whose readings contradict the scene.
         """
-        self._contradictions = Contradictions(followed_train(scene), sensors, period)
+        train = followed_train(scene)
+        self._contradictions = Contradictions(train, sensors, period)
+        self._ranges = ranges_of(train)
         self._point = scene.operating_point
         self._torque = np.zeros(count)  # [N m] largest magnitude while turning
         self._speeds = np.zeros(count)  # [rad/s] sum of magnitudes while turning
@@ -74,7 +77,7 @@ class Faults:
             own = {name: values[:, n] for name, values in columns.items()}
             rows = Rows(time, {name: own.get(name, missing) for name in CHANNELS})
             lines = [
-                impossible_temperature(_median(own["oil_temperature"])),
+                *map(self._impossible, own, own.values()),
                 *self._contradictions.shown_by(rows).values(),
             ]
             if line := next(filter(None, lines), ""):
@@ -92,6 +95,14 @@ class Faults:
         speed = float(self._speeds[gearbox]) / turning
         return tuple(unit_remarks(self._point, float(self._torque[gearbox]), speed))
 
+    def _impossible(self, name: str, values: Array) -> str:
+        """Line on a channel most of whose readings are beyond the limits of the scene."""
+        known, allowed = values[np.isfinite(values)], self._ranges[name]
+        wrong = beyond(known, allowed)
+        if 2 * wrong.sum() <= len(known):
+            return ""
+        return impossible_text(name, allowed, known[wrong], len(known))
+
     def _note_sizes(self, columns: Mapping[str, Array]) -> None:
         """Largest torques and mean speeds while the gearboxes turn."""
         speed, torque = np.abs(columns["input_speed"]), np.abs(columns["input_torque"])
@@ -100,9 +111,3 @@ class Faults:
         self._speeds += np.where(turning, speed, 0.0).sum(axis=0)
         largest = np.where(turning & np.isfinite(torque), torque, 0.0).max(axis=0)
         self._torque = np.maximum(self._torque, largest)
-
-
-def _median(values: Array) -> float:
-    """Median of the values that are not missing; NaN if all are."""
-    known = values[np.isfinite(values)]
-    return float(np.median(known)) if len(known) else math.nan

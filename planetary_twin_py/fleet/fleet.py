@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ..brief import brief
 from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import alarm_memory, interval_memory
-from ..following.contradictions import CELSIUS, HOTTEST
 from ..following.estimate import CONFIDENT
 from ..following.friction_remark import friction_remarks
 from ..following.sensors import Sensors
@@ -23,6 +22,7 @@ from ..scene.given import check_scene
 from .balances import PARAMETERS, Balances, F, Row
 from .cusums import TERM, Cusums, Steps, limit
 from .faults import Faults
+from .fleet_check import FleetCheck
 from .loss_table import loss_table
 from .scatter import Scatter
 
@@ -122,6 +122,7 @@ class Fleet:
         self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
         self._faults = Faults(self.scene, self.sensors, self.period, self.count)
         self._scatter = Scatter(self.count)
+        self._check = FleetCheck(self.train, self.sensors, self.count)
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
@@ -159,18 +160,18 @@ class Fleet:
                 values = np.full(self.count, math.nan)
             if values.shape != (self.count,):
                 raise ValueError(f"{name}: must have {self.count} values, one for each gearbox")
-            row[name] = values
+            row[name] = values.copy()
         if time <= self._time:
             raise ValueError(f"time = {time:g} s: must be after {self._time:g} s")
         step = self.period if math.isnan(self._time) else time - self._time
+        self._faults.add(time, self._check.without_codes(time, row))
+        acceleration = self._acceleration(row["input_speed"], step)
+        self._check.leave_out(time, row, acceleration)
         speed = row["input_speed"]
-        change = speed - self._speed
-        acceleration = np.where(np.isfinite(change), change / step, 0.0)
         self._time, self._speed = time, speed
         oil = row["oil_temperature"]
-        self._oil = np.where((oil >= CELSIUS) & (oil <= HOTTEST), oil, self._oil)
+        self._oil = np.where(np.isfinite(oil), oil, self._oil)
         self._note_missing(time, row)
-        self._faults.add(time, row)
         reading = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
         self._interval_filters.update(reading, step)
         innovations = self._alarm_filters.update(reading, step)
@@ -182,6 +183,11 @@ class Fleet:
         self._cusums.waiting = ~self._scatter.known
         self._alarm(time, self._cusums.add(time, value, sd, loss, self.period))
         self._widen(self._scatter.add(time, scene))
+
+    def _acceleration(self, speed: Array, step: float) -> Array:
+        """Accelerations of the inputs since the last row [rad/s^2], (n,); 0 where unknown."""
+        change = speed - self._speed
+        return np.where(np.isfinite(change), change / step, 0.0)
 
     def finish(self) -> None:
         """Judge the last readings, at the end of a table."""
@@ -210,7 +216,10 @@ class Fleet:
         low, value, high = (float(v[gearbox]) for v in (level.low, level.value, level.high))
         losses = self.table(self._last_torque[one], self._last_speed[one], self._oil[one])
         doubtful = friction_remarks(low, value, high, float(losses.teeth[0]))  # none of NaN
-        return (*self._faults.remarks(gearbox), *doubtful)
+        left_out = (
+            self._check.left_out[gearbox].remarks() if gearbox in self._check.left_out else ()
+        )
+        return (*left_out, *self._faults.remarks(gearbox), *doubtful)
 
     @property
     def scatter(self) -> FleetScatter:

@@ -95,7 +95,7 @@ class FollowGroup:
                 tuple(event for event in fleet.events if event.gearbox == n),
                 bool(fleet.fits[n]),
                 fleet.faults.get(n, ""),
-                fleet.remarks(n),
+                (*table.remarks[n], *fleet.remarks(n)),
                 (float(scatter.measured[n]), float(scatter.stated[n])),
                 bool(scatter.excessive[n]),
                 float(scatter.step[n]),

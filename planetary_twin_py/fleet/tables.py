@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from ..following.bins import CHANNELS as UNITS
+from ..following.stamps import stamp_remarks
 from ..recording.tables.measurements import day_numbers, missing_column, read_columns
 from .fleet import CHANNELS
 
@@ -27,6 +29,8 @@ class FleetReadings(NamedTuple):
     """Times [s], in rising order, (m,)."""
     columns: dict[str, Array]
     """Readings by channel in SI, (m, n) each; NaN where there is no row."""
+    remarks: tuple[tuple[str, ...], ...] = ()
+    """Lines on the stamps of each gearbox, (n,)."""
 
 
 def gearboxes_of(path: Path) -> tuple[str, ...]:
@@ -84,15 +88,32 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     time, row = np.unique(stamps, return_inverse=True)
     if advice := day_numbers(time):
         raise ValueError(f"{path}: {advice}")
+    file_rows = np.flatnonzero(selected) + 1
+    remarks = []
+    for n, name in enumerate(gearboxes):
+        own = gearbox_index == n
+        try:
+            remarks.append([*stamp_remarks(stamps[own], file_rows[own])])
+        except ValueError as fault:
+            raise ValueError(f"{path}: {name}: {fault}") from None
     if reason := _different_stamps(time, row, gearbox_index):
         raise ValueError(f"{path}: {reason}")
-    columns = {}
+    columns, repeated = {}, np.zeros(len(stamps), dtype=bool)
+    place = row * len(gearboxes) + gearbox_index
     for name in CHANNELS:
-        values = np.full((len(time), len(gearboxes)), np.nan)
+        values = np.full(len(time) * len(gearboxes), np.nan)
         if name in table:
-            values[row, gearbox_index] = table[name].in_si(name, UNITS[name])
-        columns[name] = values
-    return FleetReadings(gearboxes, time, columns)
+            read = table[name].in_si(name, UNITS[name], math.inf)
+            known = np.flatnonzero(np.isfinite(read))
+            _, first = np.unique(place[known], return_index=True)
+            values[place[known[first]]] = read[known[first]]
+            repeated[np.delete(known, first)] = True
+        columns[name] = values.reshape(len(time), len(gearboxes))
+    for n, lines in enumerate(remarks):
+        again = file_rows[repeated & (gearbox_index == n)]
+        if len(again):
+            lines.append(f"{len(again)} rows repeat a time, the first is row {again[0]}: not used")
+    return FleetReadings(gearboxes, time, columns, tuple(map(tuple, remarks)))
 
 
 def _different_stamps(time: Array, row: NDArray[np.int64], gearbox: NDArray[np.int64]) -> str:

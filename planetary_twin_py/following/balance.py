@@ -40,7 +40,6 @@ from .friction_remark import friction_remarks
 from .history import History
 from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
-from .named_unit import named_unit
 from .sensors import Sensors
 from .slow_change import SlowChange
 from .train import followed_train
@@ -135,7 +134,6 @@ class BalanceFollower:
         self._step_times: deque[float] = deque()  # [s], the latest last
         self._last_speed: tuple[float, float] | None = None  # time and speed
         self._last_slope = 0.0  # [rad/s^2]
-        self._unit_remark = ""
         self._variety = Variety(self.train)
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
@@ -278,8 +276,6 @@ class BalanceFollower:
         since = float(times[step_size.first]) - 0.5 * self.period
         from_start = offset + step_size.first == 0 and len(self._recent) < RECENT
         description = "readings do not fit the scene" if from_start else "loss torque stepped"
-        if from_start:
-            self._unit_remark = self._torque_unit(reads[step_size.likely :])
         self._report(
             reference_filter,
             cause,
@@ -291,22 +287,6 @@ class BalanceFollower:
             balance_filter.reopen(step_size.size, slope)
         self._variety.restart()
         self._slow_change = SlowChange()
-
-    def _torque_unit(self, reads: Sequence[Measured]) -> str:
-        """Remark on the unit of a torque that explains torques unlike those of the scene."""
-        torques = np.array([(read.input_torque, read.output_torque) for read in reads])
-        input_torque, output_torque = map(float, torques.mean(axis=0))
-        loss = self._losses(input_torque, *self.operating)
-        with_rotation = math.copysign(1.0, self.operating[0])
-        expected = input_torque - with_rotation * (loss.teeth + loss.rest)
-        share = -self.train.ratio * output_torque / expected if expected else math.nan
-        unit = named_unit(share)
-        if not unit:
-            return ""
-        return (
-            f"output_torque is {share:.3g} times that of the scene: unless friction or the gain "
-            f"of a sensor explains it, {unit}"
-        )
 
     def _report(self, reference_filter: BalanceFilter, cause: StepCause, event: Event) -> None:
         """Add an event, unless steps follow each other: then no single cause explains them."""
@@ -411,8 +391,6 @@ class BalanceFollower:
         if level.status == "ESTIMATED" and math.isfinite(self.operating[0]):
             teeth = self._losses(float(self._interval_filter.x[T]), *self.operating).teeth
             yield from friction_remarks(level.low, level.value, level.high, teeth)
-        if self._unit_remark:
-            yield self._unit_remark
         yield from self._slow_change.remarks()
         yield from self.counters.remarks()
         yield from self._bins.remarks()

@@ -71,6 +71,8 @@ class Counters:
     """Readings further from the median of their bin than 5 robust standard deviations."""
     ahead: int = 0
     """Readings with a single stamp far in the future."""
+    implausible: int = 0
+    """Readings that no machine can have, see `plausibility`, `pulses` and `power_check`."""
 
     def remarks(self) -> Iterator[str]:
         """A line for each reason for which a large share of the readings was not used.

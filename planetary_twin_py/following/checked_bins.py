@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
 
 from ..scene import Scene
 from .bins import Array, Bin, Counters
 from .checks import Checks
 from .dead_torques import DeadTorques
 from .merging import Merge
+from .power_check import PowerCheck
+from .reading_check import ReadingCheck
 from .sensors import Sensors, torque_noise
 from .spacing import Spacing
 from .train import FollowedTrain, followed_train
@@ -31,6 +35,10 @@ class CheckedBins:
 
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
         noise = torque_noise(sensors, train)
+        inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        self._readings = ReadingCheck(train, sensors.scale)
+        self._left_out = self._readings.left_out
+        self._power = PowerCheck(train, inertia, noise, period, self._left_out)
         self._ratio, self._period = train.ratio, period
         self._merge = Merge(period, {"input_torque": noise[0], "output_torque": noise[1]})
         self._checks = Checks(train, sensors, period)
@@ -57,8 +65,12 @@ class CheckedBins:
         Raises:
             InputError: a channel has another unit, sign or shaft, see `checks`.
         """
-        for time_bin in self._merge.add(time, columns, sender):
-            yield self._checked(time_bin)
+        before = self._left_out.count
+        kept = self._readings.judge(np.asarray(time, float), columns, sender)
+        self.counters.missing -= self._left_out.count - before  # as which the bins count them
+        for time_bin in self._merge.add(time, kept, sender):
+            yield from self._checked(time_bin)
+        self.counters.implausible = self._left_out.count
 
     def finish(self) -> Iterator[Bin]:
         """Close the open bins, at the end of a recording.
@@ -69,30 +81,50 @@ class CheckedBins:
         Raises:
             InputError: see `add`.
         """
+        self._readings.finish()
         for time_bin in self._merge.finish():
-            yield self._checked(time_bin)
+            yield from self._checked(time_bin)
+        yield from self._judged(self._power.finish())
         self._checks.check()
 
     def remarks(self) -> Iterator[str]:
         """A line for each unit that may be wrong, each later contradiction and dead torque."""
+        yield from self._left_out.remarks()
         yield from self._checks.remarks()
         yield from self._dead_torques.remarks()
         yield from self._spacing.remarks(self._period)
         yield from self._unit_remarks.remarks()
 
-    def _checked(self, time_bin: Bin) -> Bin:
-        time_bin = self._checks.add(time_bin)
+    def _checked(self, time_bin: Bin) -> Iterator[Bin]:
+        self._checks.add(time_bin)
         self._spacing.add((time_bin.number + 1) * self._period)
         values = {name: mean.value for name, mean in time_bin.means.items()}
         speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
         self._dead_torques.add(time_bin.number * self._period, values, speed)
         self._unit_remarks.add(values.get("input_torque", math.nan), speed)
-        return time_bin
+        yield from self._judged(self._power.add(time_bin))
+
+    def _judged(self, bins: Iterator[Bin]) -> Iterator[Bin]:
+        """Bins after the check of the power, whose readings that are left out are not used."""
+        before = self._left_out.count
+        for time_bin in bins:
+            self.counters.used -= self._left_out.count - before
+            before = self.counters.implausible = self._left_out.count
+            yield time_bin
 
 
-def table_remarks(
+class CheckedTable(NamedTuple):
+    """Readings of a table that have been checked."""
+
+    columns: dict[str, Array]
+    """Readings in SI by channel, (n,) each; NaN where one is missing or left out."""
+    remarks: tuple[str, ...]
+    """A line for readings that are left out, units that may be wrong, and dead torques."""
+
+
+def checked_table(
     scene: Scene, sensors: Sensors, time: Array, columns: Mapping[str, Array]
-) -> tuple[str, ...]:
+) -> CheckedTable:
     """Check all readings of a table.
 
     Args:
@@ -101,13 +133,16 @@ def table_remarks(
         time: stamps [s] in order, (n,).
         columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
 
-    Returns:
-        A line for each unit that may be wrong, each later contradiction and dead torque.
-
     Raises:
         InputError: a channel has another unit, sign or shaft, see `checks`.
     """
-    bins = CheckedBins(scene, followed_train(scene), sensors, PERIOD)
-    for part in (bins.add(time, columns, "table"), bins.finish()):
-        deque(part, maxlen=0)  # a bin is checked when it is taken
-    return tuple(bins.remarks())
+    train = followed_train(scene)
+    bins = CheckedBins(scene, train, sensors, PERIOD)
+    judged = [*bins.add(time, columns, "table"), *bins.finish()]
+    kept = ReadingCheck(train, sensors.scale).judge(time, columns, "table")
+    slots = np.floor(np.where(np.isfinite(time), time, -1.0) / PERIOD + 1e-9).astype(np.int64)
+    for name in ("input_torque", "output_torque"):
+        sound = [one.number for one in judged if name in one.means]
+        if name in kept:
+            kept[name][~np.isin(slots, sound)] = np.nan
+    return CheckedTable(kept, tuple(bins.remarks()))

@@ -13,12 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .bins import Bin
-from .contradictions import CHANNELS, LOADED, MOVING, Contradictions, Rows, impossible_temperature
+from .contradictions import CHANNELS, LOADED, MOVING, Contradictions, Rows
 from .sensors import Sensors
 from .train import FollowedTrain
 
 CHECKED = 5.0  # [s] of readings that are compared together
-TEMPERATURE = "oil_temperature"
 
 
 class InputError(ValueError):
@@ -51,31 +50,21 @@ class Checks:
             LOADED * train.torque, LOADED * train.torque / abs(train.ratio),
         )  # fmt: skip
 
-    def add(self, found: Bin) -> Bin:
+    def add(self, found: Bin) -> None:
         """Add a bin; at the end of a span, check the readings.
 
         Args:
             found: the bin.
 
-        Returns:
-            The bin, without an impossible oil temperature.
-
         Raises:
             InputError: a channel has another unit, sign or shaft.
         """
         means, time = found.means, (found.number + 1) * self.length
-        if TEMPERATURE in means:
-            line = impossible_temperature(means[TEMPERATURE].value)
-            self._note(TEMPERATURE, line, time - self.length)
-            if line:
-                kept = {name: mean for name, mean in means.items() if name != TEMPERATURE}
-                found = Bin(found.number, kept)
         values = [means[name].value if name in means else math.nan for name in CHANNELS]
         if any(abs(value) > least for value, least in zip(values, self._least, strict=True)):
             self._rows.append((time, *values))
             if len(self._rows) * self.length >= CHECKED:
                 self.check()
-        return found
 
     def check(self) -> None:
         """Check what has been read since the last check.

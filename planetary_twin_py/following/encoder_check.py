@@ -1,4 +1,4 @@
-"""Recognises wrong counts per turn, a reversed encoder and exchanged encoders.
+"""Compares the turns of both encoders: wrong counts per turn, reversed and exchanged encoders.
 
 The ratio of the turns of both encoders must be that of the teeth, apart from the twist of the
 train, which is small against a turn.
@@ -72,19 +72,7 @@ class EncoderCheck:
             raise InputError(f"{fault}; one encoder counts backwards: negate its counts")
         if ratio == 0.0:
             raise InputError(f"{fault}; the counts of the output do not change")
-        backwards = " and one counts backwards" if factor < 0.0 else ""
-        likely = rounded_counts(first / abs(factor)), rounded_counts(second * abs(factor))
         raise InputError(
-            f"{fault}; the counts per turn are probably {likely[0]} (input) or {likely[1]} "
-            f"(output) instead of {first} and {second}{backwards}"
+            f"{fault}; counts per turn are stated as {first} (input) and {second} (output): are "
+            "these right, and do the counts include whole turns?"
         )
-
-
-def rounded_counts(counts: float) -> str:
-    """Counts per turn to the accuracy of the check: a power of two if one is near.
-
-    Args:
-        counts: counts per turn, measured.
-    """
-    power = 2 ** round(np.log2(counts)) if counts >= 1.0 else 0
-    return f"{power}" if abs(power - counts) < NEAR * counts else f"about {counts:.3g}"

@@ -14,8 +14,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .checks import InputError
-from .encoder_check import rounded_counts
-from .position_check import UNITS
 from .transmission_error import Counts
 from .turning import Turning
 
@@ -104,19 +102,11 @@ class EncoderSpeed:
             raise InputError(f"{line}; both encoders count backwards: negate their counts")
         if ratio == 0.0:
             raise InputError(f"{line}; the counts do not change")
-        first, second = (rounded_counts(abs(ratio) * count) for count in self.counts_per_turn)
-        counts = (
-            f"the counts per turn are probably {first} and {second} instead of "
-            f"{self.counts_per_turn[0]} and {self.counts_per_turn[1]}, or the sample rate is "
-            f"{1.0 / (self.period * abs(ratio)):.6g} Hz instead of {1.0 / self.period:.6g} Hz"
+        first, second = self.counts_per_turn
+        raise InputError(
+            f"{line}; counts per turn are stated as {first} and {second}, the sample rate as "
+            f"{1.0 / self.period:.6g} Hz: are these right, and is the speed in the stated unit?"
         )
-        for unit, factor in UNITS.items():
-            if abs(abs(ratio) / factor - 1.0) < NEAR:
-                scale = f"scale input_speed and output_speed by {factor:.6g}"
-                raise InputError(
-                    f"{line}; the speed is probably in {unit}: {scale}; if not, {counts}"
-                )
-        raise InputError(f"{line}; {counts}, or the unit of the speed is wrong")
 
 
 def _is_steady(course: Turning, begin: float, end: float) -> bool:

@@ -29,6 +29,7 @@ from .estimate import Estimate, Event
 from .sensors import Sensors, check_scale
 from .teeth import TeethFollower
 from .vibration import VibrationFollower, VibrationSamples
+from .whole_turns import WholeTurns
 
 Array = NDArray[np.float64]
 
@@ -42,8 +43,7 @@ class Readings(NamedTuple):
     """Stamps [s], (n,)."""
     columns: Mapping[str, Array]
     """Readings by channel, (n,) each in SI: input_speed, input_torque, output_speed, output_torque
-    and oil_temperature, with the signs of gearbox_state; NaN where a reading is missing, for which
-    magnitudes above 2^53 count, too."""
+    and oil_temperature, with the signs of gearbox_state; NaN where a reading is missing."""
     arrival: Array | None = None
     """Times of arrival by the receiver's clock [s], (n,); None if unknown."""
     sender: str = "readings"
@@ -65,7 +65,8 @@ class EncoderSamples(NamedTuple):
     sample: NDArray[np.int64]
     """Numbers of the samples, (n,): times in sample periods."""
     counts: NDArray[np.int64]
-    """Counts of the input and the output encoder, whole turns included, (n, 2)."""
+    """Counts of the input and the output encoder, (n, 2): with whole turns, or of counters that
+    wrap after a turn or a power of two."""
     format: EncoderFormat | None = None
     """Format of the encoders; None: that given to the follower."""
 
@@ -152,10 +153,12 @@ class Follower:
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
         self._loaded = SavedBaseline(None, None)  # for samples that have not arrived yet
-        self._balance = BalanceFollower(self.scene, self.sensors, self.period)
+        sensors = self.sensors.model_copy(update={"scale": dict(self.scale)})
+        self._balance = BalanceFollower(self.scene, sensors, self.period)
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
         self._encoder_speed: EncoderSpeed | None = None
+        self._turns: WholeTurns | None = None
         self._vibration: VibrationFollower | None = None
         if self.encoders is not None:
             self._follow_teeth(self.encoders)
@@ -181,9 +184,12 @@ class Follower:
             ValueError: a channel is unknown, or samples have no format.
         """
         if isinstance(block, EncoderSamples):
-            self._teeth_follower(block).add(block.sample, block.counts)
-            if self._encoder_speed is not None:
-                self._encoder_speed.add(block.sample, block.counts)
+            teeth = self._teeth_follower(block)
+            if self._turns is None or self._encoder_speed is None:
+                raise ValueError("encoders: their format is not known")
+            counts = self._turns.add(block.sample, block.counts)
+            teeth.add(block.sample, counts)
+            self._encoder_speed.add(block.sample, counts)
         elif isinstance(block, VibrationSamples):
             self._vibration_follower(block).add(block.time, block.values)
         else:
@@ -229,6 +235,7 @@ class Follower:
     def _follow_teeth(self, encoders: EncoderFormat) -> TeethFollower:
         """Start to follow the teeth by encoders whose format is known."""
         self._encoder_speed = EncoderSpeed(*encoders)
+        self._turns = WholeTurns(self._balance.train, *encoders)
         self._teeth = TeethFollower(self.scene, *encoders, self.sensors.learning)
         return self._teeth
 
@@ -343,8 +350,9 @@ class Follower:
         for name, values in block.columns.items():
             if name not in CHANNELS:
                 raise ValueError(f"{name!r}: must be one of {', '.join(CHANNELS)}")
-            columns[name] = _plausible(np.asarray(values) * self.scale.get(name, 1.0))
-        time = _plausible(block.time)
+            columns[name] = np.asarray(values, dtype=float) * self.scale.get(name, 1.0)
+        time = np.array(block.time, dtype=float)
+        time[~(np.abs(time) <= LARGEST)] = np.nan
         if block.arrival is not None:
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
         self._balance.add(time, columns, block.sender)
@@ -356,6 +364,8 @@ class Follower:
     def _teeth_remarks(self) -> Iterator[str]:
         if self._teeth is None:
             return
+        if self._turns is not None:
+            yield from self._turns.remarks()
         counters = self._teeth.counters
         if counters.segments > 1:
             yield (
@@ -369,10 +379,3 @@ class Follower:
     def __repr__(self) -> str:
         """One line."""
         return brief(self, self.scene.name, f"period {self.period:g} s")
-
-
-def _plausible(values: Array) -> Array:
-    """Copy of `values` with NaN, a missing reading, where the magnitude exceeds `LARGEST`."""
-    cleaned = np.array(values, dtype=float)
-    cleaned[~(np.abs(cleaned) <= LARGEST)] = np.nan
-    return cleaned

@@ -118,6 +118,11 @@ class MessageReader:
                 values=np.concatenate([block.values for block in vibration]),
             )
 
+    def remarks(self) -> Iterator[str]:
+        """A line for each shaft whose positions do not belong to its speed."""
+        for check in self._positions.values():
+            yield from check.remarks()
+
     def _shaft_readings(self, received: Arrived) -> dict[str, float]:
         if received.kind == TEMPERATURE:
             return {"oil_temperature": float(received.message.temperature) + ZERO_CELSIUS}

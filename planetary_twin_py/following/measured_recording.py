@@ -32,7 +32,8 @@ def read_recording(
         path: an MCAP file, or a folder with one or more.
         joints: names of the joints and of the topics.
         scale: factors on readings by channel, for the check of the unit of speeds.
-        remarks: a line is appended for each damaged part, which is omitted.
+        remarks: a line is appended for each damaged part, which is omitted, and for positions
+            that do not belong to the speed of their shaft.
 
     Returns:
         Readings of each topic and message type in a row, and samples of encoders and vibration, in
@@ -51,6 +52,7 @@ def read_recording(
         for part in _split_by_time(_received(file, joints, collected))
         for block in reader.read(part)
     ]
+    collected.extend(reader.remarks())
     columns_of_blocks = (block.columns for block in blocks if isinstance(block, Readings))
     shafts = set(CHANNELS) - {"oil_temperature"}
     if not any(shafts & set(columns) for columns in columns_of_blocks):

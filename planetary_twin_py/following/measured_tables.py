@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -20,6 +21,7 @@ from ..recording.tables.measurements import (
 from ..units import LARGEST
 from .bins import AHEAD, CHANNELS
 from .follower import EncoderSamples, Readings
+from .stamps import stamp_remarks, unset_stamps
 from .vibration import VibrationSamples
 
 ARRIVAL = "arrival"
@@ -64,11 +66,11 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
     for default_name, column in table.items():
         name = channel_of.get(column.heading, default_name)
         if name == TIME[0]:
-            stamps, begin = column.in_si(name, "s"), column.begin
+            stamps, begin = np.array(column.in_si(name, "s")), column.begin
         elif name in columns:
             raise ValueError(f"{path}: column {column.heading!r}: {name} is given twice")
         elif name in units:
-            columns[name] = column.in_si(name, units[name])
+            columns[name] = column.in_si(name, units[name], math.inf)
         else:
             ignored.append(column.heading)
     arrival = columns.pop(ARRIVAL, None)
@@ -81,9 +83,25 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
         )
     if not any((np.isfinite(stamps) & np.isfinite(values)).any() for values in columns.values()):
         raise ValueError(f"{path}: has no row with a time and a reading")
+    try:
+        unset = [] if begin is not None else list(_without_unset(stamps))
+        unset += list(stamp_remarks(stamps[np.isfinite(stamps)]))
+    except ValueError as reason:
+        raise ValueError(f"{path}: {reason}") from None
     readings = _in_order(Readings(stamps, columns, arrival))
-    remarks = [*_lacking(columns), *filter(None, [day_numbers(readings.time)])]
+    remarks = [*_lacking(columns), *filter(None, [day_numbers(readings.time)]), *unset]
     return MeasuredTable(readings, tuple(ignored), tuple(remarks), begin)
+
+
+def _without_unset(stamps: np.ndarray) -> Iterator[str]:
+    """Remove stamps that were never set, in place; a line if there are any."""
+    unset = np.flatnonzero(unset_stamps(stamps))
+    stamps[unset] = np.nan
+    if len(unset):
+        yield (
+            f"{len(unset)} rows have the stamp 0 between later ones, the first is row "
+            f"{unset[0] + 1}: they are not used"
+        )
 
 
 def _lacking(columns: Mapping[str, np.ndarray]) -> Iterator[str]:

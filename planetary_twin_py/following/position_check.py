@@ -1,23 +1,24 @@
-"""Recognises the unit of a measured speed by the measured positions.
+"""Compares the measured speed of a shaft with its measured positions, and states what differs.
 
-Speed times the time between two readings must equal the difference of their positions, up to whole
-turns, because positions may be reduced to one turn.
+Positions are not used otherwise. A driver may leave them at 0, or write turns or degrees.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .checks import CHECKED, InputError
-from .contradictions import RPM
 
-FITS = 0.02  # turns, largest median deviation of a unit that fits
+FITS = 0.02  # relative deviation within which two rates agree
 FEWEST = 50  # pairs of readings that are needed
-LEAST = 0.0025  # turns between two readings below which the shaft is at rest
-UNITS = {"rpm": 1.0 / RPM, "deg/s": math.pi / 180.0}
+TURNED = 2.5  # rad between two readings above which positions within a turn are ambiguous
+RPM, DEGREES = 30.0 / math.pi, 180.0 / math.pi
+WRONG = {RPM: "rpm", DEGREES: "deg/s"}
+"""Speed over the rate of the positions, for speeds that are not in rad/s."""
 
 
 @dataclass
@@ -31,6 +32,8 @@ class PositionCheck:
 
     channel: str
     scale: float = 1.0
+    remark: str = ""
+    """What is wrong with the positions; empty if nothing is known to be."""
     _rows: list[tuple[float, float, float]] = field(default_factory=list)
     _done: bool = False
 
@@ -43,7 +46,7 @@ class PositionCheck:
             speed: speed of the shaft, by definition in rad/s.
 
         Raises:
-            InputError: another unit of the speed fits the positions, and rad/s does not.
+            InputError: the positions move, and the speed is that of them in rpm or deg/s.
         """
         if self._done or not all(map(math.isfinite, (stamp, position, speed))):
             return
@@ -54,24 +57,35 @@ class PositionCheck:
             self._check()
             self._rows.clear()
 
+    def remarks(self) -> Iterator[str]:
+        """A line on positions that are not those of a shaft with the measured speed."""
+        if self.remark:
+            yield self.remark
+
     def _check(self) -> None:
         stamp, position, speed = np.array(self._rows).T
-        turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(stamp) / (2.0 * math.pi)
-        moved = np.diff(position) / (2.0 * math.pi)
-        self._done = bool(np.median(np.abs(turned)) > FITS)  # any unit fits a slower shaft
-        if len(turned) < FEWEST or _deviation(turned, moved) < FITS:
+        turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(stamp)
+        rows = np.abs(turned) > FITS
+        if rows.sum() < FEWEST:
+            return  # the shaft is at rest, or readings are slow
+        self._done = True
+        turned, moved = turned[rows], np.diff(position)[rows]
+        rate = f"{self.channel} = {float(np.median(speed)):.4g} rad/s"
+        if not moved.any():
+            self.remark = f"{rate}, but the positions of this shaft do not move: they are not used"
             return
-        for unit, factor in UNITS.items():
-            enough = float(np.median(np.abs(turned * factor))) > LEAST
-            if enough and _deviation(turned * factor, moved) < FITS:
+        whole = 2.0 * math.pi
+        if np.median(np.abs(turned - moved - whole * np.round((turned - moved) / whole))) < FITS:
+            return
+        if np.median(np.abs(moved)) > TURNED:
+            return
+        ratio = float(np.median(turned) / np.median(moved)) if np.median(moved) else math.inf
+        line = f"{rate} is {ratio:.4g} times the rate of the positions of this shaft"
+        for factor, unit in WRONG.items():
+            if abs(ratio / factor - 1.0) < FITS:
                 raise InputError(
-                    f"{self.channel} = {float(np.median(speed)):.4g} rad/s: the positions of this "
-                    f"shaft give {float(np.median(speed)) * factor:.4g}; it is probably in {unit}: "
-                    f"scale {self.channel} by {factor * self.scale:.6g}"
+                    f"{line}, which is the ratio of {unit} to rad/s: JointState has rad/s and rad; "
+                    f"if the speed is in {unit}, scale {self.channel} by {self.scale / factor:.6g}"
                 )
-
-
-def _deviation(turned: np.ndarray, moved: np.ndarray) -> float:
-    """Median deviation from whole turns."""
-    difference = turned - moved
-    return float(np.median(np.abs(difference - np.round(difference))))
+        turns = " (2 pi: turns?)" if abs(ratio / whole - 1.0) < FITS else ""
+        self.remark = f"{line}{turns}: JointState has rad/s and rad; positions are not used"

@@ -1,4 +1,6 @@
-"""Wrong units, signs and shafts are named with their remedy."""
+"""Wrong units, signs and shafts are named by what the readings and the scene state."""
+
+import re
 
 import numpy as np
 import pytest
@@ -6,52 +8,39 @@ from following.plants import paper, played
 from tiers import first
 
 from planetary_twin_py.following.checks import InputError
-from planetary_twin_py.following.contradictions import Contradictions, Rows
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.sensors import Sensors
-from planetary_twin_py.following.train import followed_train
 
 RPM = 30.0 / np.pi
+SPEEDS, TORQUES = r"output_speed/input_speed = ", r"output_torque/input_torque = "
 WRONG = {
-    "speed of the output in rpm": ({"output_speed": RPM}, "scale output_speed by 0.10472"),
-    "speed of the input in rpm": ({"input_speed": RPM}, "scale input_speed by 0.10472"),
-    "both in rpm": ({"input_speed": RPM * 2, "output_speed": RPM * 2}, "scale input_speed by 0.10"),
-    "reversed speed": ({"output_speed": -1.0}, "scale output_speed by -1"),
-    "reversed torque": ({"output_torque": -1.0}, "scale output_torque by -1"),
+    "speed of the output in rpm": ({"output_speed": RPM}, SPEEDS + r"-4\.09.: must be -0\.4286"),
+    "speed of the input in rpm": ({"input_speed": RPM}, SPEEDS + r"-0\.04488: must be -0\.4286"),
+    "both in rpm": (
+        {"input_speed": RPM * 2, "output_speed": RPM * 2},
+        r"readings: exceeds 1\.2 times drive\.speed_limit.*is it in rad/s\?",
+    ),
+    "reversed speed": ({"output_speed": -1.0}, SPEEDS + r"0\.428.: must be -0\.4286"),
+    "reversed torque": ({"output_torque": -1.0}, TORQUES + r"-2\.3"),
     "both torques reversed": (
-        {"input_torque": -1.0, "output_torque": -1.0}, "scale input_torque and output_torque by -1",
+        {"input_torque": -1.0, "output_torque": -1.0}, "loss torque = -.*must be positive",
     ),
     "both speeds reversed": (
-        {"input_speed": -1.0, "output_speed": -1.0}, "signs of both torques or of both speeds",
+        {"input_speed": -1.0, "output_speed": -1.0}, "loss torque = -.*must be positive",
     ),
-    "torque in N mm": ({"output_torque": 1e3}, "output_torque is probably in N mm"),
-    "torque in kN m": ({"input_torque": 1e-3}, "input_torque is probably in kN m"),
-    "output torque in lbf in": (
-        {"output_torque": 8.8507}, "in lbf in: scale output_torque by 0.11298",
-    ),
-    "input torque in lbf in": (
-        {"input_torque": 8.8507}, "in lbf in: scale input_torque by 0.11298",
-    ),
-    "input torque in lbf ft": (
-        {"input_torque": 0.73756}, "in lbf ft: scale input_torque by 1.3558",
-    ),
-    "output torque in kgf m": (
-        {"output_torque": 0.10197}, "in kgf m: scale output_torque by 9.8066",
-    ),
-    "input torque in kgf cm": (
-        {"input_torque": 10.197}, "in kgf cm: scale input_torque by 0.09806",
-    ),
+    "torque in N mm": ({"output_torque": 1e3}, r"output_torque = .*exceeds 2 times"),
+    "torque in kN m": ({"input_torque": 1e-3}, TORQUES),
+    "output torque in lbf in": ({"output_torque": 8.8507}, TORQUES),
+    "input torque in lbf in": ({"input_torque": 8.8507}, TORQUES),
+    "input torque in lbf ft": ({"input_torque": 0.73756}, "loss torque = -.*must be positive"),
+    "output torque in kgf m": ({"output_torque": 0.10197}, TORQUES),
+    "input torque in kgf cm": ({"input_torque": 10.197}, TORQUES),
     "both torques in N mm": (
-        {"input_torque": 1e3, "output_torque": 1e3}, "if torques are in N mm, scale input_torque",
+        {"input_torque": 1e3, "output_torque": 1e3}, r"input_torque = .* N m in .*exceeds 2 times",
     ),
-    "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "probably degC"),
-    "exchanged shafts": (
-        {"input_speed": -3 / 7, "output_speed": -7 / 3}, "input and output are exchanged",
-    ),
-    "exchanged torques": (
-        {"input_torque": 7 / 3, "output_torque": 3 / 7},
-        "input_torque and output_torque seem to be exchanged",
-    ),
+    "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, r"is headed oil_temperature \[degC\]"),
+    "exchanged shafts": ({"input_speed": -3 / 7, "output_speed": -7 / 3}, SPEEDS + r"-2\.333"),
+    "exchanged torques": ({"input_torque": 7 / 3, "output_torque": 3 / 7}, TORQUES),
 }  # fmt: skip
 
 
@@ -70,49 +59,13 @@ def test_it_is_refused_in_one_line(readings, what):
     assert "\n" not in str(error.value)
 
 
-def test_a_unit_that_leaves_a_plausible_ratio_is_asked_for(readings):
+def test_no_line_guesses(readings):
     time, columns = readings
-    follower = Follower(paper())
-    follower.add(Readings(time, columns | {"output_torque": 0.73756 * columns["output_torque"]}))
-    (line,) = (one for one in follower.estimate().remarks if "lbf" in one)
-    assert "output_torque is probably in lbf ft: scale output_torque by 1.3558" in line
-
-
-def test_a_lossy_scene_is_not_taken_for_a_wrong_unit(readings):
-    time, columns = readings
-    drag = 0.27 * float(np.median(columns["input_torque"]))
-    scene = paper().replace(**{"losses.sun_drag.coulomb": drag})
-    lost = drag * np.sign(columns["input_speed"]) / followed_train(scene).ratio
-    lossy = columns | {"output_torque": columns["output_torque"] + lost}
-    assert 0.66 < np.median(lossy["output_torque"] / columns["output_torque"]) < 0.75
-    follower = Follower(scene)
-    follower.add(Readings(time, lossy))
-    assert not [line for line in follower.estimate().remarks if "lbf" in line]
-
-
-@pytest.mark.parametrize("what", ["reversed torque", "speed of the output in rpm"])
-def test_the_stated_correction_is_accepted(readings, what):
-    factors, said = WRONG[what]
-    time, columns = readings
-    wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
-    name, factor = said.removeprefix("scale ").split(" by ")
-    mended = Follower(paper(), scale={name: float(factor)})
-    mended.add(Readings(time, wrong))
-    assert mended.estimate()["input_torque"].status == "ESTIMATED"
-
-
-@pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_torques_of_the_same_shaft_are_not_called_exchanged(sign):
-    train = followed_train(paper())._replace(ratio=-0.2)
-    torque = np.full(10, train.torque)
-    speed = np.full(10, train.speed)
-    rows = Rows(
-        np.arange(1.0, 11.0),
-        {"input_speed": speed, "output_speed": -0.2 * speed, "input_torque": torque}
-        | {"output_torque": 0.99 * sign * torque},
-    )
-    found = Contradictions(train, Sensors(), 1.0).shown_by(rows)
-    assert found["torques"].endswith("both torques seem to be referred to the same shaft")
+    for factors, _ in WRONG.values():
+        wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
+        with pytest.raises(InputError) as error:
+            Follower(paper()).add(Readings(time, wrong))
+        assert not re.search("probably|seem|likely", str(error.value))
 
 
 @pytest.mark.parametrize("duty", ["steady", "reversing"])
@@ -149,7 +102,7 @@ def test_a_recording_shorter_than_the_check_is_checked_at_its_end(readings):
     short = {name: values[:300] for name, values in columns.items()}
     follower = Follower(paper())
     follower.add(Readings(time[:300], short | {"output_speed": -short["output_speed"]}))
-    with pytest.raises(InputError, match="scale output_speed by -1"):
+    with pytest.raises(InputError, match="output_speed/input_speed"):
         follower.finish()
 
 
@@ -164,7 +117,7 @@ def test_good_readings_pass(readings):
 def test_kelvin_taken_for_degrees_celsius_is_named(readings):
     time, columns = readings
     warm = np.full(len(time), 343.15 + 273.15)
-    with pytest.raises(InputError, match="this sender probably uses kelvin"):
+    with pytest.raises(InputError, match="messages are in degrees Celsius"):
         Follower(paper()).add(Readings(time, columns | {"oil_temperature": warm}))
 
 
@@ -210,7 +163,7 @@ def test_readings_that_become_wrong_during_the_run_are_a_remark_with_their_time(
     follower = Follower(paper())
     follower.add(Readings(time, from_second(12.0, time, columns, factors)))
     follower.finish()
-    (line,) = (line for line in follower.estimate().remarks if said in line)
+    (line,) = (line for line in follower.estimate().remarks if re.search(said, line))
     assert line.startswith("readings after 10.0 s contradict the scene")
 
 
@@ -221,7 +174,7 @@ def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
     follower.add(Readings(time, columns | {"oil_temperature": wrong}))
     follower.finish()
     found = follower.estimate()
-    assert any("after 12.0 s" in line and "probably degC" in line for line in found.remarks)
+    assert any("it must be within 200 and 475 K: 70 K from 12.01" in one for one in found.remarks)
     assert found.operating[1] == pytest.approx(343.15)
 
 

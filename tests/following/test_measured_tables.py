@@ -95,7 +95,6 @@ def test_true_is_no_torque(write, tmp_path):
     ("torque", "line"),
     [
         (np.full(30, 1j), "input_torque: must be a vector of real numbers"),
-        (np.full(30, 1e300), r"input_torque = 1e\+300: its magnitude must be at most 9e\+15"),
     ],
 )
 def test_a_mat_file_has_real_numbers_that_a_sensor_can_have(tmp_path, torque, line):

@@ -18,18 +18,21 @@ def read(speed, factor, rate=100.0, scale=1.0, wrapped=True, turning=1.0):
     angle = turning * speed * (time + 0.05 * (1.0 - np.cos(time)))
     for t, p, v in zip(time, np.mod(angle, TURN) if wrapped else angle, wander, strict=True):
         check.add(t, p, v * speed * factor)
+    return list(check.remarks())
 
 
 @pytest.mark.parametrize("wrapped", [True, False])
 @pytest.mark.parametrize("speed", [104.72, -44.88, 3.0, 0.0])
 def test_speeds_in_radians_per_second_pass(speed, wrapped):
-    read(speed, 1.0, wrapped=wrapped)
+    assert not read(speed, 1.0, wrapped=wrapped)
 
 
 @pytest.mark.parametrize(("factor", "unit"), [(30 / math.pi, "rpm"), (180 / math.pi, "deg/s")])
 @pytest.mark.parametrize("speed", [104.72, -44.88])
 def test_another_unit_is_named_with_its_factor(speed, factor, unit):
-    with pytest.raises(InputError, match=f"in {unit}: scale input_speed by {1 / factor:.6g}"):
+    with pytest.raises(
+        InputError, match=f"if the speed is in {unit}, scale input_speed by {1 / factor:.6g}"
+    ):
         read(speed, factor)
 
 
@@ -37,7 +40,7 @@ def test_a_shaft_that_turns_after_ten_seconds_is_checked_then():
     check = PositionCheck("input_speed")
     for t in np.arange(0.0, 10.0, 0.01):
         check.add(t, 0.0, 0.0)
-    with pytest.raises(InputError, match=r"in rpm: scale input_speed by 0\.10472"):
+    with pytest.raises(InputError, match=r"in rpm, scale input_speed by 0\.10472"):
         for t in np.arange(10.0, 16.0, 0.01):
             check.add(t, (104.72 * (t - 10.0)) % TURN, 1000.0)
 
@@ -46,8 +49,17 @@ def test_readings_with_the_stated_factor_pass():
     read(104.72, 30 / math.pi, scale=math.pi / 30)
 
 
-def test_positions_that_no_unit_fits_pass():
-    read(104.72, 1.0, turning=0.3)  # of another shaft
+@pytest.mark.parametrize(
+    ("turning", "said"),
+    [
+        (0.3, "3.333 times the rate of the positions"),  # of another shaft
+        (1.0 / TURN, "6.283 times the rate of the positions of this shaft (2 pi: turns?)"),
+        (0.0, "the positions of this shaft do not move: they are not used"),
+    ],
+)
+def test_positions_of_another_rate_are_named_and_the_speed_is_used(turning, said):
+    (line,) = read(104.72, 1.0, turning=turning, wrapped=False)
+    assert said in line
 
 
 def test_slow_readings_pass():

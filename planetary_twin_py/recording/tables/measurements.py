@@ -108,10 +108,10 @@ class Column(NamedTuple):
     path: Path
     """Of the table, for messages."""
 
-    def in_si(self, name: str, unit: str) -> Array:
+    def in_si(self, name: str, unit: str, largest: float = LARGEST) -> Array:
         """Values in the SI unit `unit`, see `in_si`; `name` is for messages."""
         with naming(self.path):
-            return in_si(name, self.values, self.unit, unit)
+            return in_si(name, self.values, self.unit, unit, largest)
 
     def as_given(self, name: str) -> Array:
         """Values in the unit of the heading; `name` is for messages."""
@@ -269,7 +269,9 @@ _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = dict(
 )
 
 
-def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
+def in_si(
+    name: str, column: pa.ChunkedArray, given: str | None, unit: str, largest: float = LARGEST
+) -> Array:
     """Values of a column.
 
     Args:
@@ -277,12 +279,13 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
         column: numbers, or dates if it is the time.
         given: unit of the column; None means SI.
         unit: SI unit of the result.
+        largest: largest magnitude of a value; infinite for readings that are judged later.
 
     Returns:
         Values (rows,) in `unit`, NaN where the column is empty.
 
     Raises:
-        ValueError: a value is not a number or exceeds `LARGEST`, or `given` does not match `unit`.
+        ValueError: a value is not a number or exceeds `largest`, or `given` does not match `unit`.
     """
     if name == TIME[0] and pa.types.is_timestamp(column.type):
         return _seconds(column)
@@ -292,10 +295,10 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
             values = column_to_si(values, given, unit)
         except ValueError as reason:
             raise ValueError(f"column {name!r}: {reason}") from None
-    for row in np.flatnonzero(np.isfinite(values) & (np.abs(values) > LARGEST))[:1]:
+    for row in np.flatnonzero(np.isfinite(values) & (np.abs(values) > largest))[:1]:
         raise ValueError(
             f"row {row + 1}: {name} = {values[row]:g}: its magnitude must be at most "
-            f"{LARGEST:.0e} {unit or '1'}; is the unit right?"
+            f"{largest:.0e} {unit or '1'}; is the unit right?"
         )
     return values
 

@@ -42,7 +42,7 @@ def read_course(
     path: Path,
     train: FollowedTrain,
     sensors: Sensors | None = None,
-    check: Callable[[Array, Mapping[str, Array]], None] = lambda time, columns: None,
+    check: Callable[[Array, Mapping[str, Array]], Mapping[str, Array]] = lambda _, columns: columns,
 ) -> Course:
     """Read a manoeuvre from a table.
 
@@ -53,7 +53,7 @@ def read_course(
         train: gear train of the gearbox.
         sensors: headings of columns, and factors on readings; None: those of the table, and 1.
         check: called with stamps [s] and readings by channel before they are averaged, (rows,) each
-            in SI; raises `ValueError` to refuse them.
+            in SI; returns them with NaN where one is left out, or raises `ValueError`.
 
     Returns:
         Means over the bins that have all channels.
@@ -68,13 +68,14 @@ def read_course(
     read = read_readings(path, known.columns).readings
     time = read.time
     columns = {name: values * known.scale.get(name, 1.0) for name, values in read.columns.items()}
-    given = dict(columns)
-    if "input_speed" not in columns and "output_speed" in columns:
-        columns["input_speed"] = columns["output_speed"] / train.ratio
-    for name in ("input_torque", "output_torque", "input_speed"):
+    for name in ("input_torque", "output_torque"):
         if name not in columns:
             raise ValueError(f"{path}: column {name!r}: missing")
-    check(time, given)
+    columns = dict(check(time, columns))
+    if "input_speed" not in columns and "output_speed" in columns:
+        columns["input_speed"] = columns["output_speed"] / train.ratio
+    if "input_speed" not in columns:
+        raise ValueError(f"{path}: column 'input_speed': missing")
     oil = columns.setdefault("oil_temperature", np.full(len(time), train.oil_temperature))
     columns["oil_temperature"] = np.where(np.isfinite(oil), oil, train.oil_temperature)
     names = ("input_torque", "output_torque", "input_speed", "oil_temperature")

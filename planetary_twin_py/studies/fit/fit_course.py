@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...following.checked_bins import table_remarks
+from ...following.checked_bins import checked_table
 from ...following.sensors import Sensors
 from ...following.train import followed_train
 from ...scene import Scene
@@ -60,7 +60,7 @@ class FittedCourse:
     processor_time: float
     """[s]"""
     unit_remarks: tuple[str, ...]
-    """A line for each unit of the table that may be wrong."""
+    """A line for each unit of the table that may be wrong, and for readings that are left out."""
     without_effect: tuple[bool, ...]
     """Whether the simulated torque stays the same for any small change of each parameter."""
 
@@ -111,8 +111,10 @@ def fit_course(
     known = sensors or Sensors()
     unit_remarks: list[str] = []
 
-    def check(stamps: Array, columns: Mapping[str, Array]) -> None:
-        unit_remarks.extend(table_remarks(scene, known, stamps, columns))
+    def check(stamps: Array, columns: Mapping[str, Array]) -> Mapping[str, Array]:
+        judged = checked_table(scene, known, stamps, columns)
+        unit_remarks.extend(judged.remarks)
+        return judged.columns
 
     manoeuvre = _without_standstill(read_course(path, followed_train(scene), known, check))
     course = _select_part(manoeuvre, span)

@@ -1,0 +1,211 @@
+"""Leaves out torques that cannot belong together: the cable of a sensor, or a wild reading.
+
+The torques of both shafts differ by the loss and the inertia. A sensor that drops out, or shows
+another value for a moment, changes this balance by a share of the torque that no loss of gears
+reaches, or that comes and goes at once. A change of the gearbox stays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bins import Bin, Mean
+from .left_out import LeftOut
+from .train import FollowedTrain
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+LEAST, MOST = -0.15, 0.7  # share of the torque that is lost
+LOADED = 0.2  # share of the torque of the scene below which torques are not compared
+MOVING = 0.05  # share of the speed of the scene below which the sign of the loss is not clear
+INERTIAL = 0.3  # share of the torque for the acceleration above which torques are not compared
+NOISY = 6.0  # standard deviations of the balance that are no change
+CHANGE = 0.1  # share of the torque; a balance that changes by more must stay for `WAIT`
+WAIT = 1.0  # [s]
+IMPOSSIBLE = "both torques show a loss that no gearbox has"
+BRIEF = "both torques balance otherwise for less than a second"
+DEAD = 0.1  # share of the other torque below which one is that of a sensor without signal
+
+
+class Balanced(NamedTuple):
+    """Torque balances of some readings, in any shape."""
+
+    lost: Array
+    """Loss torque at the input [N m]; NaN where it is not comparable."""
+    size: Array
+    """Larger torque of both, at the input [N m]."""
+
+    @property
+    def impossible(self) -> Mask:
+        """Where no gearbox loses so much or so little; false where it is not comparable."""
+        return np.asarray((self.lost < LEAST * self.size) | (self.lost > MOST * self.size))
+
+
+def balance(
+    train: FollowedTrain, torques: tuple[Array, Array], speed: Array, inertial: Array
+) -> Balanced:
+    """Balance of both torques.
+
+    Args:
+        train: gear train of the scene.
+        torques: at the input and at the output [N m], any shape.
+        speed: of the input [rad/s], same shape.
+        inertial: torque for the acceleration of the train, at the input [N m], same shape.
+    """
+    driven = train.ratio * torques[1]
+    size = np.maximum(np.abs(torques[0]), np.abs(driven))
+    comparable = (size > LOADED * train.torque) & (np.abs(speed) > MOVING * train.speed)
+    comparable &= np.abs(inertial) <= INERTIAL * size
+    lost = np.sign(speed) * (torques[0] + driven - inertial)
+    return Balanced(np.where(comparable, lost, np.nan), size)
+
+
+def wrong_torques(
+    train: FollowedTrain, torques: tuple[Array, Array], usual: tuple[Array, Array]
+) -> tuple[Mask, Mask]:
+    """Which of two torques that do not belong together are wrong: one, or both.
+
+    Args:
+        train: gear train of the scene.
+        torques: at the input and at the output [N m], any shape.
+        usual: the last ones that belonged together, same shape; NaN if there are none.
+
+    Returns:
+        Whether the input torque is wrong, and the output torque.
+    """
+    sizes = np.abs(torques[0]), np.abs(train.ratio * torques[1])
+    changes = (
+        np.abs(torques[0] - usual[0]),
+        np.abs(train.ratio * (torques[1] - usual[1])),
+    )
+    dead = sizes[0] < DEAD * sizes[1], sizes[1] < DEAD * sizes[0]
+    changed = changes[0] > 3.0 * changes[1], changes[1] > 3.0 * changes[0]
+    input_only = changed[0] | (dead[0] & ~changed[1])
+    output_only = changed[1] | (dead[1] & ~changed[0])
+    return np.asarray(~output_only), np.asarray(~input_only)
+
+
+class PowerCheck:
+    """Judges bins of readings in the order of time.
+
+    Args:
+        train: gear train of the scene.
+        inertia: moment of inertia between both torque sensors, at the input [kg m^2].
+        noise: standard deviation of one reading of both torques [N m].
+        period: length of a bin [s].
+        left_out: what is left out is added.
+    """
+
+    def __init__(
+        self, train: FollowedTrain, inertia: float, noise: tuple[float, float], period: float,
+        left_out: LeftOut,
+    ) -> None:  # fmt: skip
+        self._train, self._inertia, self._period = train, inertia, period
+        self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
+        self._left_out = left_out
+        self._level: float | None = None  # share of the torque that is lost
+        self._usual = math.nan, math.nan  # torques [N m]
+        self._held: list[tuple[Bin, float, bool]] = []  # with share, and whether it is impossible
+        self._fails = False
+        self._speed = math.nan, math.nan  # time [s] and speed of the last bin
+
+    def add(self, new: Bin) -> Iterator[Bin]:
+        """Add a bin.
+
+        Args:
+            new: the bin.
+
+        Returns:
+            The bins that are judged, in order, without the torques that are left out.
+        """
+        share, far, impossible = self._judge(new)
+        if not far and not math.isnan(share):
+            yield from self._release(True)
+            self._level, self._fails = share, False
+            self._usual = new.means["input_torque"].value, new.means["output_torque"].value
+            yield new
+        elif far and impossible and self._fails:
+            self._held.append((new, share, impossible))
+            yield from self._release(True)
+        elif far or self._held:
+            self._held.append((new, share, impossible))
+            if (new.number - self._held[0][0].number + 1) * self._period >= WAIT - 1e-9:
+                yield from self.finish()
+        else:
+            yield new
+
+    def finish(self) -> Iterator[Bin]:
+        """Judge the bins that are held back.
+
+        Returns:
+            These bins, as in `add`.
+        """
+        judged = [(share, bad) for _, share, bad in self._held if not math.isnan(share)]
+        fails = 2 * sum(bad for _, bad in judged) > len(judged)
+        if judged and not fails:
+            self._level = [share for share, bad in judged if not bad][-1]
+        self._fails = fails
+        yield from self._release(fails)
+
+    def _judge(self, new: Bin) -> tuple[float, bool, bool]:
+        """Share of the torque that is lost, whether it is far from usual, and impossible."""
+        torques = new.means.get("input_torque"), new.means.get("output_torque")
+        speed, acceleration = self._turning(new)
+        if torques[0] is None or torques[1] is None:
+            return math.nan, False, False
+        values = np.array([torques[0].value]), np.array([torques[1].value])
+        inertial = np.array([self._inertia * acceleration])
+        found = balance(self._train, values, np.array([speed]), inertial)
+        lost, size = float(found.lost[0]), float(found.size[0])
+        if math.isnan(lost):
+            return math.nan, False, False
+        impossible = bool(found.impossible[0])
+        sd = math.sqrt(self._noise[0] / torques[0].readings + self._noise[1] / torques[1].readings)
+        limit = CHANGE * max(size, self._train.torque) + NOISY * sd
+        far = impossible if self._level is None else abs(lost - self._level * size) > limit
+        return lost / size, far or impossible, impossible
+
+    def _turning(self, new: Bin) -> tuple[float, float]:
+        """Speed [rad/s] and acceleration [rad/s^2] of the input."""
+        name, factor = "input_speed", 1.0
+        if name not in new.means:
+            name, factor = "output_speed", 1.0 / self._train.ratio
+        mean = new.means.get(name)
+        if mean is None:
+            return math.nan, 0.0
+        time, speed = (new.number + 0.5) * self._period, mean.value * factor
+        before, self._speed = self._speed, (time, speed)
+        slope = mean.slope * factor
+        if not math.isfinite(slope):
+            slope = (speed - before[1]) / (time - before[0])
+        return speed, slope if math.isfinite(slope) else 0.0
+
+    def _release(self, omit: bool) -> Iterator[Bin]:
+        """Return the bins that are held back, without their torques if these are left out."""
+        held, self._held = self._held, []
+        reason = IMPOSSIBLE if self._fails or any(bad for *_, bad in held) else BRIEF
+        for one, share, impossible in held:
+            if math.isnan(share) or not (omit or impossible):
+                yield one
+            else:
+                yield self._without_torques(one, reason)
+
+    def _without_torques(self, one: Bin, reason: str) -> Bin:
+        names = "input_torque", "output_torque"
+        means = one.means[names[0]], one.means[names[1]]
+        wrong = wrong_torques(
+            self._train, (np.array(means[0].value), np.array(means[1].value)),
+            (np.array(self._usual[0]), np.array(self._usual[1])),
+        )  # fmt: skip
+        kept: dict[str, Mean] = dict(one.means)
+        for name, mean, is_wrong in zip(names, means, wrong, strict=True):
+            if is_wrong:
+                del kept[name]
+                self._left_out.add_bin(name, reason, one.number, mean, self._period)
+        return Bin(one.number, kept)
