@@ -88,7 +88,7 @@ def _timed(call: Callable[[], None], calls: int, server: int) -> tuple[float, fl
 
 def _measure(scene: Path, recorder: str) -> None:
     """Print one line for each number of steps in a call."""
-    given = {"scene": scene, "rate_factor": 0.0, "wait_for": recorder}
+    given = {"scene": scene, "rate_factor": 0.0} | ({"wait_for": recorder} if recorder else {})
     with Child("simulation", NAMESPACE, given) as simulation, Caller() as caller:
         while not caller.call(SetBool, "pause", SetBool.Request(data=True)).success:
             time.sleep(0.1)
