@@ -10,8 +10,8 @@ from .command import Ros2
 
 LAUNCH = ("launch", "planetary_twin", "twin.launch.py")
 ARGUMENTS = (
-    "scene", "namespace", "frame_prefix", "record", "respawn", "rate_factor", "params_file", "params",
-    "use_sim_time", "log_level", "domain", "use_composition", "composed",
+    "scene", "namespace", "frame_prefix", "record", "respawn", "rate_factor", "params_file",
+    "params", "use_sim_time", "log_level", "domain", "use_composition", "composed",
 )  # fmt: skip
 
 
