@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
     from ..scene import Scene
-    from ..studies.axes import Axis, Span
+    from ..studies.axes import Axis, Normal, Span
 
 TABLES = (".parquet", ".csv")
 PICTURE_DPI = 150  # dots per inch
@@ -37,7 +37,7 @@ def check_suffix(out: Path, admitted: Sequence[str]) -> None:
         need("plots", "matplotlib")
 
 
-def axis(scene: Scene, field: str, text: str) -> Axis | Span:
+def axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
     """Parse the values of a field, and print in which unit numbers without unit were read.
 
     Args:
@@ -51,14 +51,15 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span:
     Raises:
         ValueError: see `read_axis`.
     """
-    from ..studies.axes import Axis, read_axis
+    from ..studies.axes import Axis, Normal, read_axis
     from ..units import is_number
 
     found = read_axis(scene, field, text)
-    ends = (
-        (found.values[0], found.values[-1]) if isinstance(found, Axis) else (found.low, found.high)
-    )
-    if is_number(text.replace(":", ",").split(",")[0]):
+    if isinstance(found, Axis):
+        ends = (found.values[0], found.values[-1])
+    else:
+        ends = (found.mean,) * 2 if isinstance(found, Normal) else (found.low, found.high)
+    if is_number(text.removeprefix("normal(").replace(":", ",").split(",")[0]):
         for value in dict.fromkeys(ends):
             say_units(scene.replace(**{field: value}), {field: value})
     return found
@@ -101,7 +102,7 @@ def write_results(
         x: field of the horizontal axis, see `plot_study` for this and the following.
         measures: columns to draw, a panel each.
         by: field that distinguishes the curves.
-        kind: "curves", "map" or "stribeck"; None chooses by the fields.
+        kind: see `plot_study`; None chooses by the fields.
 
     Raises:
         OSError: `out` cannot be written.
