@@ -1,8 +1,9 @@
 """Steps per second of the service ~/step, for one step in a call and for several.
 
 Usage: python benchmarks/lockstep_rate.py. Prints steps per second, and the processor time of a step
-of 1 ms in the simulation and in the client, which is this process. The last line has calls of a
-service of the same node that only returns a stored answer: no service of rclpy is faster.
+of 1 ms in the simulation and in the client, which is this process: of a simulation alone, then of
+one with a logger, as `planetary-twin run` starts it. The last line of each has calls of a service
+of the same node that only returns a stored answer: no service of rclpy is faster.
 """
 
 from __future__ import annotations
@@ -12,14 +13,14 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from planetary_twin.benchmark.process import processor_time
 from planetary_twin.network import stay_on_this_machine
 from planetary_twin.running.children import Child
 from planetary_twin_msgs.srv import Step
 from rcl_interfaces.srv import GetParameters
-from rclpy import create_node, init
+from rclpy import create_node, init, shutdown
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
@@ -42,6 +43,13 @@ class Caller:
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self._node)
         self._clients: dict[str, Any] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._node.destroy_node()
+        shutdown()
 
     def call(self, kind: Any, name: str, request: Any) -> Any:
         """Return the response. `spin_until_future_complete` of rclpy 7.1 polls, and is slower."""
@@ -78,31 +86,43 @@ def _timed(call: Callable[[], None], calls: int, server: int) -> tuple[float, fl
     return calls / passed, 1e3 * used[0] / calls, 1e3 * used[1] / calls
 
 
+def _measure(scene: Path, recorder: str) -> None:
+    """Print one line for each number of steps in a call."""
+    given = {"scene": scene, "rate_factor": 0.0} | ({"wait_for": recorder} if recorder else {})
+    with Child("simulation", NAMESPACE, given) as simulation, Caller() as caller:
+        while not caller.call(SetBool, "pause", SetBool.Request(data=True)).success:
+            time.sleep(0.1)
+        caller.call(Trigger, "reset", Trigger.Request())
+        for steps, calls in ROUNDS:
+            rate, server, client = _timed(lambda n=steps: caller.step(n), calls, simulation.pid)
+            print(
+                f"{steps:3d} steps in a call: {rate * steps:5.0f} steps/s, processor time of a "
+                f"step {server / steps:.2f} ms in the simulation, {client / steps:.2f} ms in "
+                "the client"
+            )
+        rate, server, client = _timed(
+            lambda: caller.call(GetParameters, "get_parameters", GetParameters.Request()),
+            ROUNDS[0][1], simulation.pid,
+        )  # fmt: skip
+        print(
+            f"no step, get_parameters of nothing: {rate:.0f} calls/s, processor time of a call "
+            f"{server:.2f} ms in the simulation, {client:.2f} ms in the client"
+        )
+
+
 def main() -> None:
-    """Measure, and print one line for each number of steps in a call."""
+    """Measure a simulation alone, and one with a logger."""
     stay_on_this_machine()
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder, "driven.yaml")
         scene.write_text(SCENE)
-        with Child("simulation", NAMESPACE, {"scene": scene, "rate_factor": 0.0}) as simulation:
-            caller = Caller()
-            caller.call(SetBool, "pause", SetBool.Request(data=True))
-            caller.call(Trigger, "reset", Trigger.Request())
-            for steps, calls in ROUNDS:
-                rate, server, client = _timed(lambda n=steps: caller.step(n), calls, simulation.pid)
-                print(
-                    f"{steps:3d} steps in a call: {rate * steps:5.0f} steps/s, processor time of a "
-                    f"step {server / steps:.2f} ms in the simulation, {client / steps:.2f} ms in "
-                    "the client"
-                )
-            rate, server, client = _timed(
-                lambda: caller.call(GetParameters, "get_parameters", GetParameters.Request()),
-                ROUNDS[0][1], simulation.pid,
-            )  # fmt: skip
-            print(
-                f"no step, get_parameters of nothing: {rate:.0f} calls/s, processor time of a call "
-                f"{server:.2f} ms in the simulation, {client:.2f} ms in the client"
-            )
+        print("simulation alone")
+        _measure(scene, "")
+        print("simulation with a logger")
+        with Child("logger", NAMESPACE, {"directory": folder, "name": "recorded"}) as logger:
+            before = processor_time(logger.pid)
+            _measure(scene, "logger")
+            print(f"processor time of the logger: {processor_time(logger.pid) - before:.1f} s")
     print(f"load of the machine: {os.getloadavg()[0]:.1f}")
 
 

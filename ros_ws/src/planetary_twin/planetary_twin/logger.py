@@ -24,6 +24,7 @@ from .stamps import STEADY, StrictClock
 
 _DISCOVERY_PERIOD = 0.1  # [s]
 _STATUS_PERIOD = 1.0  # [s]
+_STATUS_MESSAGES = 200  # of a topic, after which a status is due earlier: a fast twin waits for it
 _LAST_REPORT = Duration(seconds=1.0)  # longest wait for subscribers to receive it
 _OWN = 100  # newest reports of this node, which it does not record
 
@@ -109,8 +110,15 @@ class Logger(ManagedNode):
                 raise NodeError(f"topics: {brief(name)}: {reason}") from None
 
     def _discover(self) -> None:
-        if self._recorder.discover() or self._status.file != self._recorder.file:
+        new = self._recorder.discover() or self._status.file != self._recorder.file
+        if new or self._newly_recorded() > _STATUS_MESSAGES:
             self._publish_status()
+
+    def _newly_recorded(self) -> int:
+        """Return the number of messages since the last status, of the topic with most of them."""
+        before = dict(zip(self._status.topics, self._status.recorded, strict=True))
+        accounts = self._recorder.matched
+        return max((each.recorded - before.get(t, 0) for t, each in accounts.items()), default=0)
 
     def _on_failure(self, reason: str) -> None:
         self._stop_ticking()
