@@ -11,6 +11,7 @@ from stability.sound import PAPER, PLAIN
 import planetary_twin_py as pt
 from planetary_twin_py.dynamics.speed_loop import (
     FIELD,
+    LinearTrain,
     bandwidth,
     check_speed_loop,
     linear_loop,
@@ -138,6 +139,29 @@ def test_an_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     above = scene.replace(**{FIELD: 1.1 * largest})
     with pytest.raises(pt.SceneError):
         check_speed_loop(above, build_train(above), above.operating_point)
+
+
+def excited():
+    """A loop that is unstable at any bandwidth: dampers that give energy to the shafts."""
+    loop = loop_of(PAPER)
+    return loop._replace(damping=-loop.damping)
+
+
+@pytest.mark.parametrize("highest", [3.0, 4.4e-10])
+def test_a_loop_without_stable_bandwidth_has_a_limit_of_zero(highest):
+    assert excited().limit(highest) == 0.0
+    assert loop_of(PAPER).limit(highest) == highest
+
+
+@pytest.mark.parametrize("chosen", [3.0, 3.1e-10, None])
+def test_a_loop_without_stable_bandwidth_is_refused_without_a_bound(chosen, monkeypatch):
+    loop = excited()
+    monkeypatch.setattr(LinearTrain, "loop", lambda self, frequency: loop)
+    scene = PAPER.replace(**{FIELD: chosen, "description": "loop without stable bandwidth"})
+    with pytest.raises(pt.SceneError, match="is unstable at any bandwidth, where") as error:
+        check_speed_loop(scene, build_train(scene), scene.operating_point)
+    assert "must be at most" not in str(error.value)
+    assert ("the default" in str(error.value)) == (chosen is None)
 
 
 @pytest.mark.parametrize(
