@@ -57,7 +57,7 @@ def limit_text(name: str, allowed: Range) -> str:
     """
     limit = f"{allowed.high:.4g} {CHANNELS[name]}"
     if name == OIL:
-        return f"it must be within {allowed.low:g} and {limit}"
+        return f"it must be within {allowed.low:g} and {limit} (messages are in degrees Celsius)"
     return f"it exceeds {allowed.limited_by}, {limit}"
 
 
