@@ -7,6 +7,7 @@ from following.plants import paper, played
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.reading_check import ReadingCheck
+from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
 
 TRAIN = followed_train(paper())
@@ -20,7 +21,7 @@ def steady(channel):
 
 
 def judged(channel, values, split=1, scale=None):
-    check = ReadingCheck(TRAIN, scale)
+    check = ReadingCheck(TRAIN, Sensors(scale=scale or {}))
     parts = [
         check.judge(time, {channel: part}, "rig")[channel]
         for time, part in zip(
@@ -89,6 +90,32 @@ def test_a_speed_that_leaps_by_whole_pulses_is_left_out_until_it_returns(factor,
 def test_a_real_change_of_the_speed_is_used(speed):
     kept, lines = judged("input_speed", speed)
     assert np.array_equal(kept, speed) and not lines
+
+
+def paired(input_torque, split):
+    check = ReadingCheck(TRAIN, Sensors())
+    noise = np.random.default_rng(0).standard_normal(len(TIME))
+    load = 63.0 + 5.0 * np.sin(TIME)
+    columns = {"input_torque": input_torque(load + 0.1 * noise), "output_torque": 2.3 * load}
+    for part in np.array_split(np.arange(len(TIME)), split):
+        check.judge(TIME[part], {name: values[part] for name, values in columns.items()}, "rig")
+    return list(check.left_out.remarks())
+
+
+@pytest.mark.parametrize("split", [1, 11])
+def test_a_torque_that_is_stuck_while_the_load_changes_is_left_out(split):
+    (line,) = paired(lambda torque: np.where(TIME > 10.0, torque[1000], torque), split)
+    assert line.startswith("input_torque: left out, because the value repeats exactly")
+    assert "20.00 s" in line and "rows 10" in line
+
+
+@pytest.mark.parametrize(
+    "digital",
+    [np.round, lambda torque: torque, lambda torque: torque[np.arange(2000) // 20 * 20]],
+    ids=["rounded", "noisy", "sampled at a lower rate"],
+)
+def test_a_torque_with_equal_readings_that_follows_the_load_is_used(digital):
+    assert not paired(digital, 7)
 
 
 @pytest.fixture(scope="module")
