@@ -36,7 +36,7 @@ class CheckedBins:
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
         noise = torque_noise(sensors, train)
         inertia = train.inertia if sensors.inertia is None else sensors.inertia
-        self._readings = ReadingCheck(train, sensors.scale)
+        self._readings = ReadingCheck(train, sensors)
         self._left_out = self._readings.left_out
         self._power = PowerCheck(train, inertia, noise, period, self._left_out)
         self._ratio, self._period = train.ratio, period
@@ -139,7 +139,7 @@ def checked_table(
     train = followed_train(scene)
     bins = CheckedBins(scene, train, sensors, PERIOD)
     judged = [*bins.add(time, columns, "table"), *bins.finish()]
-    kept = ReadingCheck(train, sensors.scale).judge(time, columns, "table")
+    kept = ReadingCheck(train, sensors).judge(time, columns, "table")
     slots = np.floor(np.where(np.isfinite(time), time, -1.0) / PERIOD + 1e-9).astype(np.int64)
     for name in ("input_torque", "output_torque"):
         sound = [one.number for one in judged if name in one.means]
