@@ -128,6 +128,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
     """
     from ..explanation.backlash import backlash_of_scene
     from ..explanation.deflection import deflection_of_scene
+    from ..explanation.oil import oil_of_scenes
     from ..explanation.pressure import pressure_of_scene
     from ..planar.held_axes import held_axes_warning
     from ..studies.clipping import clipping_of_study
@@ -140,6 +141,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
         next(filter(None, map(backlash_of_scene, scenes)), None),
         next(filter(None, map(deflection_of_scene, scenes)), None),
         next(filter(None, map(pressure_of_scene, scenes)), None),
+        oil_of_scenes(scenes),
         clipping_of_study(table),
         unbalanced_runs(table),
         *inaccuracies(table),

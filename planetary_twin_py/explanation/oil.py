@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from ..dynamics.oil import build_oil
@@ -13,6 +13,7 @@ from ..dynamics.train import build_train, held_axes
 from ..engineering_units import figure
 from ..lubrication.viscosity import viscosity_at
 from ..scene import Scene
+from ..scene.oil_grade import DEFINED
 from .mean_friction import Contacts, contacts_of, mean_coefficient
 
 REGRESSION = "schlenk"
@@ -66,12 +67,42 @@ class OilFigures(NamedTuple):
         own, other = self.laws
         measured = ", a regression of measured losses" if other.traction == REGRESSION else ""
         yield f"tooth loss under the mean force: {_by(own)}; {_by(other)}{measured}"
-        if own.viscosity_exponent < other.viscosity_exponent - _CLOSE:
-            yield (
-                f"by {own.traction}, a thicker oil saves more than by {other.traction}: an oil "
-                "chosen by it alone is likely too thick; compare oils by both laws "
-                "(lubrication.traction)"
-            )
+        if line := self.too_thick:
+            yield line
+
+    @property
+    def too_thick(self) -> str | None:
+        """A sentence if the law of the scene favours thick oils."""
+        own, other = self.laws
+        if own.viscosity_exponent >= other.viscosity_exponent - _CLOSE:
+            return None
+        return (
+            f"by {own.traction}, a thicker oil saves more than by {other.traction} (viscosity^"
+            f"{own.viscosity_exponent:.2f} and ^{other.viscosity_exponent:.2f}): an oil chosen by "
+            "it alone is likely too thick; compare oils by both laws (lubrication.traction)"
+        )
+
+
+def oil_of_scenes(scenes: Sequence[Scene]) -> str | None:
+    """Warn if a comparison of oils rests on a law that favours thick ones.
+
+    Args:
+        scenes: scenes that are compared.
+
+    Returns:
+        A sentence, or None.
+    """
+    oils = {
+        (
+            *(getattr(each.lubrication, name) for name in DEFINED),
+            each.operating_point.oil_temperature,
+        )
+        for each in scenes
+    }
+    if len(oils) < 2:
+        return None
+    found = filter(None, map(oil_figures, scenes))
+    return next(filter(None, (oil.too_thick for oil in found)), None)
 
 
 def oil_figures(scene: Scene) -> OilFigures | None:
