@@ -31,7 +31,7 @@ class Repeats:
         self._last = np.full((2, 1, count), np.nan)
         self._run = np.zeros((2, 1, count), dtype=np.int64)  # equal readings up to the last
         self._longest = np.zeros((2, 1, count), dtype=np.int64)  # run before the present one
-        self._before = np.full((2, 1, count), np.nan)  # the other torque at the start of the run
+        self._at_start = np.full((2, 1, count), np.nan)  # the other torque at the start of the run
         self._rows = 0
 
     def judge(self, input_torque: Array, output_torque: Array) -> tuple[Mask, Mask]:
@@ -56,9 +56,9 @@ class Repeats:
         long &= (number + self._rows > SEEN) & np.isfinite(read)
         self._rows += read.shape[1]
         other = read[::-1]
-        before = np.take_along_axis(other, np.maximum(start - 1, 0), axis=1)
-        before = np.where(start > 0, before, self._before)
-        stuck = long & (np.abs(other - before) > self._moved[::-1])
+        at_start = np.take_along_axis(other, np.maximum(start - 1, 0), axis=1)
+        at_start = np.where(start > 0, at_start, self._at_start)
+        stuck = long & (np.abs(other - at_start) > self._moved[::-1])
         self._last, self._run, self._longest = read[:, -1:], run[:, -1:], longest[:, -1:]
-        self._before = before[:, -1:]
+        self._at_start = at_start[:, -1:]
         return np.asarray(stuck[0]), np.asarray(stuck[1])
