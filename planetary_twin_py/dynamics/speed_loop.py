@@ -127,7 +127,9 @@ def _holds_a_speed(scene: Scene) -> bool:
 def _default(scene: Scene) -> float:
     train, fastest = build_train(held_axes(scene)), scene.drive.speed_limit
     loop = linear_loop(scene, train, float(np.abs(train.cycles).sum()) * fastest / (2.0 * math.pi))
-    limit = loop.limit(DEFAULT_MARGIN * FASTEST_DEFAULT)
+    # Growth at a high bandwidth may be less than the rounding of its fast decay.
+    tried = [margin * FASTEST_DEFAULT for margin in (DEFAULT_MARGIN, LEAST_MARGIN, 1.0)]
+    limit = min([found for high in tried if (found := loop.limit(high)) < high] or tried[:1])
     return _rounded_down(max(limit / DEFAULT_MARGIN, SLOWEST))
 
 
