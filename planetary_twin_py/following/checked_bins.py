@@ -96,13 +96,18 @@ class CheckedBins:
         yield from self._unit_remarks.remarks()
 
     def _checked(self, time_bin: Bin) -> Iterator[Bin]:
-        self._checks.add(time_bin)
+        agreed = self._checks.agreed
+        if not agreed:
+            self._checks.add(time_bin)  # a wrong sign from the start is refused, not left out
         self._spacing.add((time_bin.number + 1) * self._period)
         values = {name: mean.value for name, mean in time_bin.means.items()}
         speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
         self._dead_torques.add(time_bin.number * self._period, values, speed)
         self._unit_remarks.add(values.get("input_torque", math.nan), speed)
-        yield from self._judged(self._power.add(time_bin))
+        for judged in self._judged(self._power.add(time_bin)):
+            if agreed:
+                self._checks.add(judged)
+            yield judged
 
     def _judged(self, bins: Iterator[Bin]) -> Iterator[Bin]:
         """Bins after the check of the power, whose readings that are left out are not used."""
