@@ -72,13 +72,13 @@ class FleetCheck:
             allowed = self._ranges[name]
             self._omit(name, limit_text(name, allowed), beyond(values, allowed), time, row)
         torques = row[TORQUES[0]], row[TORQUES[1]]
-        stuck = self._repeats.judge(torques[0][None], torques[1][None])
-        for name, which in zip(TORQUES, stuck, strict=True):
-            self._omit(name, STUCK, which[0], time, row)
         found = balance(self._train, torques, row["input_speed"], self._inertia * acceleration)
         usual = self._torques[0], self._torques[1]
         for name, wrong in zip(TORQUES, wrong_torques(self._train, torques, usual), strict=True):
             self._omit(name, IMPOSSIBLE, wrong & found.impossible, time, row)
+        stuck = self._repeats.judge(row[TORQUES[0]][None], row[TORQUES[1]][None])
+        for name, which in zip(TORQUES, stuck, strict=True):
+            self._omit(name, STUCK, which[0], time, row)
         sound = np.isfinite(found.lost) & ~found.impossible
         self._torques = np.where(sound, torques, self._torques)
 
