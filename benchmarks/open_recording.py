@@ -3,7 +3,8 @@
     .venv/bin/python benchmarks/open_recording.py recordings/NAME --seconds 10 60 600
 
 A longer recording is made from the given one, which is repeated with increasing times and numbers.
-It takes about 4 MB of disk for each second.
+It takes about 4 MB of disk for each second, or with --states 0.1 MB, for hours: only the states are
+repeated.
 """
 
 from __future__ import annotations
@@ -31,9 +32,10 @@ from planetary_twin_py.recording.ros2.topics import JOINTS, POINT, STATE, WAVEFO
 REPEATED = (STATE, WAVEFORM, JOINTS, POINT, "/tf", "/diagnostics")
 TIMES = ("simulated_time", "start_time")  # fields that go on with the run [s]
 COMMANDS = {
-    "view": ("view", "--save"),
-    "info": ("info", "--json"),
-    "picture": ("view", "--screenshot"),
+    "view": ("view", "--save", ".rrd"),
+    "info": ("info", "--json", ".json"),
+    "export": ("export", "--topics=gearbox_state", "--out", ".parquet"),
+    "picture": ("view", "--screenshot", ".png"),
 }
 
 
@@ -45,8 +47,8 @@ class Cost(NamedTuple):
     memory: float
 
 
-def lengthen(path: Path, folder: Path, seconds: float) -> Path:
-    """Repeat the recording at `path` until it has lasted for `seconds`; returns the new file."""
+def lengthen(path: Path, folder: Path, seconds: float, topics: tuple[str, ...]) -> Path:
+    """Repeat `topics` of the recording at `path` for `seconds`; returns the new file."""
     playback, bag = Playback(path), BagWriter(folder)
     channels = {name: bag.add_topic(topic) for name, topic in playback.topics.items()}
     layouts = _layouts(playback)
@@ -59,7 +61,7 @@ def lengthen(path: Path, folder: Path, seconds: float) -> Path:
             at = message.log_time + turn * turn_length
             if at - first > seconds * 1e9:
                 break
-            if turn and not topic.endswith(REPEATED):
+            if turn and not topic.endswith(topics):
                 continue
             (rows,) = layouts[topic].arrays([message.data])
             data = bytearray(message.data)
@@ -125,6 +127,8 @@ def main() -> None:
     )
     parser.add_argument("recording", type=Path)
     parser.add_argument("--seconds", type=float, nargs="+", default=[10.0, 60.0, 600.0])
+    parser.add_argument("--states", action="store_true", help="repeat only the states")
+    parser.add_argument("--commands", nargs="+", choices=COMMANDS, default=list(COMMANDS))
     parser.add_argument("--keep", type=Path, help="folder in which the recordings are left")
     chosen = parser.parse_args()
     print("| recorded | file | command | time | processor time | memory | writes |")
@@ -133,11 +137,13 @@ def main() -> None:
         for seconds in chosen.seconds:
             folder = (chosen.keep or Path(scratch)) / f"{seconds:g}_s"
             if not folder.exists():
-                lengthen(chosen.recording, folder, seconds)
+                topics = (f"/{STATE}",) if chosen.states else REPEATED
+                lengthen(chosen.recording, folder, seconds, topics)
             (file,) = files_of(folder)
-            for name, (command, option) in COMMANDS.items():
-                written = Path(scratch) / f"{name}{'.png' if name == 'picture' else '.rrd'}"
-                spent = cost(command, str(file), option, str(written))
+            for name in chosen.commands:
+                command, *options, suffix = COMMANDS[name]
+                written = Path(scratch) / f"{name}_{seconds:g}{suffix}"
+                spent = cost(command, str(file), *options, str(written))
                 print(
                     f"| {seconds:g} s | {file.stat().st_size / 1e6:.0f} MB | {name} "
                     f"| {spent.wall:.1f} s | {spent.processor:.1f} s | {spent.memory:.0f} MB "

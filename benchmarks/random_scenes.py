@@ -5,10 +5,12 @@ faults and errors of planets are drawn; with planar dynamics masses, bearings an
 Prints a line for each scene whose error exceeds ten tolerances, with "warned" where its run says
 so, or whose ledger misses a millionth of the turnover at 1e-5; then how many there are.
 With spatial dynamics, teeth are helical, and bearings have axial and tilting stiffnesses.
+`--dynamics any` draws dynamics, ports and differentials, too, and compares every printed figure.
 
     python benchmarks/random_scenes.py --count 100 --seed 1 --tolerance 1e-4
     python benchmarks/random_scenes.py --count 100 --seed 1 --dynamics planar
     python benchmarks/random_scenes.py --count 100 --seed 1 --dynamics spatial
+    python benchmarks/random_scenes.py --count 10 --seed 1 --dynamics any
 """
 
 from __future__ import annotations
@@ -149,12 +151,76 @@ def tilting_axes(random: np.random.Generator) -> dict[str, Any]:
     return {"dynamics": "spatial", "gearset.helix_angle": float(helix)} | bearings
 
 
-def measure(scene: pt.Scene, tolerance: float) -> Errors:
-    """Compare a run of some mesh cycles with one of the other method at 1e-7."""
+def any_scene(random: np.random.Generator) -> pt.Scene:
+    """A random scene of any dynamics and power flow; its ports have machines, torques or motions.
+
+    Raises:
+        ValueError: the scene is not valid.
+    """
+
+    def one(*choices: Any) -> Any:
+        return choices[random.integers(len(choices))]
+
+    changes, paper = random_changes(random), pt.load_scene("paper")
+    dynamics = one("torsional", "torsional", "planar", "planar", "spatial")
+    if dynamics != "torsional":
+        changes |= moving_axes(random, len(changes["gearset.planet_angles"]))
+    for side in ("input", "output"):
+        changes[f"drive.{side}.port"] = one("machine", "torque", "motion")
+    if one(True, False, False, False):
+        motor = paper.drive.output.model_dump() | {"member": changes["gearset.held"]}
+        speed = float(random.uniform(-150.0, 150.0))
+        changes |= {"drive.second_input": motor, "second_input_speed": speed}
+        changes["gearset.held"] = "none"
+    scene = paper.replace(**changes)
+    return scene.replace(**tilting_axes(random)) if dynamics == "spatial" else scene
+
+
+def printed(run: pt.Result) -> dict[str, tuple[np.ndarray, float]]:
+    """Figures that `simulate` prints, and the size that their errors are compared with."""
+    mesh, dte = run.mesh, float(np.abs(run.mesh["dte_mean"]).max() + run.mesh["dte_rms"].max())
+    force, loss = float(mesh["mesh_force_peak"].max()), abs(1.0 - run.efficiency)
+    found = {name: (mesh[name], dte) for name in ("dte_mean", "dte_rms", "dte_peak")}
+    found |= {name: (mesh[name], force) for name in ("mesh_force_mean", "mesh_force_peak")}
+    found["contact_fraction"] = mesh["contact_fraction"], 1.0
+    if np.isfinite(loss):
+        found["efficiency"] = np.array([run.efficiency]), max(loss, LEAST_SHARE)
+    if run.axes is not None:
+        moved = np.linalg.norm(run.axes.displacement, axis=2).max(axis=0)
+        held = np.linalg.norm(run.axes.bearing_force, axis=2).max(axis=0)
+        found["displacement_peak"] = moved, float(moved.max())
+        found["bearing_force_peak"] = held, max(force, float(held.max()))
+        found["load_share"] = run.axes.mean_load_share, 1.0
+    return found
+
+
+def compare_printed(scene: pt.Scene, tolerance: float) -> tuple[dict[str, float], tuple[str, ...]]:
+    """Errors of printed figures in tolerances, and the warnings of the run."""
+    duration, method = _course(scene)
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        run = pt.simulate(scene, duration, tolerance=tolerance)
+        texts = tuple(str(each.message) for each in warned)
+        exact = printed(pt.simulate(scene, duration, tolerance=1e-7, method=method))
+    errors = {
+        name: float(np.nanmax(np.abs(values - exact[name][0]))) / exact[name][1] / tolerance
+        for name, (values, _) in printed(run).items()
+        if name in exact and exact[name][1] > 0.0
+    }
+    return errors, texts
+
+
+def _course(scene: pt.Scene) -> tuple[float, str]:
+    """Duration of a run of some mesh cycles [s], and the method that it is compared with."""
     speed = abs(scene.operating_point.input_speed)
     frequency = speed * scene.gearset.teeth.ring / (2.0 * math.pi)  # at most
     duration = min(max(4.0 / frequency, 0.004), 0.02) if frequency > 0.0 else 0.02
-    method = "collocation" if frequency > FASTEST_ROSENBROCK else "rosenbrock"
+    return duration, "collocation" if frequency > FASTEST_ROSENBROCK else "rosenbrock"
+
+
+def measure(scene: pt.Scene, tolerance: float) -> Errors:
+    """Compare a run of some mesh cycles with one of the other method at 1e-7."""
+    duration, method = _course(scene)
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         run = pt.simulate(scene, duration, tolerance=tolerance)
@@ -171,6 +237,23 @@ def measure(scene: pt.Scene, tolerance: float) -> Errors:
     )
 
 
+def print_any(seed: int, count: int, tolerance: float) -> None:
+    """Print the largest error of the printed figures of each scene."""
+    random = np.random.default_rng(seed)
+    for number in range(count):
+        try:
+            scene = any_scene(random)
+            errors, warned = compare_printed(scene, tolerance)
+        except (ValueError, pt.RunawayError) as refusal:
+            print(f"{number:4d}  refused: {str(refusal)[:110]}", flush=True)
+            continue
+        worst = max(errors, key=lambda name: errors[name])
+        found = f"{worst} {errors[worst]:.3g} tolerances  {'warned' if warned else ''}"
+        print(
+            f"{number:4d}  {scene.dynamics:10s}{'-'.join(scene.drive.ports):18s}{found}", flush=True
+        )
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -178,10 +261,12 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tolerance", type=float, default=1e-4)
     parser.add_argument(
-        "--dynamics", choices=("torsional", "planar", "spatial"), default="torsional"
+        "--dynamics", choices=("torsional", "planar", "spatial", "any"), default="torsional"
     )
     given = parser.parse_args()
     warnings.simplefilter("ignore")
+    if given.dynamics == "any":
+        return print_any(given.seed, given.count, given.tolerance)
     random, paper = np.random.default_rng(given.seed), pt.load_scene("paper")
     compared = beyond = unwarned = unclosed = 0
     for number in range(given.count):

@@ -22,6 +22,7 @@ import math
 
 from .scene import Scene, SceneError
 from .scene.drive import Machine
+from .scene.given import check_scene
 
 
 def check_exchange(first: Scene, second: Scene, step: float) -> float:
@@ -39,6 +40,8 @@ def check_exchange(first: Scene, second: Scene, step: float) -> float:
     Raises:
         ValueError: the ports do not fit, or the step is too long.
     """
+    for scene in (first, second):
+        check_scene(scene)
     flange, shaft = sides = first.drive.output, second.drive.input
     if shaft.port == "torque":
         flange, shaft = sides[::-1]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
     from ..scene import Scene
-    from ..studies.axes import Axis, Span
+    from ..studies.axes import Axis, Normal, Span
 
 TABLES = (".parquet", ".csv")
 PICTURE_DPI = 150  # dots per inch
@@ -37,7 +37,7 @@ def check_suffix(out: Path, admitted: Sequence[str]) -> None:
         need("plots", "matplotlib")
 
 
-def axis(scene: Scene, field: str, text: str) -> Axis | Span:
+def axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
     """Parse the values of a field, and print in which unit numbers without unit were read.
 
     Args:
@@ -51,14 +51,15 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span:
     Raises:
         ValueError: see `read_axis`.
     """
-    from ..studies.axes import Axis, read_axis
+    from ..studies.axes import Axis, Normal, read_axis
     from ..units import is_number
 
     found = read_axis(scene, field, text)
-    ends = (
-        (found.values[0], found.values[-1]) if isinstance(found, Axis) else (found.low, found.high)
-    )
-    if is_number(text.replace(":", ",").split(",")[0]):
+    if isinstance(found, Axis):
+        ends = (found.values[0], found.values[-1])
+    else:
+        ends = (found.mean,) * 2 if isinstance(found, Normal) else (found.low, found.high)
+    if is_number(text.removeprefix("normal(").replace(":", ",").split(",")[0]):
         for value in dict.fromkeys(ends):
             say_units(scene.replace(**{field: value}), {field: value})
     return found
@@ -101,7 +102,7 @@ def write_results(
         x: field of the horizontal axis, see `plot_study` for this and the following.
         measures: columns to draw, a panel each.
         by: field that distinguishes the curves.
-        kind: "curves", "map" or "stribeck"; None chooses by the fields.
+        kind: see `plot_study`; None chooses by the fields.
 
     Raises:
         OSError: `out` cannot be written.
@@ -127,6 +128,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
     """
     from ..explanation.backlash import backlash_of_scene
     from ..explanation.deflection import deflection_of_scene
+    from ..explanation.oil import oil_of_scenes
     from ..explanation.pressure import pressure_of_scene
     from ..planar.held_axes import held_axes_warning
     from ..studies.clipping import clipping_of_study
@@ -139,6 +141,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
         next(filter(None, map(backlash_of_scene, scenes)), None),
         next(filter(None, map(deflection_of_scene, scenes)), None),
         next(filter(None, map(pressure_of_scene, scenes)), None),
+        oil_of_scenes(scenes),
         clipping_of_study(table),
         unbalanced_runs(table),
         *inaccuracies(table),

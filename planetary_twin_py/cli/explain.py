@@ -16,6 +16,7 @@ from ..terminal.messages import fail, remark
 from ..terminal.names import shown
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
+from ._oil import print_oil
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -74,6 +75,7 @@ def explain(
     print_list(console, "gears: ", gears(loaded))
     console.print()
     console.print(_mesh_table(loaded, meshes))
+    oil = print_oil(console, loaded)
     if loaded.dynamics == "auto":
         console.print(found.dynamics.text, highlight=False)
         loaded = found.dynamics.scene
@@ -82,7 +84,7 @@ def explain(
     console.print(_limits(loaded))
     for line in found.remarks:
         remark(f"warning: {line}")
-    write_json(_as_figures(found) | _mesh_figures(meshes), json_)
+    write_json(_as_figures(found) | _mesh_figures(meshes) | oil, json_)
 
 
 def _mesh_table(scene: Scene, meshes: Meshes) -> Table:

@@ -86,8 +86,8 @@ def fit(  # noqa: PLR0913 - an argument for each option
 
     FILE is a recording, or a measured manoeuvre: a .csv, .parquet or .mat file with time,
     input_torque, output_torque and input_speed or output_speed. --sensors and --scale are for
-    these, as in `follow`; readings that contradict the scene end the command with the likely unit
-    or sign.
+    these, as in `follow`; readings that contradict the scene end the command and ask for units
+    and signs.
 
     Of a recording, without --from and --to, up to one second with a constant operating point is
     used. Parameters that the readings do not determine are reported in a warning; the exit code is

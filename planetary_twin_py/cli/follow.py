@@ -104,7 +104,7 @@ def follow(  # noqa: PLR0913 - an argument for each option
 
     Prints friction level, drag, zero and gain of the torque sensors, inertia and compliance with
     95 % intervals, or the readings that are needed to determine them, then detected changes and
-    teeth. Readings that contradict SCENE end the command with the likely unit or sign.
+    teeth. Readings that contradict SCENE end the command and ask for units and signs.
 
     Example: planetary-twin follow paper --from readings.csv --encoders encoders.parquet
     """

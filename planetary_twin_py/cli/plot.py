@@ -30,13 +30,17 @@ def plot(
     ] = None,
     kind: Annotated[
         str | None,
-        typer.Option(help="curves, map or stribeck.", show_default="according to the fields"),
+        typer.Option(
+            help="curves, map, points, histogram or stribeck.",
+            show_default="according to the fields",
+        ),
     ] = None,
 ) -> None:
     """Draw the results of `sweep`, `stribeck` or `bifurcation` in customary units.
 
     By default: curves over the first field that varies, one curve per value of a second field,
-    one panel per value of a third; a map if two fields have six values or more.
+    one panel per value of a third; a map if two fields have six values or more; the points over
+    each field if more than three vary.
 
     Example: planetary-twin plot study.parquet --y efficiency,power_loss --out study.svg
     """

@@ -24,6 +24,7 @@ from ..terminal.names import shown
 from ..terminal.output_files import check_file, check_recording
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import HERTZ, SECONDS
+from ._oil import print_oil
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -110,10 +111,11 @@ def simulate(
         console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))
     axes = _print_axes(console, result.axes)
+    oil = print_oil(console, loaded)
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
         remark(f"warning: {line}")
-    write_json(chosen | train | meshes | axes | {"remarks": warned}, json_)
+    write_json(chosen | train | meshes | axes | oil | {"remarks": warned}, json_)
 
 
 def _check(out: Path) -> None:

@@ -17,6 +17,8 @@ from ..terminal.unit_options import SECONDS
 from ._study import TABLES, axis, check_suffix, progress, warn, write_results
 
 if TYPE_CHECKING:
+    import pyarrow as pa
+
     from ..scene import Scene
     from ..studies.plan import Study
     from ..studies.sweep import Report
@@ -27,7 +29,7 @@ FIXED = "set"  # not a field
 CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 
 
-def sweep(
+def sweep(  # noqa: PLR0913 - an argument for each option
     context: typer.Context,
     scene: SceneArgument,
     out: Annotated[
@@ -39,6 +41,15 @@ def sweep(
     duration: Annotated[float, typer.Option(help="Evaluated time of each run.", **SECONDS)] = 0.2,
     settling: Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)] = 0.05,
     tolerance: ToleranceOption = 1e-4,
+    y: Annotated[
+        str | None,
+        typer.Option(
+            "--y",
+            metavar="MEASURE,...",
+            help="Columns of the picture, and of the summary of a distribution.",
+            show_default="main results",
+        ),
+    ] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(
@@ -51,16 +62,19 @@ def sweep(
     """Simulate SCENE at many points; each field of the scene is an option with values or a range.
 
     Values are a list (1000rpm,2000rpm), a linear grid (1:2:5 is five values from 1 to 2), a
-    logarithmic grid (0.01:0.1:5:log) or, with --samples, a range (1:2, 0.01:0.1:log). Give every
-    number a unit, or all in SI. Write nested fields with dots: --mesh.damping.loss_factor
-    0.005:0.02:4; `planetary-twin fields` lists them. --set NAME=VALUE changes the scene at all
-    points and is repeatable: --set drive.speed_limit=30000rpm. To resume an interrupted study,
-    repeat the command.
+    logarithmic grid (0.01:0.1:5:log) or, with --samples, a range (1:2, 0.01:0.1:log) or a normal
+    distribution (normal(0 um,5 um); of a list with a value for each planet, it draws each), which
+    ends with percentiles and is drawn as a histogram. Give every number a unit, or all in SI.
+    Write nested fields with dots: --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields`
+    lists them. --set NAME=VALUE changes the scene at all points and is repeatable: --set
+    drive.speed_limit=30000rpm. To resume an interrupted study, repeat the command.
 
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet
     """
     check_suffix(out, TABLES + PICTURES)
+    from ..studies.axes import Normal, planet_by_planet
+    from ..studies.distribution import usual_measures
     from ..studies.plan import Settings, grid, latin_hypercube
     from ..studies.sweep import sweep as run
 
@@ -68,7 +82,11 @@ def sweep(
         given = list(_fields(context.args))
         fixed = settings([text for name, text in given if name == FIXED])
         loaded = changed_scene(scene, fixed)
-        axes = [axis(loaded, field, text) for field, text in given if field != FIXED]
+        axes, measures = [], _measures(y)
+        for field, text in given:
+            if field != FIXED:
+                loaded, entries = planet_by_planet(loaded, field, text)
+                axes += [axis(loaded, entry, text) for entry in entries]
         how = Settings(duration, settling, tolerance=tolerance)
         study = (
             grid(loaded, axes, how)
@@ -76,9 +94,16 @@ def sweep(
             else latin_hypercube(loaded, axes, samples, settings=how)
         )
         journal = out.with_name(f"{out.name}.journal")
-        with _executor(scheduler) as executor, _progress(study) as report:
+        with (
+            _executor(scheduler) as executor,
+            _progress(study) as report,
+            _kept(journal, len(study.points)),
+        ):
             table = run(study, executor, journal, report)
-        write_results(table, out)
+        drawn = any(isinstance(each, Normal) for each in axes)
+        if drawn:
+            measures = measures or [*usual_measures(table)]
+        write_results(table, out, measures=measures, kind="histogram" if drawn else None)
         journal.unlink()
     except (ValueError, OSError) as error:
         fail(error)
@@ -86,8 +111,25 @@ def sweep(
     for line in _without_effect(scenes, (*fixed, *study.fields)):
         remark(f"warning: {line}")
     warn(table, scenes)
+    if drawn:
+        _print_distributions(table, measures)
     failed = len(table) - table["failure"].null_count
     typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
+
+
+def _measures(text: str | None) -> list[str]:
+    """Names of results from the option --y."""
+    from ..quantities import AXES_RESULTS, STUDY_RESULTS
+    from ..scene.names import did_you_mean
+
+    names = text.split(",") if text else []
+    for name in names:
+        if name not in STUDY_RESULTS | AXES_RESULTS:
+            known = [*STUDY_RESULTS, *AXES_RESULTS]
+            raise ValueError(
+                f"--y = {name!r}: must be one of {', '.join(known)}{did_you_mean(name, known)}"
+            )
+    return names
 
 
 def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
@@ -111,6 +153,41 @@ def _without_effect(scenes: Sequence[Scene], names: Iterable[str]) -> Iterator[s
     for name in names if scenes else ():
         if all(not_in_use(scene, name) for scene in scenes):
             yield from without_effect(scenes[0], [name])
+
+
+@contextmanager
+def _kept(journal: Path, points: int) -> Iterator[None]:
+    """Say what is kept if the study is interrupted."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        done = len(journal.read_text().splitlines()) if journal.exists() else 0
+        remark(
+            f"interrupted: {done} of {points} points are kept in {journal}; repeat the command to "
+            "continue, or delete this file to start again"
+        )
+        raise
+
+
+def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
+    """Print mean, standard deviation and percentiles of results."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..engineering_units import figure
+    from ..quantities import AXES_RESULTS, STUDY_RESULTS
+    from ..studies.distribution import SHARES, distributions
+
+    shown = Table(caption="Percentiles are left out where fewer than five points are beyond them")
+    shown.add_column("result", no_wrap=True)
+    for heading in ("mean", "standard deviation", *(f"{share:g} %" for share in SHARES)):
+        shown.add_column(heading, justify="right")
+    for each in distributions(table, names):
+        quantity = (STUDY_RESULTS | AXES_RESULTS)[each.name]
+        values = [each.mean, each.deviation, *(each.percentiles.get(share) for share in SHARES)]
+        texts = ["-" if value is None else figure(value, quantity.si) for value in values]
+        shown.add_row(each.name, *texts)
+    Console().print(shown)
 
 
 @contextmanager

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 
+MOST_STATES = 200_000
+"""States that are shown at once: half an hour at 100 Hz, 1 GB of memory."""
 _HALF_WIDTH = 0.5  # [s] shown on either side of the time cursor in a picture
 
 
@@ -96,7 +98,7 @@ def view(
             lasting = None if asked is None else asked[1] - max(asked[0], 0.0)
             view_live(namespace, scene, save, serve, lasting)
             return
-        recordings = [_read(file, namespace) for file in files]
+        recordings = [_read(file, namespace, asked) for file in files]
         shown = _Shown(recordings, _scene(recordings[0], scene), _detail(recordings[0], asked))
         if save is not None:
             _save(shown, save)
@@ -130,11 +132,20 @@ def _one_line_errors() -> Iterator[None]:
         fail(error)
 
 
-def _read(file: Path, namespace: str | None) -> Recording:
+def _read(file: Path, namespace: str | None, asked: TimeSpan | None) -> Recording:
+    """A recording; of a long one the part that `asked` or, without it, the first one."""
     from ..recording.runs.reader import read_recording
 
     with busy(f"reading {file}"):
-        recording = read_recording(file, namespace)
+        recording = read_recording(file, namespace, MOST_STATES)
+        if not recording.complete and asked is not None:
+            recording = read_recording(file, namespace, MOST_STATES, asked)
+    if not recording.complete:
+        remark(
+            f"{file}: more than {MOST_STATES} states: only those from "
+            f"{recording.state.time.min():g} to {recording.state.time.max():g} s are shown; "
+            "choose others with --during BEGIN:END"
+        )
     for line in recording.remarks:
         remark(line)
     return recording

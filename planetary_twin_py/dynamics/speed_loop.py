@@ -83,10 +83,13 @@ class Loop(NamedTuple):
         return bool(found.real.max() <= ROUNDING * np.abs(found).max())
 
     def limit(self, highest: float) -> float:
-        """Largest stable bandwidth [Hz] up to `highest` [Hz]."""
+        """Largest stable bandwidth [Hz] up to `highest` [Hz]; 0 if none of the search is."""
         if self.is_stable(highest):
             return highest
-        low, high = math.log(SLOWEST), math.log(highest)
+        slowest = min(SLOWEST, highest)
+        if not self.is_stable(slowest):
+            return 0.0
+        low, high = math.log(slowest), math.log(highest)
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if self.is_stable(math.exp(middle)) else (low, middle)
@@ -124,8 +127,10 @@ def _holds_a_speed(scene: Scene) -> bool:
 def _default(scene: Scene) -> float:
     train, fastest = build_train(held_axes(scene)), scene.drive.speed_limit
     loop = linear_loop(scene, train, float(np.abs(train.cycles).sum()) * fastest / (2.0 * math.pi))
-    limit = loop.limit(DEFAULT_MARGIN * FASTEST_DEFAULT)
-    return _rounded_down(limit / DEFAULT_MARGIN)
+    # Growth at a high bandwidth may be less than the rounding of its fast decay.
+    tried = [margin * FASTEST_DEFAULT for margin in (DEFAULT_MARGIN, LEAST_MARGIN, 1.0)]
+    limit = min([found for high in tried if (found := loop.limit(high)) < high] or tried[:1])
+    return _rounded_down(max(limit / DEFAULT_MARGIN, SLOWEST))
 
 
 def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
@@ -261,6 +266,7 @@ class SpeedLoopCheck:
 
     def __init__(self, scene: Scene, train: Train) -> None:
         self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
+        self._is_default = scene.drive.speed_control.bandwidth is None
         self._linear = LinearTrain(scene, train)
         # A brake is never refused.
         self._checks = _holds_a_speed(scene) and "brake" not in scene.drive.ports
@@ -293,11 +299,15 @@ class SpeedLoopCheck:
             return
         limit = loop.limit(unstable[0])
         growing = max(loop.eigenvalues(unstable[0]), key=lambda value: value.real)
+        name = f"{chosen:g} Hz, the default" if self._is_default else f"{chosen:g} Hz"
+        highest = limit / LEAST_MARGIN
+        allowed = f"must be at most {_rounded_down(highest):g} Hz: " if highest else ""
+        above = f"above {limit:.3g} Hz" if highest else "at any bandwidth"
+        default = "" if self._is_default or not highest else "leave it out for the default, or "
         raise SceneError(
-            f"{FIELD} = {chosen:g} Hz: must be at most {_rounded_down(limit / LEAST_MARGIN):g} "
-            f"Hz: the speed loop is unstable above {limit:.3g} Hz, where motors and load oscillate "
-            f"on their couplings at {abs(growing.imag) / (2.0 * math.pi):.3g} Hz; leave it out for "
-            "the default, or give the drive stiffer couplings"
+            f"{FIELD} = {name}: {allowed}the speed loop is unstable {above}, where motors and load "
+            f"oscillate on their couplings at {abs(growing.imag) / (2.0 * math.pi):.3g} Hz; "
+            f"{default}give the drive stiffer couplings or more damping"
         )
 
 

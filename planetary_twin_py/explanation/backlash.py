@@ -26,8 +26,9 @@ def backlash_of_scene(scene: Scene) -> str | None:
         A sentence, or None.
     """
     gearset, point = scene.gearset, scene.operating_point
-    stated = sum(scene.mesh.flanks(point.backlash, gearset.pressure_angle))
-    most = WIDE * stated + FINE * gearset.module
+    plane = gearset.transverse
+    stated = math.fsum(scene.mesh.flanks(point.backlash, plane.pressure_angle))
+    most = WIDE * stated + FINE * plane.module
     for mesh in gearset.geometry.meshes:
         if mesh.backlash <= most:
             continue
@@ -35,7 +36,8 @@ def backlash_of_scene(scene: Scene) -> str | None:
         slope = 4.0 * mesh.first.module * math.sin(mesh.first.pressure_angle)
         hint = ""
         if mesh.internal and abs(mesh.backlash + slope * ring) <= most:
-            hint = f". {SENSE_OF_RING}; with gearset.profile_shift.ring = {-ring:g} both agree"
+            right = -gearset.profile_shift.ring
+            hint = f". {SENSE_OF_RING}; with gearset.profile_shift.ring = {right:g} both agree"
         return (
             f"profile shift and centre distance give the {'-'.join(mesh.names)} meshes a backlash "
             f"of {customary(mesh.backlash, 'm', 3)} on the line of action, and backlash states "

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from ..following.left_out import LeftOut
 from ..following.plausibility import beyond, equals_code, leaps, ranges_of
 from ..following.power_check import IMPOSSIBLE, balance, wrong_torques
-from ..following.reading_check import CODE, limit_text, nominal_values
-from ..following.sensors import Sensors
+from ..following.reading_check import CODE, TORQUES, limit_text, nominal_values
+from ..following.repeats import STUCK, Repeats
+from ..following.sensors import Sensors, torque_change
 from ..following.train import FollowedTrain
 
 Array = NDArray[np.float64]
-TORQUES = "input_torque", "output_torque"
 
 
 class FleetCheck:
@@ -36,6 +36,7 @@ class FleetCheck:
         self._usual = {name: np.full(count, value) for name, value in nominal.items()}
         self._known = {name: np.zeros(count, dtype=bool) for name in nominal}
         self._torques = np.full((2, count), np.nan)
+        self._repeats = Repeats(torque_change(sensors, train), count)
         self._number = 0
 
     def without_codes(self, time: float, row: dict[str, Array]) -> dict[str, Array]:
@@ -75,6 +76,9 @@ class FleetCheck:
         usual = self._torques[0], self._torques[1]
         for name, wrong in zip(TORQUES, wrong_torques(self._train, torques, usual), strict=True):
             self._omit(name, IMPOSSIBLE, wrong & found.impossible, time, row)
+        stuck = self._repeats.judge(row[TORQUES[0]][None], row[TORQUES[1]][None])
+        for name, which in zip(TORQUES, stuck, strict=True):
+            self._omit(name, STUCK, which[0], time, row)
         sound = np.isfinite(found.lost) & ~found.impossible
         self._torques = np.where(sound, torques, self._torques)
 

@@ -36,7 +36,7 @@ class CheckedBins:
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
         noise = torque_noise(sensors, train)
         inertia = train.inertia if sensors.inertia is None else sensors.inertia
-        self._readings = ReadingCheck(train, sensors.scale)
+        self._readings = ReadingCheck(train, sensors)
         self._left_out = self._readings.left_out
         self._power = PowerCheck(train, inertia, noise, period, self._left_out)
         self._ratio, self._period = train.ratio, period
@@ -96,13 +96,18 @@ class CheckedBins:
         yield from self._unit_remarks.remarks()
 
     def _checked(self, time_bin: Bin) -> Iterator[Bin]:
-        self._checks.add(time_bin)
+        agreed = self._checks.agreed
+        if not agreed:
+            self._checks.add(time_bin)  # a wrong sign from the start is refused, not left out
         self._spacing.add((time_bin.number + 1) * self._period)
         values = {name: mean.value for name, mean in time_bin.means.items()}
         speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
         self._dead_torques.add(time_bin.number * self._period, values, speed)
         self._unit_remarks.add(values.get("input_torque", math.nan), speed)
-        yield from self._judged(self._power.add(time_bin))
+        for judged in self._judged(self._power.add(time_bin)):
+            if agreed:
+                self._checks.add(judged)
+            yield judged
 
     def _judged(self, bins: Iterator[Bin]) -> Iterator[Bin]:
         """Bins after the check of the power, whose readings that are left out are not used."""
@@ -139,7 +144,7 @@ def checked_table(
     train = followed_train(scene)
     bins = CheckedBins(scene, train, sensors, PERIOD)
     judged = [*bins.add(time, columns, "table"), *bins.finish()]
-    kept = ReadingCheck(train, sensors.scale).judge(time, columns, "table")
+    kept = ReadingCheck(train, sensors).judge(time, columns, "table")
     slots = np.floor(np.where(np.isfinite(time), time, -1.0) / PERIOD + 1e-9).astype(np.int64)
     for name in ("input_torque", "output_torque"):
         sound = [one.number for one in judged if name in one.means]

@@ -38,7 +38,7 @@ class Checks:
     sensors: Sensors
     length: float
     _rows: list[tuple[float, ...]] = field(default_factory=list)  # time and `CHANNELS`
-    _agreed: set[str] = field(default_factory=set)  # comparisons that were in order once
+    _in_order: set[str] = field(default_factory=set)  # comparisons that were in order once
     _later: dict[str, str] = field(default_factory=dict)
     """The first later contradiction of each comparison."""
 
@@ -49,6 +49,11 @@ class Checks:
             MOVING * train.speed, MOVING * train.speed * abs(train.ratio),
             LOADED * train.torque, LOADED * train.torque / abs(train.ratio),
         )  # fmt: skip
+
+    @property
+    def agreed(self) -> bool:
+        """Whether the torques were in order once."""
+        return "torques" in self._in_order
 
     def add(self, found: Bin) -> None:
         """Add a bin; at the end of a span, check the readings.
@@ -87,8 +92,8 @@ class Checks:
     def _note(self, name: str, line: str, begin: float) -> None:
         """Refuse a contradiction, unless the same comparison was in order before."""
         if not line:
-            self._agreed.add(name)
-        elif name not in self._agreed:
+            self._in_order.add(name)
+        elif name not in self._in_order:
             raise InputError(line)
         else:
             self._later.setdefault(

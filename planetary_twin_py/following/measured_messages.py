@@ -6,6 +6,7 @@ sensor_msgs defines them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -72,6 +73,7 @@ class MessageReader:
             side: PositionCheck(f"{side}_speed", factors.get(f"{side}_speed", 1.0))
             for side in SIDES
         }
+        self._unset: dict[str, int] = {}  # messages whose stamp is 0, by sender
         self._first_number: int | None = None  # of a device's sample 0, in periods since time 0
         self._format: EncoderFormat | None = None
         self._channels: tuple[tuple[str, ...], float] | None = None  # of vibration, and period
@@ -103,7 +105,7 @@ class MessageReader:
                 continue
             values = self._shaft_readings(received)
             if values:
-                row = _Row(received.sender, stamp_of(received.message), received.time, values)
+                row = _Row(received.sender, self._stamp(received), received.time, values)
                 if rows and not _same_channels(rows[-1], row):
                     yield _join_rows(rows)
                     rows = []
@@ -119,9 +121,22 @@ class MessageReader:
             )
 
     def remarks(self) -> Iterator[str]:
-        """A line for each shaft whose positions do not belong to its speed."""
+        """A line for each sender without stamps, and for positions unlike the speed of a shaft."""
+        for sender, count in self._unset.items():
+            yield (
+                f"{sender}: {count} messages have the stamp 0, as header.stamp was not set: they "
+                "are not used"
+            )
         for check in self._positions.values():
             yield from check.remarks()
+
+    def _stamp(self, received: Arrived) -> float:
+        """Stamp of a message [s]; NaN where it is 0, which means that it was not set."""
+        stamp = stamp_of(received.message)
+        if stamp == 0.0:
+            self._unset[received.sender] = self._unset.get(received.sender, 0) + 1
+            return math.nan
+        return stamp
 
     def _shaft_readings(self, received: Arrived) -> dict[str, float]:
         if received.kind == TEMPERATURE:

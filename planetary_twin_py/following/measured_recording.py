@@ -53,9 +53,15 @@ def read_recording(
         for block in reader.read(part)
     ]
     collected.extend(reader.remarks())
-    columns_of_blocks = (block.columns for block in blocks if isinstance(block, Readings))
+    read = [block for block in blocks if isinstance(block, Readings)]
     shafts = set(CHANNELS) - {"oil_temperature"}
-    if not any(shafts & set(columns) for columns in columns_of_blocks):
+    measured = [block for block in read if shafts & set(block.columns)]
+    if measured and not any(np.isfinite(block.time).any() for block in measured):
+        raise ValueError(
+            f"{path}: all stamps of {measured[0].sender} are 0: header.stamp of the messages was "
+            "not set"
+        )
+    if not measured:
         raise ValueError(
             f"{path}: no JointState or DynamicJointState with the joints {joints.input!r} and "
             f"{joints.output!r} on a topic that ends in {joints.topics!r}"

@@ -8,7 +8,7 @@ reaches, or that comes and goes at once. A change of the gearbox stays.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from .train import FollowedTrain
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+TORQUES = "input_torque", "output_torque"
 LEAST, MOST = -0.15, 0.7  # share of the torque that is lost
 LOADED = 0.2  # share of the torque of the scene below which torques are not compared
 MOVING = 0.05  # share of the speed of the scene below which the sign of the loss is not clear
@@ -113,6 +114,7 @@ class PowerCheck:
         self._usual = math.nan, math.nan  # torques [N m]
         self._held: list[tuple[Bin, float, bool]] = []  # with share, and whether it is impossible
         self._fails = False
+        self._wrong: Sequence[str] = ()  # torques that were left out last
         self._speed = math.nan, math.nan  # time [s] and speed of the last bin
 
     def add(self, new: Bin) -> Iterator[Bin]:
@@ -128,7 +130,7 @@ class PowerCheck:
         if not far and not math.isnan(share):
             yield from self._release(True)
             self._level, self._fails = share, False
-            self._usual = new.means["input_torque"].value, new.means["output_torque"].value
+            self._usual = new.means[TORQUES[0]].value, new.means[TORQUES[1]].value
             yield new
         elif far and impossible and self._fails:
             self._held.append((new, share, impossible))
@@ -137,6 +139,8 @@ class PowerCheck:
             self._held.append((new, share, impossible))
             if (new.number - self._held[0][0].number + 1) * self._period >= WAIT - 1e-9:
                 yield from self.finish()
+        elif self._fails:  # too little load to show whether the signal is back
+            yield self._without(new, self._wrong, IMPOSSIBLE)
         else:
             yield new
 
@@ -155,7 +159,7 @@ class PowerCheck:
 
     def _judge(self, new: Bin) -> tuple[float, bool, bool]:
         """Share of the torque that is lost, whether it is far from usual, and impossible."""
-        torques = new.means.get("input_torque"), new.means.get("output_torque")
+        torques = new.means.get(TORQUES[0]), new.means.get(TORQUES[1])
         speed, acceleration = self._turning(new)
         if torques[0] is None or torques[1] is None:
             return math.nan, False, False
@@ -191,21 +195,24 @@ class PowerCheck:
         held, self._held = self._held, []
         reason = IMPOSSIBLE if self._fails or any(bad for *_, bad in held) else BRIEF
         for one, share, impossible in held:
-            if math.isnan(share) or not (omit or impossible):
+            if omit and math.isnan(share) and self._fails:
+                yield self._without(one, self._wrong, reason)
+            elif math.isnan(share) or not (omit or impossible):
                 yield one
             else:
-                yield self._without_torques(one, reason)
+                self._wrong = self._wrong_in(one)
+                yield self._without(one, self._wrong, reason)
 
-    def _without_torques(self, one: Bin, reason: str) -> Bin:
-        names = "input_torque", "output_torque"
-        means = one.means[names[0]], one.means[names[1]]
-        wrong = wrong_torques(
-            self._train, (np.array(means[0].value), np.array(means[1].value)),
-            (np.array(self._usual[0]), np.array(self._usual[1])),
-        )  # fmt: skip
+    def _wrong_in(self, one: Bin) -> list[str]:
+        """Torques of a bin that are wrong."""
+        values = tuple(np.array(one.means[name].value) for name in TORQUES)
+        usual = tuple(map(np.array, self._usual))
+        wrong = wrong_torques(self._train, (values[0], values[1]), (usual[0], usual[1]))
+        return [name for name, is_wrong in zip(TORQUES, wrong, strict=True) if is_wrong]
+
+    def _without(self, one: Bin, names: Sequence[str], reason: str) -> Bin:
         kept: dict[str, Mean] = dict(one.means)
-        for name, mean, is_wrong in zip(names, means, wrong, strict=True):
-            if is_wrong:
-                del kept[name]
+        for name in names:
+            if mean := kept.pop(name, None):
                 self._left_out.add_bin(name, reason, one.number, mean, self._period)
         return Bin(one.number, kept)

@@ -15,10 +15,13 @@ from .contradictions import LOADED, MOVING
 from .left_out import LeftOut
 from .plausibility import OIL, Range, beyond, equals_code, leaps, ranges_of
 from .pulses import Pulses
+from .repeats import STUCK, Repeats
+from .sensors import Sensors, torque_change
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
 
+TORQUES = "input_torque", "output_torque"
 CODE = "the value is a code for a missing or saturated reading"
 SPELLINGS = {
     "speed": "rad/s, rpm, deg/s or Hz", "torque": "N m, N mm, kN m or lbf ft",
@@ -57,7 +60,7 @@ def limit_text(name: str, allowed: Range) -> str:
     """
     limit = f"{allowed.high:.4g} {CHANNELS[name]}"
     if name == OIL:
-        return f"it must be within {allowed.low:g} and {limit}"
+        return f"it must be within {allowed.low:g} and {limit} (messages are in degrees Celsius)"
     return f"it exceeds {allowed.limited_by}, {limit}"
 
 
@@ -89,13 +92,14 @@ class ReadingCheck:
 
     Args:
         train: gear train of the scene.
-        scale: factors that the readings have, by channel; a code has none.
+        sensors: accuracy of the sensors, and factors that the readings have; a code has none.
     """
 
-    def __init__(self, train: FollowedTrain, scale: Mapping[str, float] | None = None) -> None:
+    def __init__(self, train: FollowedTrain, sensors: Sensors) -> None:
         self.left_out = LeftOut()
         self._ranges = ranges_of(train)
-        self._scale = scale or {}
+        self._scale, self._changed = sensors.scale, torque_change(sensors, train)
+        self._repeats: dict[str, Repeats] = {}
         self._nominal = nominal_values(train)
         self._usual: dict[tuple[str, str], float] = {}
         self._rows: dict[str, int] = {}
@@ -131,6 +135,12 @@ class ReadingCheck:
                 for reason, which in pulses.judge(time, values).items():
                     self._omit(name, reason, which, (time, values, rows))
             kept[name] = values
+        if set(TORQUES) <= set(kept) and len(time):
+            repeats = self._repeats.setdefault(sender, Repeats(self._changed))
+            torques = kept[TORQUES[0]], kept[TORQUES[1]]
+            stuck = repeats.judge(torques[0][:, None], torques[1][:, None])
+            for name, which in zip(TORQUES, stuck, strict=True):
+                self._omit(name, STUCK, which[:, 0], (time, kept[name], rows))
         return kept
 
     def finish(self) -> None:

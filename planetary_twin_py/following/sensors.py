@@ -126,6 +126,20 @@ def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
     )
 
 
+def torque_change(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
+    """Change of a single reading of each torque that only a change of the load explains.
+
+    Args:
+        sensors: accuracy of the sensors.
+        train: gear train between them.
+
+    Returns:
+        Changes at the input and at the output [N m].
+    """
+    noise, load = torque_noise(sensors, train), 0.02 * train.torque
+    return max(load, 8.0 * noise[0]), max(load / abs(train.ratio), 8.0 * noise[1])
+
+
 def torque_zero(sensors: Sensors, train: FollowedTrain) -> float:
     """Uncertainty of the sum of both zeros, referred to the input.
 

@@ -18,15 +18,17 @@ from .bifurcation import bifurcation_diagram
 from .clipped import LEGEND, clipped_points, mark
 from .maps import draw_map
 from .quantity import Column, columns, find
+from .sampled import histogram_diagram, points_diagram
 from .stribeck import stribeck_diagram
 from .style import CYCLE, GREY, applied, logarithmic, panels, remark, widen
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-KINDS = ("curves", "map", "stribeck")
+KINDS = ("curves", "map", "points", "histogram", "stribeck")
 MANY = 6  # values of each of two fields for a map
 MOST_PANELS = 12
+MOST_FIELDS = 3  # that curves and panels distinguish
 MOST_LINES = 12
 SHADES = "viridis"
 LABEL = 34  # characters per line of the label of a vertical axis
@@ -54,14 +56,15 @@ def plot_study(
 
     By default the figure depends on the number of fields that vary. One: curves over it. Two: a
     curve for each value of the second, or a map if both have many values. Three: a panel for each
-    value of the third. Failed points are omitted, and the figure states their number.
+    value of the third. More: the points over each of them. Failed points are omitted, and the
+    figure states their number.
 
     Args:
         table: table of a sweep or a bifurcation.
         x: column of the horizontal axis.
         measures: columns to draw, in separate panels; if empty, the first measure.
         by: field distinguished by colour; in a map, the vertical axis.
-        kind: "curves", "map" or "stribeck".
+        kind: "curves", "map", "points", "histogram" or "stribeck".
 
     Returns:
         The figure, in customary units.
@@ -85,7 +88,17 @@ def plot_study(
             figure = stribeck_diagram(known)
         else:
             varying = [name for name in fields(table) if len(known[name].distinct) > 1]
-            figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
+            if kind is None and len({*varying, x, by} - {None, *measures}) > MOST_FIELDS:
+                kind = "points"
+            drawn = [known[name] for name in measures or (_first_measure(known),)]
+            if kind == "histogram":
+                figure = histogram_diagram(drawn)
+            elif kind == "points":
+                over = [name for name in ([x] if x else varying) if name not in measures]
+                _check_panels(len(drawn) * len(over))
+                figure = points_diagram([known[name] for name in over], drawn)
+            else:
+                figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
         notes = [f"{failed} of {len(table)} points failed and are omitted"] if failed else []
         notes += [LEGEND] if clipped_points(known, len(completed)).any() else []
         if notes:
@@ -133,7 +146,9 @@ def _choose(
         by = free.pop(0)
     panel = free.pop(0) if free else None
     if free:
-        raise ValueError(f"{', '.join(free)}: more than three fields vary; fix all but three")
+        raise ValueError(
+            f"{', '.join(free)}: more than three fields vary; fix all but three, or draw points"
+        )
     second = known[by] if by else None
     is_map = kind == "map" or (kind is None and _fill_a_map(known[x], second))
     if is_map and (second is None or not (known[x].is_number and second.is_number)):
@@ -164,8 +179,7 @@ def _fill_a_map(x: Column, by: Column | None) -> bool:
 def _draw(choice: Choice) -> Figure:
     parts = [None] if choice.panel is None else list(choice.panel.distinct)
     places = [(measure, part) for measure in choice.measures for part in parts]
-    if len(places) > MOST_PANELS:
-        raise ValueError(f"{len(places)} panels: must be at most {MOST_PANELS}; draw fewer columns")
+    _check_panels(len(places))
     most = 2 if choice.is_map else 3
     across = min(len(places) if len(parts) == 1 else len(parts), most)
     figure, panes = panels(len(places), 3.6 if len(places) == 1 else 2.9, across)
@@ -191,6 +205,11 @@ def _draw(choice: Choice) -> Figure:
             loc="outside right upper",
         )
     return figure
+
+
+def _check_panels(count: int) -> None:
+    if not 1 <= count <= MOST_PANELS:
+        raise ValueError(f"{count} panels: must be within 1 and {MOST_PANELS}; draw other columns")
 
 
 def _share_limits(panes: list[Axes], count: int) -> None:

@@ -165,7 +165,7 @@ def _without_other_forms(base: dict[str, Any], changes: dict[str, Any]) -> dict[
     if isinstance(oil, dict):
         base = base | {"lubrication": without_other_oil(base.get("lubrication") or {}, oil)}
     if isinstance(gears, dict):
-        replaced = {name: None for name in _replaced(gears.keys())}
+        replaced = dict.fromkeys(_replaced(gears.keys()))
         base = base | {"gearset": (base.get("gearset") or {}) | replaced}
     return base
 

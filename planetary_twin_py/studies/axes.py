@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,9 +11,12 @@ import numpy as np
 from pydantic.fields import FieldInfo
 
 from ..scene import OperatingPoint, Scene, SceneError
+from ..scene.errors import PER_PLANET
 from ..scene.names import no_such_field
-from ..units import has_unit, is_number
+from ..scene.quantity import unit_of
+from ..units import has_unit, is_number, to_si
 
+_NORMAL = re.compile(r"normal\(([^,()]+),([^,()]+)\)")
 LOGARITHMIC = "log"
 MOST_VALUES = 100_000
 
@@ -40,12 +45,51 @@ class Span:
         return np.asarray(self.low + (self.high - self.low) * share)
 
 
-def read_axis(scene: Scene, field: str, text: str) -> Axis | Span:
+@dataclass(frozen=True)
+class Normal:
+    """A field and the normal distribution from which values are drawn."""
+
+    field: str
+    mean: float
+    deviation: float
+    """Standard deviation."""
+
+    def at(self, share: np.ndarray) -> np.ndarray:
+        """Values (n,) below which the shares (n,) of the distribution are, 0 to 1."""
+        from scipy.special import ndtri
+
+        return np.asarray(self.mean + self.deviation * ndtri(share))
+
+
+def planet_by_planet(scene: Scene, field: str, text: str) -> tuple[Scene, tuple[str, ...]]:
+    """Fields that vary where `text` is a distribution: of a value for each planet, all of them.
+
+    Args:
+        scene: has the field.
+        field: dotted name, such as "errors.pin_tangential".
+        text: values, see `read_axis`.
+
+    Returns:
+        The scene, in which each planet has a value, and the names of the fields.
+
+    Raises:
+        ValueError: see `read_axis`.
+    """
+    if field.removeprefix("errors.") not in PER_PLANET or not _NORMAL.fullmatch(text):
+        return scene, (field,)
+    planets = scene.gearset.planets
+    mean = _normal(scene, field, text).mean
+    entries = tuple(f"{field}.{planet}" for planet in range(planets))
+    return scene.replace(**{field: [mean] * planets}), entries
+
+
+def read_axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
     """Parse the values of a field.
 
     ``a,b,c`` lists values, ``a:b:n`` is n values from a to b with equal steps and ``a:b:n:log``
-    with equal ratios; ``a:b`` and ``a:b:log`` are ranges to sample from. Either all values have a
-    unit, as in a scene, or none has.
+    with equal ratios; ``a:b`` and ``a:b:log`` are ranges to sample from, and ``normal(m,s)`` is a
+    normal distribution with the mean m and the standard deviation s. Either all values have a unit,
+    as in a scene, or none has.
 
     Args:
         scene: has the field.
@@ -53,12 +97,16 @@ def read_axis(scene: Scene, field: str, text: str) -> Axis | Span:
         text: the values.
 
     Returns:
-        The values, or the range.
+        The values, the range, or the distribution.
 
     Raises:
         ValueError: `scene` has no such field, a value is out of range, or `text` has none of these
             forms. The message names the field and the text.
     """
+    if _NORMAL.fullmatch(text):
+        return _normal(scene, field, text)
+    if text.startswith("normal("):
+        raise _refusal(field, text, "must be normal(mean,deviation)")
     ends = [part.strip() for part in text.split(":")]
     if len(ends) == 1:
         points = [part.strip() for part in text.split(",")]
@@ -68,7 +116,7 @@ def read_axis(scene: Scene, field: str, text: str) -> Axis | Span:
     logarithmic = ends[-1] == LOGARITHMIC
     numbers = ends[:-1] if logarithmic else ends
     if len(numbers) not in (2, 3):
-        raise _refusal(field, text, "must be a,b,c or a:b:n or a:b, with :log for logarithmic")
+        raise _refusal(field, text, "must be a,b,c, a:b:n, a:b (with :log) or normal(a,b)")
     span = _span(scene, field, text, numbers, logarithmic)
     return span if len(numbers) == 2 else _spread(scene, span, text, numbers[2])
 
@@ -121,6 +169,24 @@ def look_up(scene: Scene, field: str) -> tuple[FieldInfo, Any]:
     return info, node
 
 
+def _normal(scene: Scene, field: str, text: str) -> Normal:
+    found = _NORMAL.fullmatch(text)
+    assert found is not None
+    _check_units(field, text, [part.strip() for part in found.groups()])
+    unit = unit_of(look_up(scene, field)[0])
+    if unit is None:
+        raise _refusal(field, text, "is not a number that a distribution could have")
+    if unit == "K" and has_unit(found[2]) and not found[2].strip().endswith("K"):
+        raise _refusal(field, text, "a standard deviation of a temperature must be in K")
+    try:
+        mean, deviation = (float(to_si(part.strip(), unit)) for part in found.groups())  # type: ignore[arg-type]
+    except ValueError as error:
+        raise _refusal(field, text, f"{error}") from None
+    if not 0.0 < deviation < math.inf:
+        raise _refusal(field, text, "the standard deviation must be above 0")
+    return Normal(field, mean, deviation)
+
+
 def _check_units(field: str, text: str, values: list[str]) -> None:
     """Reject values with and without units: "1,2 rpm" may mean 1.2 rpm, or 1 rpm and 2 rpm."""
     bare = [value for value in values if is_number(value)]
@@ -152,7 +218,7 @@ def _spread(scene: Scene, span: Span, text: str, count: str) -> Axis:
     return Axis(span.field, admitted(scene, span, values))
 
 
-def admitted(scene: Scene, span: Span, values: np.ndarray) -> tuple[Any, ...]:
+def admitted(scene: Scene, span: Span | Normal, values: np.ndarray) -> tuple[Any, ...]:
     """Values (n,) as the field accepts them: rounded for an integer field, without duplicates.
 
     Args:
@@ -160,7 +226,7 @@ def admitted(scene: Scene, span: Span, values: np.ndarray) -> tuple[Any, ...]:
         span: the field and its range.
         values: values in SI, (n,).
     """
-    whole = isinstance(span.low, int)
+    whole = isinstance(span, Span) and isinstance(span.low, int)
     numbers = [round(value) if whole else float(value) for value in values]
     return tuple(dict.fromkeys(read_value(scene, span.field, number) for number in numbers))
 

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ..scene import Scene
+from ..scene import Scene, SceneError
 from ..simulation import check_run
 from ..window_plan import LONGEST_WINDOW
-from .axes import Axis, Span, admitted
+from .axes import Axis, Normal, Span, admitted
 
 MOST_POINTS = 1_000_000
 
@@ -103,7 +103,9 @@ class Study:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
 
 
-def grid(scene: Scene, axes: Sequence[Axis | Span], settings: Settings = Settings()) -> Study:
+def grid(
+    scene: Scene, axes: Sequence[Axis | Span | Normal], settings: Settings = Settings()
+) -> Study:
     """All combinations of the values of the axes; the last axis varies fastest.
 
     Args:
@@ -119,6 +121,8 @@ def grid(scene: Scene, axes: Sequence[Axis | Span], settings: Settings = Setting
             points.
     """
     for axis in axes:
+        if isinstance(axis, Normal):
+            raise ValueError(f"{axis.field}: a distribution requires a number of samples")
         if isinstance(axis, Span):
             raise ValueError(
                 f"{axis.field}: a range without a count; write {axis.low:g}:{axis.high:g}:5 for "
@@ -133,7 +137,7 @@ def grid(scene: Scene, axes: Sequence[Axis | Span], settings: Settings = Setting
 
 def latin_hypercube(
     scene: Scene,
-    axes: Sequence[Axis | Span],
+    axes: Sequence[Axis | Span | Normal],
     samples: int,
     seed: int = 0,
     settings: Settings = Settings(),
@@ -145,7 +149,7 @@ def latin_hypercube(
 
     Args:
         scene: the gearbox.
-        axes: fields with their ranges or values.
+        axes: fields with their ranges, distributions or values.
         samples: number of points.
         seed: seed of the random generator.
         settings: settings of each run.
@@ -165,13 +169,21 @@ def latin_hypercube(
     return _study(scene, axes, zip(*columns, strict=True), settings)
 
 
-def _drawn(scene: Scene, axis: Axis | Span, share: Any) -> list[Any]:
+def _drawn(scene: Scene, axis: Axis | Span | Normal, share: Any) -> list[Any]:
     if isinstance(axis, Axis):
         return [axis.values[int(s * len(axis.values))] for s in share]
-    return [admitted(scene, axis, np.array([value]))[0] for value in axis.at(share)]
+    try:
+        return [admitted(scene, axis, np.array([value]))[0] for value in axis.at(share)]
+    except SceneError as error:
+        if isinstance(axis, Span):
+            raise
+        law = f"normal({axis.mean:g}, {axis.deviation:g})"
+        raise ValueError(f"{axis.field} = {law}: {len(share)} samples reach {error}") from None
 
 
-def _study(scene: Scene, axes: Sequence[Axis | Span], rows: Any, settings: Settings) -> Study:
+def _study(
+    scene: Scene, axes: Sequence[Axis | Span | Normal], rows: Any, settings: Settings
+) -> Study:
     fields = tuple(axis.field for axis in axes)
     for field in fields:
         if fields.count(field) > 1:

@@ -13,7 +13,7 @@ from ..scene import Scene
 from ..twin import Twin
 from ..window import Window
 from ..window_plan import LOWEST_SAMPLE_RATE
-from .axes import Axis, Span
+from .axes import Axis, Normal, Span
 from .measures import row
 from .plan import Point, describe, grid
 from .sweep import Report
@@ -65,7 +65,10 @@ _SHORT = 1e-6  # [s], a run from which to read the mesh frequency
 
 
 def stribeck(
-    scene: Scene, axis: Axis | Span, executor: Executor, report: Report = lambda done, failure: None
+    scene: Scene,
+    axis: Axis | Span | Normal,
+    executor: Executor,
+    report: Report = lambda done, failure: None,
 ) -> pa.Table:
     """Sweep over `axis`, usually the input speed, with the scene of `stribeck_scene`.
 

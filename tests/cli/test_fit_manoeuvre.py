@@ -66,9 +66,9 @@ def fit_of(table, columns, *options):
 @pytest.mark.parametrize(
     ("name", "factor", "line"),
     [
-        ("output_torque", -1.0, "scale output_torque by -1"),
-        ("input_torque", 1e-3, "input_torque is probably in kN m: scale input_torque by 1000"),
-        ("input_speed", 60.0, "probably rpm: scale input_speed by 0.10472"),
+        ("output_torque", -1.0, "output_torque/input_torque = -2."),
+        ("input_torque", 1e-3, "must be near 2.333 (no loss)"),
+        ("input_speed", 60.0, "exceeds 1.2 times drive.speed_limit"),
     ],
 )
 def test_a_wrong_sign_or_unit_is_refused_in_one_line(tmp_path, steady, name, factor, line):

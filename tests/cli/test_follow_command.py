@@ -85,7 +85,7 @@ def test_a_wrong_unit_is_named_and_mended(readings, folder):
         for row in rows:
             table.writerow(row | {"output_speed": float(row["output_speed"]) * 9.549297})
     message = fails("follow", "paper", "--from", wrong)
-    assert "output_speed is probably in rpm: scale output_speed by 0.10472" in message
+    assert "output_speed/input_speed = -4.09" in message
     assert "ESTIMATED" in cli("follow", "paper", "--from", wrong, "--scale", "output_speed=0.10472")
 
 

@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.cli.sweep import _kept
 
 QUICK = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
 
@@ -154,3 +155,24 @@ def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):
         for cosine, angle in zip(cosines, transverse, strict=True)
     ]
     assert found == pytest.approx(expected, rel=1e-2)
+
+
+def test_an_interrupted_study_says_what_is_kept_and_how_to_continue(tmp_path, capsys):
+    journal = tmp_path / "study.parquet.journal"
+    journal.write_text('{"key": "a", "figures": {}}\n' * 3)
+    with pytest.raises(KeyboardInterrupt), _kept(journal, 40):
+        raise KeyboardInterrupt
+    said = capsys.readouterr().err
+    assert f"3 of 40 points are kept in {journal}; repeat the command to continue" in said
+
+
+def test_a_distribution_ends_with_its_percentiles_and_a_histogram(tmp_path):
+    out = tmp_path / "tolerance.png"
+    arguments = ["paper", "--set", "dynamics=quasi_static", "--samples", "12", "--duration", "0.01"]
+    arguments += ["--settling", "0", "--backlash", "normal(2 um,0.1 um)", "--y", "efficiency"]
+    done = CliRunner().invoke(build_app(), ["sweep", *arguments, "--out", str(out)])
+    assert done.exit_code == 0, done.output
+    assert "50 %" in done.stdout and "efficiency" in done.stdout
+    assert out.stat().st_size > 0
+    wrong = CliRunner().invoke(build_app(), ["sweep", *arguments, "--y", "eff", "--out", str(out)])
+    assert wrong.exit_code == 2 and "--y = 'eff': must be one of" in wrong.stderr

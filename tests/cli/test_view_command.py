@@ -6,6 +6,9 @@ import sys
 import pytest
 from command_line import run_here
 from synthetic_recording import write_recording
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
 
 
 @pytest.fixture(scope="module")
@@ -55,3 +58,18 @@ def test_help_imports_neither_rerun_nor_the_compiler_nor_ros():
     code = f"import sys; from planetary_twin_py.cli import build_app; build_app(); print({heavy})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
+
+
+def test_a_long_recording_is_shown_in_part_and_the_rest_on_request(tmp_path, monkeypatch):
+    monkeypatch.setattr("planetary_twin_py.cli.view.MOST_STATES", 20)
+    long = write_recording(tmp_path / "long.mcap", 0.5)
+    arguments = "view", long, "--scene", "paper", "--save"
+    answer = CliRunner().invoke(build_app(), list(map(str, (*arguments, tmp_path / "a.rrd"))))
+    assert answer.exit_code == 0
+    assert "more than 20 states: only those from 0.01 to" in answer.stderr
+    options = "--during", "0.3:0.4"
+    answer = CliRunner().invoke(
+        build_app(), list(map(str, (*arguments, tmp_path / "b.rrd", *options)))
+    )
+    assert answer.exit_code == 0
+    assert "more than" not in answer.stderr

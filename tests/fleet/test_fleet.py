@@ -137,11 +137,11 @@ def test_a_period_out_of_range_is_refused():
 
 RPM = 30.0 / np.pi
 WRONG = {
-    "reversed speed": ({"input_speed": -1.0}, "signs of both torques or of both speeds"),
-    "reversed torque": ({"output_torque": -1.0}, "scale output_torque by -1"),
-    "torque in N mm": ({"output_torque": 1e3}, "output_torque is probably in N mm"),
-    "speed in rpm": ({"input_speed": 2.0 * RPM}, "probably rpm: scale input_speed by 0.10472"),
-    "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "probably degC"),
+    "reversed speed": ({"input_speed": -1.0}, "loss torque = -"),
+    "reversed torque": ({"output_torque": -1.0}, "output_torque/input_torque = -2."),
+    "torque in N mm": ({"output_torque": 1e3}, "exceeds 2 times drive.torque_limit"),
+    "speed in rpm": ({"input_speed": 2.0 * RPM}, "exceeds 1.2 times drive.speed_limit"),
+    "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "is headed oil_temperature [degC]"),
     "loss above the input power": ({"output_torque": -0.05}, "output_torque/input_torque"),
 }
 
@@ -228,3 +228,28 @@ def test_a_step_that_is_found_while_a_reading_is_missing_has_its_share():
     assert found.found == gap and found.share == pytest.approx(expected.share, rel=0.2)
     assert fleet.missing.tolist() == [0, 0, 0, 1, *[0] * 16]
     assert fleet.first_missing[3] == gap and np.isnan(fleet.first_missing[2])
+
+
+@pytest.mark.parametrize(
+    ("channel", "value"),
+    [("input_torque", -9999.0), ("output_torque", 0.0), ("output_torque", 0.3),
+     ("input_torque", 1e6), ("input_speed", -9999.0 / RPM)],
+)  # fmt: skip
+def test_readings_that_no_machine_has_are_left_out_and_change_nothing(channel, value):
+    played, good, fleet = Played(3, 12), Fleet(paper(), 3), Fleet(paper(), 3)
+    for time in range(1, 401):
+        row = played.row(float(time))
+        wrong = {name: values.copy() for name, values in row.items()}
+        if 200 < time <= 220:
+            wrong[channel][1] = value
+            row[channel][1] = np.nan
+        good.add(float(time), row)
+        fleet.add(float(time), wrong)
+    fleet.finish()
+    good.finish()
+    assert not fleet.events and not fleet.faults and fleet.missing[1] == 20
+    level, expected = fleet.estimate("friction_level"), good.estimate("friction_level")
+    assert np.array_equal(level.value, expected.value)
+    (line,) = fleet.remarks(1)
+    assert line.startswith(f"{channel}: left out, because ")
+    assert "from 201.00 to 220.00 s (20 readings, rows 201 to 220)" in line

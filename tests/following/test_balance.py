@@ -153,9 +153,19 @@ def test_a_gain_that_changes_during_the_run_is_one_event(kind):
 
 
 @pytest.mark.parametrize("kind", first(1, ["varied", "reversing"]))
-def test_a_dead_torque_sensor_gives_three_events_at_most(kind):
+def test_a_dead_torque_sensor_is_named_and_gives_no_event(kind):
     _, time, columns = played(kind, {}, 120.0, 4)
     columns["input_torque"] = np.where(time > 30.0, 0.0, columns["input_torque"])
+    follower = BalanceFollower(paper())
+    follower.add(time, columns)
+    assert not follower.events
+    assert any("input_torque: left out" in line for line in follower.remarks())
+
+
+def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
+    _, time, columns = played("steady", {}, 100.0, 4)
+    gain = 1.0 + 0.04 * np.sign(np.sin(2.0 * np.pi * (time - 30.0) / 30.0)) * (time > 30.0)
+    columns["input_torque"] = gain * columns["input_torque"]
     follower = BalanceFollower(paper())
     follower.add(time, columns)
     *_, last = follower.events
@@ -167,7 +177,7 @@ def test_a_gain_that_makes_the_loss_negative_is_named():
         "steady", {}, 10.0, 1, sensors={"input_torque": {"noise": 0.1, "gain": -0.1}}
     )
     follower = BalanceFollower(paper())
-    with pytest.raises(InputError, match="a gain that is wrong by 9"):
+    with pytest.raises(InputError, match=r"loss torque = -.*gains of both torques right"):
         follower.add(time, columns)
 
 

@@ -156,15 +156,26 @@ def test_it_is_refused_too_if_the_train_turns_only_after_a_minute(readings, what
         follower.finish()
 
 
-@pytest.mark.parametrize("what", ["reversed torque", "speed of the output in rpm"])
-def test_readings_that_become_wrong_during_the_run_are_a_remark_with_their_time(what):
-    factors, said = WRONG[what]
+def become_wrong(what):
+    """Remarks on readings that are wrong from 12 s on."""
     time, columns = played("steady", {}, 30.0)[1:]
     follower = Follower(paper())
-    follower.add(Readings(time, from_second(12.0, time, columns, factors)))
+    follower.add(Readings(time, from_second(12.0, time, columns, WRONG[what][0])))
     follower.finish()
-    (line,) = (line for line in follower.estimate().remarks if re.search(said, line))
+    assert not follower.estimate().events
+    return follower.estimate().remarks
+
+
+def test_speeds_that_become_wrong_during_the_run_are_a_remark_with_their_time():
+    what = "speed of the output in rpm"
+    (line,) = (line for line in become_wrong(what) if re.search(WRONG[what][1], line))
     assert line.startswith("readings after 10.0 s contradict the scene")
+
+
+def test_a_torque_that_becomes_wrong_during_the_run_is_left_out_with_its_time():
+    (line,) = become_wrong("reversed torque")
+    assert line.startswith("output_torque: left out, because both torques show a loss that no")
+    assert "from 12.00 to 30.10 s (1800 readings)" in line
 
 
 def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
@@ -174,7 +185,7 @@ def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
     follower.add(Readings(time, columns | {"oil_temperature": wrong}))
     follower.finish()
     found = follower.estimate()
-    assert any("it must be within 200 and 475 K: 70 K from 12.01" in one for one in found.remarks)
+    assert any("(messages are in degrees Celsius): 70 K from 12.01" in one for one in found.remarks)
     assert found.operating[1] == pytest.approx(343.15)
 
 

@@ -166,7 +166,7 @@ def test_no_point_is_hollow_without_clipping():
         ({"measures": ["efficency"]}, "y = 'efficency': .*efficiency"),
         ({"x": "input_sped"}, "x = 'input_sped': .*input_speed"),
         ({"by": "nothing"}, "by = 'nothing'"),
-        ({"kind": "pie"}, "kind = 'pie': must be one of curves, map, stribeck"),
+        ({"kind": "pie"}, "kind = 'pie': must be one of curves, map, points, histogram, stribeck"),
         ({"kind": "map"}, "a map needs two numerical fields"),
         ({"kind": "stribeck"}, "sun_planet_lambda_ratio"),
     ],
@@ -188,3 +188,26 @@ def test_a_table_of_failures_is_refused():
     table = study({"input_speed": SPEEDS}, {"efficiency": efficiency}, failed=(0, 1, 2))
     with pytest.raises(ValueError, match="all points of the table failed"):
         pt.plot_study(table)
+
+
+def test_more_than_three_fields_are_points_over_each():
+    fields = {
+        "input_speed": SPEEDS[:2],
+        "input_torque": TORQUES,
+        "backlash": (2e-7, 3e-7),
+        "lambda_ratio": (1.0, 2.0),
+    }
+    axes = pt.plot_study(study(fields, {"efficiency": lambda s, t, *_: 0.9 + 1e-3 * t})).axes
+    assert len(axes) == 4
+    ((x, y),) = drawn(axes[1]).values()
+    assert axes[1].get_xlabel() == "Input torque [N m]" and len(x) == 16
+    assert y == pytest.approx(90.0 + 0.1 * x)
+
+
+def test_a_histogram_counts_each_point_and_marks_percentiles():
+    fields = {"input_torque": tuple(np.linspace(5.0, 60.0, 101))}
+    table = study(fields, {"efficiency": lambda t: 1e-2 * t})
+    (axes,) = pt.plot_study(table, kind="histogram").axes
+    assert sum(bar.get_height() for bar in axes.patches) == 101
+    marks = [line.get_xdata()[0] for line in axes.get_lines()]
+    assert marks == pytest.approx([5.0 + 55.0 * share for share in (0.05, 0.5, 0.95)])

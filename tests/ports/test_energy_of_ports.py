@@ -152,6 +152,7 @@ def test_work_of_a_motor_is_the_integral_of_its_torque_times_speed():
     assert after - before == pytest.approx(work, rel=1e-6)
 
 
+@pytest.mark.filterwarnings("ignore:the energy ledger")  # at 1e-4, and names a remedy
 def test_the_ledger_converges_where_shafts_swing_many_times_in_free_flight():
     """Light gears with runout, and a stiff shaft whose swing lasts a small part of a step."""
     scene = pt.load_scene("paper").replace(

@@ -108,6 +108,10 @@ def stamp(message: Any, time: float) -> None:
     message.header.stamp.sec, message.header.stamp.nanosec = whole, part
 
 
+def stamp_of(message: Any) -> float:
+    return float(message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec)
+
+
 @pytest.fixture
 def rig(peer: Peer) -> Iterator[Rig]:
     yield Rig(peer)
@@ -145,8 +149,8 @@ def test_spoilt_readings_are_counted_and_not_used(rig: Rig, start: Start) -> Non
 @pytest.mark.parametrize(
     ("scale", "words"),
     [
-        ({"output_speed": 30 / math.pi}, "output_speed is probably in rpm: scale output_speed by"),
-        ({"torque": -1.0}, "sign of one torque is reversed: scale output_torque by -1"),
+        ({"output_speed": 30 / math.pi}, "output_speed/input_speed = -4.09"),
+        ({"torque": -1.0}, "output_torque/input_torque = -2.3"),
     ],
 )
 def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(
@@ -177,7 +181,9 @@ def test_both_speeds_in_rpm_are_recognised_by_the_positions(rig: Rig, start: Sta
         message.position = [angle % math.tau, RATIO * angle % math.tau]
         message.velocity = [30 / math.pi * speed for speed in message.velocity]
         rig.joints.publish(message)
-    rig.reported("inputs", DiagnosticStatus.ERROR, "probably in rpm: scale input_speed by 0.10472")
+    rig.reported(
+        "inputs", DiagnosticStatus.ERROR, "if the speed is in rpm, scale input_speed by 0.10472"
+    )
 
 
 def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start) -> None:
@@ -186,7 +192,43 @@ def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start)
     stamp(warm, BEGIN)
     rig.oil.publish(warm)
     rig.send(0.0, 2.0)
-    rig.reported("inputs", DiagnosticStatus.ERROR, "probably uses kelvin")
+    words = "oil_temperature: left out, because it must be within 200 and 475 K"
+    rig.reported("estimator", DiagnosticStatus.WARN, words)
+
+
+def test_a_follower_outlives_readings_that_no_machine_has(rig: Rig, start: Start) -> None:
+    """A spike, a code for a missing reading, a cable, stamps of 0 and positions that stand."""
+    begin(start, rig)
+    for n in range(1200):
+        message = rig.reading(n / RATE)
+        message.position = [0.0, 0.0]
+        if 300 <= n < 310:
+            message.effort[0] = 1e6
+        if 500 <= n < 510:
+            message.effort[1] = -9999.0
+        if 700 <= n < 900:
+            message.effort[1] = 0.0
+        if n % 100 == 50:
+            stamp(message, 0.0)
+        rig.joints.publish(message)
+    for words in (
+        "exceeds 2 times drive.torque_limit, 2000 N m: 1e+06 N m",
+        "code for a missing or saturated reading: -9999 N m",
+        "loss that no gearbox has",
+        "have the stamp 0",
+        "positions of this shaft do not move",
+    ):
+        rig.reported("estimator", DiagnosticStatus.WARN, words)
+    last = rig.user.until(lambda: [one for one in rig.estimates if stamp_of(one) > BEGIN + 11.5])
+    assert last[-1].input_torque == pytest.approx(63.0, abs=0.2)
+    assert last[-1].loss_torque == pytest.approx(0.8, abs=0.2)
+    events = [
+        status
+        for message in rig.reports
+        for status in message.status
+        if status.name.endswith("condition") and status.level != DiagnosticStatus.OK
+    ]
+    assert not events
 
 
 def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:

@@ -15,6 +15,7 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "simulate": lambda scene: pt.simulate(scene, 0.1),
     "Twin": pt.Twin,
     "choose_dynamics": pt.choose_dynamics,
+    "check_exchange": lambda scene: pt.check_exchange(scene, pt.load_scene("paper"), 1e-3),
     "export_fmu": lambda scene: pt.export_fmu(scene, "never.fmu"),
     "load_sharing": pt.load_sharing,
     "natural_modes": pt.natural_modes,

@@ -66,7 +66,7 @@ LAUGHS = "a: &a [lol, lol]\n" + "".join(
         ("a: !!python/object/apply:os.system [x]", "could not determine a constructor"),
         ('a: "\\ud800"', "scene is not YAML: "),
         ('base: paper\n"\\e[31mred": 1', "\\x1b[31mred: no such field"),
-        ("base: [paper]", "X"),
+        ("base: [paper]", "base = \"['paper']\": must be a file NAME.yaml"),
     ],
 )
 def test_a_hostile_text_is_refused_in_one_short_line(text, reason):

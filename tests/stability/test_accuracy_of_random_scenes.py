@@ -52,6 +52,25 @@ def test_errors_keep_to_ten_tolerances_or_the_run_warns_and_every_ledger_closes(
     assert open_ledgers == []
 
 
+@pytest.mark.release
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("seed", range(101, 131))
+def test_every_printed_figure_of_any_scene_keeps_to_ten_tolerances_or_the_run_warns(seed):
+    """Ten scenes of any dynamics and ports, and differentials, against the other method at 1e-7."""
+    script, random, silent, compared = _benchmark(), np.random.default_rng(seed), [], 0
+    for number in range(10):
+        try:
+            errors, warned = script.compare_printed(script.any_scene(random), TOLERANCE)
+        except (ValueError, pt.RunawayError):
+            continue
+        compared += 1
+        beyond = {name: error for name, error in errors.items() if not error < 10.0}
+        if beyond and not warned:
+            silent.append((number, beyond))
+    assert compared >= 3
+    assert silent == []
+
+
 @pytest.mark.parametrize(
     ("input_speed", "input_torque"), [(-59.0, 18.0), (-46.86, 10.235), (578.8, 2.156)]
 )

@@ -73,3 +73,47 @@ def test_flanks_cross_a_wide_play_as_free_bodies():
     assert flight.dte[free, :3] == pytest.approx(np.tile(expected[:, None], 3), abs=1e-6)
     landed = flight.time > crossed + 1.0 / twin.sample_rate
     assert flight.mesh_force[landed, :3].max(axis=1)[0] < 0.0
+
+
+def test_peak_forces_keep_to_the_tolerance_however_wide_the_backlash():
+    """Planets with clearance, whose flanks stay in contact: forces bend teeth by 1 um of 1 mm."""
+    scene = PAPER.replace(
+        **{
+            "dynamics": "planar",
+            "gearset.teeth": {"sun": 59, "planet": 22, "ring": 103},
+            "gearset.module": 3.264e-3,
+            "gearset.pressure_angle": np.deg2rad(20.0),
+            "gearset.addendum": 0.8,
+            "gearset.face_width": 0.045,
+            "gearset.planet_angles": tuple(np.deg2rad([0.0, 120.0, 242.0 + 2.0 / 9.0])),
+            "gearset.held": "sun",
+            "gearset.equivalent_mass": {"sun": 5.0, "planet": 0.47, "ring": 11.8, "carrier": 2.1},
+            "gearset.planet_mass": 1.4,
+            "mesh.sun_planet_stiffness": 4.6e8,
+            "mesh.planet_ring_stiffness": 5.2e8,
+            "mesh.damping.loss_factor": 0.009,
+            "lubrication.friction": False,
+            "supports": {
+                "sun": {"mass": 8.0, "bearing": 2.6e7, "clearance": 5e-6},
+                "planet": {"mass": 1.06, "bearing": 3e8, "clearance": 5e-5},
+                "ring": {"mass": 6.7, "bearing": 2.7e8},
+                "carrier": {"mass": 4.2, "bearing": 3.7e7},
+            },
+            "drive.input.member": "ring",
+            "drive.input.inertia": 3.9,
+            "drive.input.coupling_stiffness": 27600.0,
+            "drive.input.coupling_damping": 25.0,
+            "drive.output.member": "carrier",
+            "drive.output.inertia": 0.8,
+            "drive.output.coupling_stiffness": 7.3e5,
+            "drive.output.coupling_damping": 40.0,
+            "backlash": 1e-3,
+            "input_speed": -17.0 * np.pi / 30.0,
+            "input_torque": 238.0,
+        }
+    )
+    found, exact = (
+        pt.simulate(scene, 0.1, 2e4, method, tolerance).mesh["mesh_force_peak"]
+        for method, tolerance in (("auto", 1e-4), ("rosenbrock", 1e-6))
+    )
+    assert found == pytest.approx(exact, rel=1e-3)

@@ -52,7 +52,7 @@ def test_a_range_without_a_count_is_sampled():
         ("backlash", "1:2:3", r"backlash = 1\.0: must be a number within 0 and 0\.001 m"),
         ("backlash", "1e-7:2e-7:x", r"'1e-7:2e-7:x': 'x' must be a count within 2 and"),
         ("backlash", "1e-7:2e-7:1", r"'1' must be a count"),
-        ("backlash", "1:2:3:4:5", r"must be a,b,c or a:b:n or a:b"),
+        ("backlash", "1:2:3:4:5", r"must be a,b,c, a:b:n"),
         ("backlash", "1e-7:1e-7:3", r"both ends are equal"),
         ("backlash", "0:1e-7:3:log", r"must have the same sign"),
         ("dynamics", "torsional:quasi_static:2", r"is not a number; list its values"),

@@ -16,6 +16,8 @@
 #include "integrators/window_sums.hpp"
 #include "mesh/both_flanks.hpp"
 #include "mesh/contact_change.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/join_flanks.hpp"
 #include "train/set_step_constants.hpp"
 #include "tribology/tooth_friction.hpp"
 
@@ -29,6 +31,30 @@ constexpr double SLIDING_SHARE = 60.0, CREEPING_SHARE = 1.0;
 constexpr double AT_TARGET =
     1e-12;  // [s] of the slew rate, by which a set-point may miss its target
 
+// Largest allowed error of a transmission error, in tolerances of the elastic deflection. Without
+// it, errors would be relative to half the backlash, which flanks that stay in contact do not
+// cross: forces would be wrong by many times the tolerance.
+constexpr double MOST_OF_ELASTIC = 10.0;
+
+// Whether flanks part: some have, and those of a mesh are apart.
+bool flanks_part(const Train& train, const Integrator& integrator) {
+    const State& state = integrator.begin;
+    if (integrator.control.flank_events == 0) return false;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const bool other = MOVING && state.side[other_flank(train, i)] != OPEN;
+        if (state.side[i] == OPEN && !other) return true;
+    }
+    return false;
+}
+
+// Largest deflection of a mesh beyond half the backlash [m].
+double largest_squeeze(const Model& model, const State& state) {
+    double largest = 0.0;
+    for (std::int64_t i = 0; i < model.train.meshes; ++i)
+        largest = std::max(largest, std::fabs(mesh_motion(model.train, i, state.x)));
+    return largest - model.load.half_backlash;
+}
+
 // Allow errors in proportion to the deflection of the meshes by torques or by inertia.
 //
 // Friction reverses within a small range of sliding speeds, which limits errors of speeds where the
@@ -36,9 +62,15 @@ constexpr double AT_TARGET =
 void set_tolerances(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
     Control& control = integrator.control;
-    double deflection = control.deflection;
+    double by_inertia = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a)
-        deflection += control.acceleration_deflection[a] * std::fabs(integrator.constants.slew[a]);
+        by_inertia += control.acceleration_deflection[a] * std::fabs(integrator.constants.slew[a]);
+    double deflection = control.deflection + by_inertia;
+    double elastic = control.elastic_deflection + by_inertia;
+    if (deflection > MOST_OF_ELASTIC * elastic && !flanks_part(train, integrator)) {
+        elastic = std::max(elastic, largest_squeeze(model, integrator.begin));
+        deflection = std::min(deflection, MOST_OF_ELASTIC * elastic);
+    }
     control.tolerance_x = control.tolerance * deflection;
     control.tolerance_v = control.tolerance_x * control.speed_per_deflection;
     if (!train.friction) return;

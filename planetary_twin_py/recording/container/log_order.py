@@ -38,7 +38,7 @@ def records_in_log_order(file: Path, remarks: list[str]) -> Iterator[Any]:
     Raises:
         RecordingError: nothing can be read.
     """
-    yield from merged(_reached(sections_in_log_order(file, remarks)))
+    yield from merged(_reached(_sections(file, remarks)))
 
 
 def merged(parts: Iterable[tuple[int, Iterable[Any]]]) -> Iterator[Any]:
@@ -73,7 +73,7 @@ def _reached(sections: Iterable[Section]) -> Iterator[tuple[int, list[Any]]]:
         yield newest - DISORDER, records
 
 
-def sections_in_log_order(file: Path, remarks: list[str]) -> Iterator[Section]:
+def _sections(file: Path, remarks: list[str]) -> Iterator[Section]:
     """All sections as of `sections_of`, none later by more than `DISORDER` than one after it.
 
     A file in another order is read twice: first everything but the messages.

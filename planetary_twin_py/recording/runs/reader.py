@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -10,12 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mcap.records import Attachment, Channel
+from mcap.records import Attachment, Channel, Message
 from numpy.typing import NDArray
 
 from ...printable import one_line
-from ..container.log_order import sections_in_log_order
-from ..container.records import RecordingError, files_of
+from ..container.records import RecordingError, files_of, sections_of
 from ..ros2.decode import Topics
 from ..ros2.definitions import KINDS
 from ..ros2.layout import Layouts
@@ -71,6 +71,8 @@ class Recording:
     remarks: list[str] = field(default_factory=list)
     topics: frozenset[str] = frozenset()
     """Names of all topics in the files."""
+    complete: bool = True
+    """False if states after the last one were not read, see `read_recording`."""
 
     @cached_property
     def ranges(self) -> Ranges | None:
@@ -131,36 +133,51 @@ class Recording:
         return np.concatenate(pair, axis=1)
 
 
-def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
+def read_recording(
+    path: str | Path,
+    namespace: str | None = None,
+    most: int | None = None,
+    span: TimeSpan = (-math.inf, math.inf),
+) -> Recording:
     """Read a recording.
 
     Args:
         path: path of an .mcap file, or a folder of them.
         namespace: namespace of the gearbox; None if there is only one.
+        most: number of states after which reading stops, because all are kept in memory; None
+            reads all.
+        span: time span [s of simulated time] of the states and samples to read.
 
     Returns:
         The recording.
 
     Raises:
-        RecordingError: there is nothing to read.
+        RecordingError: there is nothing to read, or no state in `span`.
     """
-    collected = _Collector()
+    collected = _Collector(math.inf if most is None else most, span)
     for file in files_of(Path(path), collected.remarks):
-        collected.read(file)
+        if collected.complete:
+            collected.read(file)
     counts = collected.counts()
     namespace = choose_namespace(counts, namespace, path)
     collected.remarks += filter(None, [no_run_yet(Path(path), counts)])
-    rows = {
-        name: collected.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT, AXES_STATE)
-    }
+    rows = {name: collected.rows(f"{namespace}/{name}") for name in (STATE, POINT, AXES_STATE)}
+    if not rows[STATE]:
+        raise RecordingError(f"{path}: has no state from {span[0]:g} to {span[1]:g} s")
     blocks = collected.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
     axes_blocks = collected.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
     recording = assemble(rows, blocks, axes_blocks, Path(path), namespace)
     scene = collected.scene_yaml or _scene(
-        collected.rows.get(f"{namespace}/{ORIGIN}", []), collected.remarks
+        collected.rows(f"{namespace}/{ORIGIN}"), collected.remarks
     )
     topics = frozenset(collected.topics)
-    return replace(recording, scene_yaml=scene, remarks=collected.remarks, topics=topics)
+    return replace(
+        recording,
+        scene_yaml=scene,
+        remarks=collected.remarks,
+        topics=topics,
+        complete=collected.complete,
+    )
 
 
 def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
@@ -224,10 +241,17 @@ def _is_read(topic: str) -> bool:
 
 
 class _Collector:
-    """Collects structured arrays and waveform blocks of files, by topic."""
+    """Collects structured arrays and waveform blocks of files, by topic.
 
-    def __init__(self) -> None:
-        self.rows: dict[str, list[NDArray[Any]]] = {}
+    `complete` is false after `most` states. States and blocks outside `span` [s] are left out.
+    """
+
+    def __init__(self, most: float, span: TimeSpan) -> None:
+        self.complete = True
+        self._room = most
+        self._begin, self._end = span
+        self._seen: Counter[str] = Counter()
+        self._parts: dict[str, list[tuple[int, NDArray[Any]]]] = {}
         self.blocks: dict[str, Blocks] = {}
         self.axes_blocks: dict[str, AxesInFile] = {}
         self.scene_yaml: str | None = None
@@ -240,8 +264,8 @@ class _Collector:
         topics = Topics(file, _is_read)
         sources: dict[int, Source] = {}
         self._repeats.next_file()
-        for section in sections_in_log_order(file, self.remarks):
-            messages: dict[int, list[bytes]] = {}
+        for section in sections_of(file, self.remarks):
+            messages: dict[int, list[Message]] = {}
             for record in section.records:
                 if isinstance(record, Channel):
                     self.topics.add(record.topic)
@@ -258,16 +282,21 @@ class _Collector:
                         )
                         layouts = Layouts(fields, described.kind)
                         sources[channel] = Source(file, channel, described.topic, layouts)
-                    messages.setdefault(channel, []).append(record.data)
-            for channel, data in messages.items():
-                self._add(sources[channel], section.place, data)
+                    messages.setdefault(channel, []).append(record)
+            for channel, found in messages.items():
+                self._add(sources[channel], section.place, found)
+            if self._room < 0:
+                self.complete = False
+                return
+
+    def rows(self, topic: str) -> list[NDArray[Any]]:
+        """The messages of a topic, in the order of the log times of their sections."""
+        parts = sorted(self._parts.get(topic, []), key=lambda part: part[0])
+        return [rows for _, rows in parts]
 
     def counts(self) -> dict[str, int]:
-        """Rows by topic; 1 for topics that are not read."""
-        return {
-            topic: sum(map(len, self.rows.get(topic, []))) if _is_read(topic) else 1
-            for topic in self.topics
-        }
+        """Messages by topic, also outside the span; 1 for topics that are not read."""
+        return {topic: self._seen[topic] if _is_read(topic) else 1 for topic in self.topics}
 
     def _remark_absent(self, topic: str, fields: Collection[str]) -> None:
         remark = f"{topic}: recorded by another version, without {', '.join(fields)}"
@@ -285,15 +314,33 @@ class _Collector:
             )
             return None
 
-    def _add(self, source: Source, place: int, messages: list[bytes]) -> None:
-        for rows in source.arrays(messages):
-            topic = source.topic.rpartition("/")[2]
+    def _add(self, source: Source, place: int, messages: list[Message]) -> None:
+        topic = source.topic.rpartition("/")[2]
+        messages.sort(key=lambda message: message.log_time)
+        begin = messages[0].log_time
+        for every in source.arrays([message.data for message in messages]):
+            self._seen[source.topic] += len(every)
+            rows = self._within(topic, every)
+            self._room -= len(rows) if topic == STATE else 0
+            if not len(rows):
+                continue
             if topic == AXES_WAVEFORM:
                 self.axes_blocks.setdefault(source.topic, AxesInFile()).add(source, place, rows)
             elif topic == WAVEFORM:
                 self.blocks.setdefault(source.topic, Blocks()).add(source, place, rows)
             else:
-                self.rows.setdefault(source.topic, []).append(rows)
+                self._parts.setdefault(source.topic, []).append((begin, rows))
+
+    def _within(self, topic: str, rows: NDArray[Any]) -> NDArray[Any]:
+        """The rows whose times overlap the span; all of operating points."""
+        if topic in (WAVEFORM, AXES_WAVEFORM):
+            first = rows["start_time"]
+            last = first + (np.maximum(rows["samples"], 1) - 1.0) * rows["sample_period"]
+        elif topic in (STATE, AXES_STATE):
+            first = last = rows["simulated_time"]
+        else:
+            return rows
+        return rows[(first <= self._end) & (last >= self._begin)]
 
 
 def _series(parts: list[NDArray[Any]], kind: str) -> Series:

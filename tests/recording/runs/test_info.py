@@ -3,6 +3,7 @@
 import json
 import operator
 import re
+import tracemalloc
 from dataclasses import astuple
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 from hostile import of, rewritten
 from mcap.reader import make_reader
 from mcap.records import Channel, Message, Metadata
+from numbered import Numbered
 from synthetic_recording import START_NS
 from twin_recording import NAMESPACE, TwinRecording, record
 from typer.testing import CliRunner
@@ -351,3 +353,27 @@ def test_the_origin_of_a_finished_recording_is_said_to_be_lost_in_its_damage(tmp
     assert lost in recover(file, tmp_path / "saved").remarks
     answer = CliRunner().invoke(build_app(), ["verify", str(file)])
     assert answer.exit_code == 2 and answer.output == f"planetary-twin: {lost}\n"
+
+
+def peak_of_info(folder):
+    """Largest memory [bytes] that reading the contents of a recording takes."""
+    tracemalloc.start()
+    try:
+        read_info(folder)
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.slow
+def test_memory_does_not_grow_with_the_number_of_messages(tmp_path, monkeypatch):
+    """An index of all messages would take at least 16 bytes for each of 260 000 more."""
+    monkeypatch.setattr("planetary_twin_py.recording.container.integrity._PIECE", 2**16)
+    peaks = []
+    for count in (40_000, 40_000, 300_000):  # the first one also loads modules
+        numbered = Numbered(tmp_path / f"bag_{len(peaks)}")
+        numbered.write(count)
+        numbered.bag.close()
+        assert read_info(numbered.bag.folder).topics["/numbers"].recorded == count
+        peaks.append(peak_of_info(numbered.bag.folder))
+    assert peaks[2] < peaks[1] + 1_000_000

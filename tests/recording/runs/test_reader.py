@@ -169,3 +169,19 @@ def test_records_of_a_damaged_file_continue_where_mcap_stops_and_none_is_invente
         if place >= 60:  # the length of the first record precedes
             assert found[: len(expected)] == expected
             assert (remarks == []) == sound_end
+
+
+def test_reading_stops_after_the_most_states_and_a_span_selects_others(tmp_path):
+    """Chunks of 64 kB hold four intervals."""
+    file = write_recording(tmp_path / "bag_0.mcap", DURATION)
+    first = read_recording(file, most=8)
+    assert not first.complete
+    assert 8 <= len(first.state) <= 14
+    assert first.state.time[0] == pytest.approx(0.01)
+    part = read_recording(file, most=14, span=(0.105, 0.2))
+    assert part.complete
+    assert part.state.time == pytest.approx(np.arange(11, 21) * 0.01)
+    assert part.waveform.time[[0, -1]] == pytest.approx([0.10002, 0.2])  # whole blocks
+    assert len(part.operating_point) == len(first.operating_point) == 4
+    with pytest.raises(RecordingError, match="has no state from 5 to 6 s"):
+        read_recording(file, span=(5.0, 6.0))

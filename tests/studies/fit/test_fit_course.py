@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.io import savemat
+from scipy.io import loadmat, savemat
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.loss_map import LossMap
@@ -66,6 +66,25 @@ def test_a_run_up_determines_friction_and_drag(tmp_path):
     for (low, high, _), true in zip(found.estimate.intervals, (0.5, 0.05), strict=True):
         assert low < true < high
     assert found.estimate.values[1] == pytest.approx(0.05, rel=0.2)
+
+
+@pytest.mark.slow
+def test_codes_for_missing_readings_are_left_out_of_a_fit(tmp_path):
+    path = manoeuvre(tmp_path / "rig.mat", "run-up")
+    spoilt, found = loadmat(path, squeeze_me=True), []
+    columns = {
+        name: spoilt[name].copy()
+        for name in ("input_torque", "output_torque", "input_speed", "time")
+    }
+    columns["input_torque"][500:510] = -9999.0
+    savemat(tmp_path / "spoilt.mat", columns)
+    for file in (path, tmp_path / "spoilt.mat"):
+        found.append(fit_course(file, SCENE.replace(**{MOTOR: 3e-3}), (DRAG,)))
+    value, expected = (float(one.estimate.values[0]) for one in reversed(found))
+    low, high, _ = found[0].estimate.intervals[0]
+    assert value == pytest.approx(expected, abs=0.05 * (high - low))
+    (line,) = (one for one in course_remarks(found[1]) if "left out" in one)
+    assert "input_torque" in line and "10 readings, rows 501 to 510" in line
 
 
 @pytest.mark.exhaustive

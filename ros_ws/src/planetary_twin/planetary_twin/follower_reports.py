@@ -14,7 +14,9 @@ from planetary_twin_py.recording.ros2.topics import status_name
 
 CONDITION = "condition"
 REPORTS = "inputs", "clock", "estimator", CONDITION
-_UNUSED = ("late", "doubled", "outlying", "ahead", "encoder_late", "encoder_lost")
+_UNUSED = (
+    "late", "doubled", "outlying", "ahead", "implausible", "encoder_late", "encoder_lost",
+)  # fmt: skip
 
 
 class Limits(NamedTuple):

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 from queue import Queue
 from typing import Protocol
 
@@ -71,6 +72,8 @@ class JumpWatch:
     def add(self, one: Arrived) -> float | None:
         """Return by how many seconds the stamps have jumped back, at the last of five messages."""
         stamp = stamp_of(one.message)
+        if stamp == 0.0:  # was not set
+            return None
         newest = self._newest.setdefault(one.sender, stamp)
         if stamp >= newest - _JUMP:
             self._newest[one.sender] = max(newest, stamp)
@@ -94,7 +97,7 @@ class Portions:
         """Yield the messages in their order; only the first of a portion may close bins."""
         portion: list[Arrived] = []
         for one in arrived:
-            if one.kind not in BLOCKS:
+            if one.kind not in BLOCKS and stamp_of(one.message) != 0.0:
                 closed = closed_by(stamp_of(one.message), self._length)
                 if closed != self._closed.get(one.sender) and portion:
                     yield portion
@@ -178,6 +181,7 @@ class LiveFollower:
         self.latest: Following = self._follower.estimate()
         """The last reported estimate."""
         self._reader = MessageReader(self._options.joints, self._options.scale)
+        self._faults: tuple[str, ...] = ()  # of the messages, as last reported
         self._portions = Portions(self._options.period)
         self._newest = -math.inf  # stamp of the newest estimate, reported or not [s]
         self._due = -math.inf  # stamp of the next one to report [s]
@@ -250,6 +254,8 @@ class LiveFollower:
                 for block in self._reader.read(portion):
                     self._follower.add(block)
                 self._report_what_is_new(portion[0].time)
+            if not self._newest > -math.inf and tuple(self._reader.remarks()) != self._faults:
+                self._report(self._follower.estimate())  # messages without stamps only
 
         self._checked(process)
 
@@ -277,5 +283,7 @@ class LiveFollower:
             self._report(self._follower.estimate())
 
     def _report(self, estimate: Following) -> None:
+        self._faults = tuple(self._reader.remarks())
+        estimate = replace(estimate, remarks=(*estimate.remarks, *self._faults))
         self.latest = estimate
         self._listener.estimated(estimate)

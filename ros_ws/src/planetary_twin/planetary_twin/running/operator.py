@@ -15,6 +15,7 @@ from rclpy.client import Client as Service
 from rclpy.parameter import Parameter
 
 from ..client import Client
+from ..heap import return_freed_memory
 from ..reports import real_time_figures
 from ..topics import UNKNOWN_NODE, wanted_topics
 from .children import RunError
@@ -183,5 +184,6 @@ class Operator(Client):
             self.recordings[Path(message.file).parent.name] = None
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        return_freed_memory()  # once a second
         if figures := real_time_figures(message, self.namespace):
             self.figures, self._reported = figures, time.monotonic()

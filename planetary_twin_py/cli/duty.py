@@ -1,0 +1,96 @@
+"""`planetary-twin duty`: losses and peaks of a duty cycle from a table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..engineering_units import figure
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
+from ..terminal.json_output import console_beside, write_json
+from ..terminal.messages import fail, remark
+from ..terminal.settings import changed_scene, settings
+from ..terminal.unit_options import SECONDS
+from ._study import TABLES, check_suffix, warn, write_results
+from .sweep import _executor, _kept, _progress
+
+if TYPE_CHECKING:
+    from ..studies.duty import Summary
+
+
+def duty(
+    scene: SceneArgument,
+    table: Annotated[
+        Path,
+        typer.Argument(
+            metavar="TABLE", help="Duty cycle: .csv or .parquet with time, torque, speed."
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option(help="Table of the operating points (.parquet with units, .csv).")
+    ],
+    set_: SetOption = None,
+    duration: Annotated[float, typer.Option(help="Evaluated time of each point.", **SECONDS)] = 0.2,
+    settling: Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)] = 0.05,
+    tolerance: ToleranceOption = 1e-4,
+    json_: JsonOption = None,
+) -> None:
+    """Sum losses and find peaks of SCENE over a duty cycle.
+
+    TABLE has the columns time, torque and speed of the first motor, with units in the headings
+    (speed [rpm]) or in SI; further ones are quantities of the operating point, such as
+    oil_temperature [degC]. Each row holds up to the time of the next one, the last one ends the
+    cycle. Each distinct operating point runs once, in steady running; with --set
+    dynamics=quasi_static in milliseconds, without vibration. To resume an interrupted cycle, repeat
+    the command.
+
+    Example: planetary-twin duty paper cycle.csv --set dynamics=quasi_static --out points.parquet
+    """
+    check_suffix(out, TABLES)
+    from ..studies.duty import read_duty, summary_of_duty
+    from ..studies.plan import Settings
+    from ..studies.sweep import sweep as run
+
+    try:
+        loaded = changed_scene(scene, settings(set_ or []))
+        cycle = read_duty(table)
+        study, place = cycle.study(loaded, Settings(duration, settling, tolerance=tolerance))
+        journal = out.with_name(f"{out.name}.journal")
+        with (
+            _executor(None) as executor,
+            _progress(study) as report,
+            _kept(journal, len(study.points)),
+        ):
+            found = run(study, executor, journal, report)
+        write_results(found, out)
+        summary = summary_of_duty(cycle, place, found)
+        journal.unlink()
+    except (ValueError, OSError) as error:
+        fail(error)
+    console = console_beside(json_)
+    for line in _lines(summary, len(study.points)):
+        console.print(line, highlight=False)
+    warn(found, study.extremes())
+    if not summary.driving_energy:
+        remark("no machine drives in this cycle, so there is no efficiency")
+    if json_ is not None:
+        peaks = {name: {"value": v, "time": t} for name, (v, t) in summary.peaks.items()}
+        figures = summary._asdict() | {"efficiency": summary.efficiency, "peaks": peaks}
+        write_json(figures, json_)
+
+
+def _lines(summary: Summary, points: int) -> list[str]:
+    """The results in words."""
+    from ..quantities import STUDY_RESULTS
+
+    lines = [
+        f"duty cycle of {summary.duration:g} s, {points} operating points, in steady running",
+        f"driving energy {figure(summary.driving_energy, 'J')}, lost "
+        f"{figure(summary.loss_energy, 'J')}, efficiency {summary.efficiency:.4%}",
+    ]
+    for name, (value, time) in summary.peaks.items():
+        quantity = STUDY_RESULTS[name]
+        lines.append(f"{quantity.title}: {figure(value, quantity.si)} at {time:g} s")
+    return lines

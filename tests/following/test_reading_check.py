@@ -1,0 +1,147 @@
+"""Readings that no machine has are left out and named; those of a machine pass."""
+
+import numpy as np
+import pytest
+from following.plants import paper, played
+
+from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.reading_check import ReadingCheck
+from planetary_twin_py.following.sensors import Sensors
+from planetary_twin_py.following.train import followed_train
+
+TRAIN = followed_train(paper())
+TIME = np.arange(1, 2001) / 100.0
+RPM = 30.0 / np.pi
+
+
+def steady(channel):
+    value = {"input_torque": 63.0, "input_speed": 104.72, "oil_temperature": 343.15}[channel]
+    return value * (1.0 + 1e-3 * np.sin(1.7 * np.arange(len(TIME))))
+
+
+def judged(channel, values, split=1, scale=None):
+    check = ReadingCheck(TRAIN, Sensors(scale=scale or {}))
+    parts = [
+        check.judge(time, {channel: part}, "rig")[channel]
+        for time, part in zip(
+            np.array_split(TIME, split), np.array_split(values, split), strict=True
+        )
+    ]
+    return np.concatenate(parts), list(check.left_out.remarks())
+
+
+@pytest.mark.parametrize(
+    ("channel", "value"),
+    [
+        ("input_torque", -999.0), ("input_torque", 32767.0), ("input_torque", 9.9e37),
+        ("input_torque", -5000.0), ("input_torque", -9999e3), ("input_speed", -9999.0 / RPM),
+        ("input_speed", 65535.0), ("oil_temperature", -9999.0 + 273.15), ("oil_temperature", 0.0),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("split", [1, 7])
+def test_a_code_or_a_value_beyond_the_scene_is_left_out_and_named(channel, value, split):
+    values = steady(channel)
+    values[700:720] = value
+    kept, (line,) = judged(channel, values, split)
+    assert np.array_equal(np.flatnonzero(np.isnan(kept)), np.arange(700, 720))
+    assert line.startswith(f"{channel}: left out, because ") and f": {value:.6g} " in line
+    assert "from 7.01 to 7.20 s (20 readings, rows 701 to 720)" in line
+
+
+def test_a_torque_that_passes_the_value_of_a_code_is_used():
+    ramp = np.arange(2000.0)
+    kept, lines = judged("input_torque", ramp)
+    assert np.array_equal(kept, ramp) and not lines
+
+
+def test_a_code_is_recognised_before_the_factor_of_its_channel():
+    values = steady("input_torque") * 8.8507
+    values[700:720] = -999.0
+    kept, (line,) = judged("input_torque", 0.112985 * values, scale={"input_torque": 0.112985})
+    assert np.isnan(kept[700:720]).all() and "code" in line
+
+
+def test_a_channel_that_is_beyond_the_scene_from_the_start_is_refused_with_its_unit():
+    with pytest.raises(InputError, match=r"is it in rad/s\? A heading states another unit \(rad/s"):
+        judged("input_speed", steady("input_speed") * 20.0)
+
+
+@pytest.mark.parametrize("factor", [2.0, 3.0, 0.5])
+@pytest.mark.parametrize("split", [1, 13])
+def test_a_speed_that_leaps_by_whole_pulses_is_left_out_until_it_returns(factor, split):
+    values = steady("input_speed")
+    wrong = np.arange(2000) % 600 >= 550
+    kept, (line,) = judged("input_speed", np.where(wrong, factor * values, values), split)
+    assert np.array_equal(np.isnan(kept), wrong)
+    assert "pulses" in line and "from 5.51 to 6.00 s (50 readings, rows 551 to 600)" in line
+
+
+@pytest.mark.parametrize(
+    "speed",
+    [
+        104.72 * np.minimum(TIME / 10.0, 1.0),  # a run-up
+        104.72 * np.cos(TIME),  # reversals
+        np.where(TIME < 10.0, 50.0, 100.0 - 50.0 * np.exp(-(TIME - 10.0) / 0.05)),  # a fast drive
+        np.where(TIME < 10.0, 104.72, 0.0),  # a stop
+    ],
+    ids=["run-up", "reversals", "fast drive", "stop"],
+)
+def test_a_real_change_of_the_speed_is_used(speed):
+    kept, lines = judged("input_speed", speed)
+    assert np.array_equal(kept, speed) and not lines
+
+
+def paired(input_torque, split):
+    check = ReadingCheck(TRAIN, Sensors())
+    noise = np.random.default_rng(0).standard_normal(len(TIME))
+    load = 63.0 + 5.0 * np.sin(TIME)
+    columns = {"input_torque": input_torque(load + 0.1 * noise), "output_torque": 2.3 * load}
+    for part in np.array_split(np.arange(len(TIME)), split):
+        check.judge(TIME[part], {name: values[part] for name, values in columns.items()}, "rig")
+    return list(check.left_out.remarks())
+
+
+@pytest.mark.parametrize("split", [1, 11])
+def test_a_torque_that_is_stuck_while_the_load_changes_is_left_out(split):
+    (line,) = paired(lambda torque: np.where(TIME > 10.0, torque[1000], torque), split)
+    assert line.startswith("input_torque: left out, because the value repeats exactly")
+    assert "20.00 s" in line and "rows 10" in line
+
+
+@pytest.mark.parametrize(
+    "digital",
+    [np.round, lambda torque: torque, lambda torque: torque[np.arange(2000) // 20 * 20]],
+    ids=["rounded", "noisy", "sampled at a lower rate"],
+)
+def test_a_torque_with_equal_readings_that_follows_the_load_is_used(digital):
+    assert not paired(digital, 7)
+
+
+@pytest.fixture(scope="module")
+def varied():
+    _, time, columns = played("varied", {}, 40.0)
+    return time, columns, followed(time, columns)
+
+
+def followed(time, columns):
+    follower = Follower(paper())
+    follower.add(Readings(time, columns))
+    follower.finish()
+    return follower.estimate()
+
+
+@pytest.mark.parametrize(
+    ("channel", "value"),
+    [("input_torque", 1e6), ("output_torque", -9999.0), ("output_torque", 0.0),
+     ("input_torque", 0.0), ("input_torque", 300.0)],
+)  # fmt: skip
+def test_estimates_are_as_without_the_readings(varied, channel, value):
+    time, columns, sound = varied
+    wrong = np.where((time > 20.0) & (time < 20.155), value, columns[channel])
+    state = followed(time, columns | {channel: wrong})
+    assert not state.events and state.counters["implausible"] >= 10
+    assert [one.status for one in state.estimates] == [one.status for one in sound.estimates]
+    level, expected = state["friction_level"], sound["friction_level"]
+    assert level.value == pytest.approx(expected.value, abs=0.1 * expected.sd)
+    assert any(line.startswith(f"{channel}: left out") for line in state.remarks)
