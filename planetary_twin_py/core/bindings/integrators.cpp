@@ -20,10 +20,6 @@ namespace {
 
 using namespace nb::literals;
 
-void py_one_step(const Model& model, Integrator& integrator, double longest) {
-    run_unlocked([&] { one_step(model, integrator, longest); });
-}
-
 void py_advance(const Model& model, Integrator& integrator, const InstantTuple& until,
                 const InstantTuple& bound, const SamplingTuple& samples, const SamplesTuple& out) {
     Samples room = samples_of(out);
@@ -57,9 +53,6 @@ Nodes py_radau(int points) {
 void bind_integrator(nb::module_& m) {
     m.def("begin_step", &begin_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
           "Start a new step where the last one ended.");
-    m.def("one_step", &py_one_step, "model"_a, "integrator"_a, "longest"_a,
-          "Make one accepted step of at most `longest` seconds, ending on the first event.\n\n"
-          "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("accept", &accept, "model"_a, "integrator"_a, "mesh"_a, nb::call_guard<Unlocked>(),
           "Accept the step; the contact of `mesh` changes at its end (-1: of no mesh).");
     m.def("advance", &py_advance, "model"_a, "integrator"_a, "until"_a, "bound"_a, "samples"_a,
@@ -70,11 +63,6 @@ void bind_integrator(nb::module_& m) {
     m.def("cut", &py_cut, "model"_a, "integrator"_a, "until"_a,
           "Repeat the last step so that it ends at `until`, which lies within it.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
-    m.def("count_step", &count_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
-          "Add the part of the last step that is not counted yet to the sums.");
-    m.def("count_until", &count_until, "model"_a, "integrator"_a, "delay"_a,
-          nb::call_guard<Unlocked>(),
-          "Add the last step up to `delay` seconds after its start to the sums.");
     m.def("interpolate", &interpolate, "model"_a, "integrator"_a, "delay"_a,
           nb::call_guard<Unlocked>(),
           "Fill x and v of `integrator.dense`, `delay` seconds into the last step.");

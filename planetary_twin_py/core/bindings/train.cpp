@@ -51,10 +51,8 @@ void bind_places(nb::module_& m) {
     m.attr("POWER_LOSS") = POWER_LOSS;
     m.attr("MESH_POWER") = MESH_POWER;
     m.attr("QUANTITIES") = QUANTITIES;
-    m.attr("SQUARE") = SQUARE;
     m.attr("CONTACT") = CONTACT;
     m.attr("CLIPPED") = CLIPPED;
-    m.attr("FILMED") = FILMED;
     m.attr("SUMS") = SUMS;
     m.attr("SLOWEST_TURN") = SLOWEST_DRAG_TURN;
     m.attr("NO_PLANET") = NO_PLANET;
@@ -68,25 +66,14 @@ void bind_cycle(nb::module_& m) {
         "train"_a, "x"_a, "Mesh cycles by which the train is ahead of the rigid frame.");
     m.def("frame_cycle", &frame_cycle, "train"_a, "state"_a, "modulus"_a,
           "Mesh cycles of the rigid frame since the start, modulo `modulus`.");
-    m.def("counted_cycle", &counted_cycle, "train"_a, "state"_a, "i"_a, "side"_a, "modulus"_a,
-          "Cycles since tooth pair 0 of mesh i was at the pitch point, modulo `modulus`.");
-    m.def("cycle_on_side", &cycle_on_side, "train"_a, "i"_a, "side"_a, "cycle"_a, "modulus"_a);
     m.def("mesh_cycle", &mesh_cycle, "train"_a, "state"_a, "i"_a, "side"_a);
     m.def("find_segment", &find_segment, "train"_a, "kind"_a, "cycle"_a, "direction"_a,
           "Segment of the table of tooth pairs at a fraction of the cycle.");
-    m.def("nearest_to_segment", &nearest_to_segment, "train"_a, "kind"_a, "segment"_a, "cycle"_a);
     m.def("set_step_constants", &set_step_constants, "model"_a, "state"_a, "step"_a,
           "Fill `step` for a step that begins at `state`.");
-    m.def("place_mesh", &place_mesh, "train"_a, "state"_a, "step"_a, "i"_a, "cycles"_a);
     m.def("copy_segment", &copy_segment, "train"_a, "state"_a, "step"_a, "i"_a);
     m.def("frame_cycle_rate", &frame_cycle_rate, "train"_a, "state"_a,
           "Mesh cycles per second of the rigid frame, signed.");
-    m.def(
-        "passing_rate",
-        [](const Train& train, const StepConstants& step, const Vector& v) {
-            return passing_rate(train, step, bodies(v));
-        },
-        "train"_a, "step"_a, "v"_a);
     m.def("damping_time", &damping_time, "train"_a, "kind"_a, "rate"_a);
 }
 
@@ -105,35 +92,8 @@ void bind_form(nb::module_& m) {
             return std::tuple(e, rate);
         },
         "train"_a, "i"_a, "side"_a, "angle"_a, "advance"_a, "cycle_rate"_a);
-    m.def(
-        "radial_error",
-        [](const Train& train, std::int64_t i, const Lines& angle, double advance,
-           double cycle_rate) {
-            auto [e, rate] = radial_error(train, i, lines(angle), advance, cycle_rate);
-            return std::tuple(e, rate);
-        },
-        "train"_a, "i"_a, "angle"_a, "advance"_a, "cycle_rate"_a);
-    m.def(
-        "form_error_acceleration",
-        [](const Train& train, std::int64_t i, double side, const Lines& angle, double cycle_rate) {
-            return form_error_acceleration(train, i, side, lines(angle), cycle_rate);
-        },
-        "train"_a, "i"_a, "side"_a, "angle"_a, "cycle_rate"_a);
-    m.def(
-        "find_faults",
-        [](const Train& train, const State& state, std::int64_t i, std::int64_t side, double start,
-           StepConstants& step) { find_faults(train, state, i, side, start, step.faulty); },
-        "train"_a, "state"_a, "i"_a, "side"_a, "start"_a, "step"_a);
     m.def("mesh_stiffness", &mesh_stiffness, "train"_a, "i"_a, "segment"_a, "cycle"_a,
           "Stiffness [N/m] of mesh i without faults at a fraction of its cycle.");
-    m.def(
-        "pair_stiffness",
-        [](const Train& train, const StepConstants& step, std::int64_t i, std::int64_t segment,
-           std::int64_t pair, double u) {
-            auto [k, gap] = pair_stiffness(train, step, i, segment, pair, u);
-            return std::tuple(k, gap);
-        },
-        "train"_a, "step"_a, "i"_a, "segment"_a, "pair"_a, "u"_a);
     m.def(
         "share_force",
         [](const Train& train, StepConstants& step, std::int64_t i, const Vector& cycles,
@@ -165,12 +125,6 @@ void bind_contact(nb::module_& m) {
         },
         "train"_a, "i"_a, "x"_a, "Transmission error of mesh i from x, its rate from v.");
     m.def(
-        "move_meshes",
-        [](const Train& train, const Vector& x, const Vector& v, MeshesNow& now) {
-            move_meshes(train, bodies(x), bodies(v), now);
-        },
-        "train"_a, "x"_a, "v"_a, "now"_a);
-    m.def(
         "deflection",
         [](const Train& train, const StepConstants& step, std::int64_t i, const Vector& x,
            const Vector& v, double advance, double cycle_rate) {
@@ -189,19 +143,7 @@ void bind_contact(nb::module_& m) {
         },
         "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "position"_a,
         "Gap [m] left to mesh i before its contact changes; negative: it has changed.");
-    m.def("change_contact", &change_contact, "model"_a, "state"_a, "step"_a, "i"_a);
-    m.def(
-        "change_segment",
-        [](const Model& model, State& state, StepConstants& step, std::int64_t i,
-           std::int64_t direction) {
-            const double cycle = mesh_cycle(model.train, state, i, state.side[i]);
-            change_segment(model, state, step, i, direction, cycle);
-        },
-        "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
-    m.def("force_time_derivative", &force_time_derivative, "model"_a, "state"_a, "step"_a, "i"_a,
-          "cycle_rate"_a);
     m.def("stored_energy", &stored_energy, "model"_a, "state"_a, "step"_a, "i"_a);
-    m.def("add_sums", &add_sums, "step"_a, "total"_a, "lanes"_a);
 }
 
 void bind_equations(nb::module_& m) {
@@ -218,17 +160,6 @@ void bind_equations(nb::module_& m) {
            Evaluation& out) { mesh_forces(model, state, step, bodies(x), bodies(v), delay, out); },
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "out"_a,
         "Normal forces of the meshes, whose transmission errors are in out.now.");
-    m.def(
-        "share_loads",
-        [](const Model& model, const StepConstants& step, Evaluation& out) {
-            share_loads(model, step, out);
-        },
-        "model"_a, "step"_a, "out"_a);
-    m.def(
-        "apply_friction",
-        [](const Model& model, const State& state, const StepConstants& step, const Vector& v,
-           Evaluation& out) { apply_friction(model, state, step, bodies(v), out); },
-        "model"_a, "state"_a, "step"_a, "v"_a, "out"_a);
     m.def(
         "apply_drag",
         [](const Model& model, const State& state, const Vector& v, Evaluation& out) {

@@ -63,7 +63,6 @@ void bind_laws(nb::module_& m) {
     m.attr("SLOWEST_ROLLING") = SLOWEST_ROLLING;
     m.attr("CREEPING") = CREEPING;
     m.attr("ELASTIC") = ELASTIC;
-    m.attr("RELAXATION") = RELAXATION;
     nb::dict laws;
     FrictionLaws::each_name([&](const char* name, int position) { laws[name] = position; });
     m.attr("TRACTION_LAWS") = laws;
@@ -134,7 +133,6 @@ void bind_pairs(nb::module_& m) {
             turn_pairs(train, step, bodies(v), pairs);
         },
         "train"_a, "step"_a, "v"_a, "pairs"_a);
-    m.def("friction_layer", &friction_layer, "train"_a, "oil"_a, "cycle_rate"_a);
     m.def("evaluate", &evaluate, "model"_a, "pairs"_a, release(),
           "Film and friction of `pairs.count` tooth pairs.");
     m.def("collect", &collect, "train"_a, "pairs"_a, "out"_a);
@@ -146,21 +144,7 @@ void bind_pairs(nb::module_& m) {
             friction_damping(train, pairs, bodies(force), h, row, matrix(out));
         },
         "train"_a, "pairs"_a, "force"_a, "h"_a, "matrix"_a);
-    m.def("copy_friction", &copy_friction, "source"_a, "target"_a);
     m.def("creeps", &creeps, "train"_a, "cycle_rate"_a);
-    m.def(
-        "place_bristles",
-        [](ToothPairs& pairs, const Vector& share) {
-            place_bristles(pairs, entries(share, PAIR_CAPACITY));
-        },
-        "pairs"_a, "share"_a);
-    m.def("apply_bristles", &apply_bristles, "oil"_a, "pairs"_a);
-    m.def(
-        "steady_bristles",
-        [](const ToothPairs& pairs, const Values& share) {
-            steady_bristles(pairs, entries(share, PAIR_CAPACITY));
-        },
-        "pairs"_a, "share"_a);
     m.def(
         "pass_bristles",
         [](const Train& train, const Values& share, std::int64_t i, std::int64_t segment,
