@@ -249,6 +249,9 @@ class DrivenEngine(Engine):
         except TypeError:  # only here: checks of every value would slow down each step
             self.refuse(begin, end, command)
             raise
+        except KeyboardInterrupt:
+            self._end_interrupted()
+            raise
         if outcome == REFUSED:
             return False
         self._shown = None

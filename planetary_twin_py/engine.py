@@ -192,22 +192,27 @@ class Engine:
         goal, done, room = instant_of_ticks(until), 0, len(out.time)
         self._shown = None
 
-        def part_to(at: Instant, rows: Waves, closes: bool) -> WindowJob:
-            return WindowJob(
+        def part_to(at: Instant, rows: Waves, closes: bool) -> WindowJobs:
+            job = WindowJob(
                 self.model, self.integrator, at, sampling(first + done, rate), self._limits.record,
                 report, first + done, rate, rows, end, closes,
             )  # fmt: skip
+            try:
+                outcome = yield job
+            except KeyboardInterrupt:
+                self._end_interrupted()
+                raise
+            self._watch(outcome, end)
+            self._watch_axes(rows)
 
         for stop in self._stops(Fraction(until, TICKS), goal):
             due = min(max(_due(stop, rate, first), done), room)
             part = _wave_rows(out, done, due)
-            self._watch((yield part_to(instant(stop), part, False)), end)
-            self._watch_axes(part)
+            yield from part_to(instant(stop), part, False)
             self._pass(stop)
             done = due
         out = _wave_rows(out, done, room)
-        self._watch((yield part_to(goal, out, True)), end)
-        self._watch_axes(out)
+        yield from part_to(goal, out, True)
 
     def _watch(self, outcome: int, end: WindowEnd) -> None:
         """Stop the run if the core has found no possible step, or has exceeded a limit."""
@@ -227,8 +232,18 @@ class Engine:
             self._fail(reason)
 
     def _fail(self, reason: ArithmeticError) -> NoReturn:
+        if str(reason) == NO_FINITE_STATE:
+            try:
+                self._limits.check_progress(self.integrator, self.model.load)
+            except ArithmeticError as cause:
+                reason = cause
         self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
         raise self._failure from None
+
+    def _end_interrupted(self) -> None:
+        """End the run after Ctrl-C within a window, whose samples are lost."""
+        where = float(self.reached)
+        self._failure = RunawayError(f"the run was interrupted near {where:g} s: start a new one")
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
@@ -254,6 +269,9 @@ class Engine:
         try:
             self._core.advance(self.model, self.integrator, instant(until), NEVER, at, samples)
             self._check(samples)
+        except KeyboardInterrupt:
+            self._end_interrupted()
+            raise
         except ArithmeticError as reason:
             self._fail(reason)
         self._shown = until, _rows(samples, len(samples.turns) - 1, None)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _core
-from ._core import DTE, IMPULSE, Load, Train, WindowEnd
+from ._core import DTE, IMPULSE, Integrator, Load, Train, WindowEnd
 from .dynamics.bodies import MACHINE_NAMES, MeshNames, build_bodies, mesh_names
 from .dynamics.library import library
 from .dynamics.moving_axes import bearing_names
@@ -104,6 +104,7 @@ class Limits:
         drive, meshes = scene.drive, mesh_names(scene)
         size = np.hypot(train.line_tangential, train.line_radial)
         self._errors = size.sum(axis=1)[: train.meshes]
+        self._train = train
         self.deflection = Limit(
             "deflection",
             "m",
@@ -184,6 +185,36 @@ class Limits:
         if rows and bearings:
             moved = waves.displacement.reshape(rows, bearings, 2)
             self.check_displacements(moved, waves.tilting.reshape(rows, bearings, -1))
+
+    def check_progress(self, integrator: Integrator, load: Load) -> None:
+        """Check a run that the core has stopped: whether it runs away, or makes no progress.
+
+        Args:
+            integrator: of the run, after its last step.
+            load: gives the backlash.
+
+        Raises:
+            ArithmeticError: a deflection exceeds its limit, or steps advance the run by hardly any
+                time.
+        """
+        train, begin, end = self._train, integrator.begin, integrator.end
+        meshes = int(train.meshes)
+        motions = (train.sign[:meshes] * end.x[train.body[:meshes]]).sum(axis=1)
+        self._check_dte(np.abs(motions), load)
+        if integrator.control.next_step > 0.0:
+            return
+        parted = np.flatnonzero(begin.side[:meshes] != end.side[:meshes])
+        keeps = (
+            f"flanks of {self.deflection.names[parted[0]]} engage and separate again and again; "
+            "reduce the backlash, load the train more, or choose dynamics = 'planar' or 'torsional'"
+            if len(parted)
+            else "errors of longer steps exceed the tolerance; loosen the tolerance, soften "
+            "bearings and couplings, or give light bodies more inertia"
+        )
+        raise ArithmeticError(
+            f"the run makes no progress, its last step is {integrator.control.step:.2g} s long: "
+            f"{keeps}"
+        )
 
     def check_window(self, end: WindowEnd, load: Load) -> None:
         """Check deflections and speeds of the samples of a window, and the torques at its end.

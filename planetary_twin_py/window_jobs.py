@@ -7,6 +7,7 @@ interpreter can be interrupted. `Run.window` yields each part as a job, and rece
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from contextlib import suppress
 from types import ModuleType
 from typing import NamedTuple
 
@@ -47,7 +48,11 @@ def run_alone(jobs: WindowJobs) -> None:
     job = next(jobs, None)
     while job is not None:
         try:
-            job = jobs.send(_core_of(job).run_window(*job))
+            outcome = _core_of(job).run_window(*job)
+        except KeyboardInterrupt as interrupt:
+            jobs.throw(interrupt)
+        try:
+            job = jobs.send(outcome)
         except StopIteration:
             return
 
@@ -73,6 +78,12 @@ def run_together(windows: Sequence[WindowJobs], workers: int) -> dict[int, Runaw
         outcomes = {}
         for core in (_core, _core.axes):
             own = {place: job for place, job in pending.items() if _core_of(job) is core}
-            found = core.run_windows(list(own.values()), workers) if own else []
+            try:
+                found = core.run_windows(list(own.values()), workers) if own else []
+            except KeyboardInterrupt as interrupt:
+                for place in pending:
+                    with suppress(KeyboardInterrupt):
+                        windows[place].throw(interrupt)
+                raise
             outcomes |= zip(own, found, strict=True)
     return errors

@@ -6,10 +6,10 @@
 #include <nanobind/stl/optional.h>
 
 #include "bindings/arrays.hpp"
+#include "bindings/interruptible.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/raise.hpp"
 #include "bindings/record.hpp"
-#include "bindings/unlocked.hpp"
 #include "run/ports.hpp"
 
 namespace gearbox {
@@ -119,7 +119,7 @@ int py_step_ports(Model& model, Integrator& integrator, std::int64_t begin, std:
                   linear};
     if (check(model.load, ranges, step.command) != Answer::ACCEPTED)
         return static_cast<int>(Outcome::REFUSED);
-    Unlocked unlocked;
+    Interruptible unlocked;
     return static_cast<int>(step_ports(model, integrator, step, limits, reached, out));
 }
 

@@ -4,19 +4,19 @@
 
 #include <nanobind/nanobind.h>
 
-#include "bindings/unlocked.hpp"
+#include "bindings/interruptible.hpp"
 #include "integrators/step_control.hpp"
 
 namespace gearbox {
 
 constexpr const char* NO_FINITE_STATE = "no finite state can be reached, however short the step";
 
-// Run without the interpreter's lock; NoFiniteState becomes an ArithmeticError.
+// Run without the interpreter's lock, until Ctrl-C; NoFiniteState becomes an ArithmeticError.
 template <class Function>
 void run_unlocked(Function&& function) {
     bool finite = true;
     {
-        Unlocked release;
+        Interruptible release;
         try {
             function();
         } catch (const NoFiniteState&) {

@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings/arrays.hpp"
+#include "bindings/interruptible.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
@@ -87,7 +88,7 @@ int py_run_window(const Model& model, Integrator& integrator, const InstantTuple
                   waveform_of(out, report, first, rate, model.train),
                   end,
                   closes};
-    Unlocked unlocked;
+    Interruptible unlocked;
     return static_cast<int>(run_window(job));
 }
 
@@ -97,7 +98,7 @@ std::vector<int> py_run_windows(const std::vector<JobTuple>& tuples, int workers
     for (const JobTuple& values : tuples) jobs.push_back(job_of(values));
     std::vector<Outcome> outcomes;
     {
-        Unlocked unlocked;
+        Interruptible unlocked;
         outcomes = run_windows(jobs, workers);
     }
     std::vector<int> codes;

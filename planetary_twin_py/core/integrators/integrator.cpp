@@ -10,6 +10,7 @@
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
 #include "integrators/periodic.hpp"
+#include "integrators/progress.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/step_sums.hpp"
 #include "integrators/stiff_step.hpp"
@@ -163,9 +164,11 @@ void accept(const Model& model, Integrator& integrator, std::int64_t mesh) {
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
              Sampling samples, const Samples& out) {
     std::int64_t taken = 0;
+    Progress progress;
     while (true) {
         write_due_samples(model, integrator, samples, out, taken);
         if (taken == out.rows && delay(integrator.end, until) <= 0.0) return;
+        progress.look(integrator);
         count_step(model, integrator);
         if (integrator.periodic.replaying) {
             replay_window(model, integrator, until, samples, out, taken);

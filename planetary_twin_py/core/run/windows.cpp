@@ -17,6 +17,7 @@ std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers
                 outcomes[n] = run_window(jobs[n]);
             } catch (...) {
                 defects[n] = std::current_exception();
+                next = jobs.size();
             }
         }
     };
