@@ -52,10 +52,8 @@ def ranges_of(train: FollowedTrain) -> dict[str, Range]:
     """
     speed, torque = SPEED * train.speed_limit, TORQUE * train.torque_limit
     ratio = abs(train.ratio)
-    by_speed, by_torque = (
-        f"{factor:g} times drive.{name}" + (f" at the {side}" if side else "")
-        for factor, name, side in ((SPEED, "speed_limit", ""), (TORQUE, "torque_limit", ""))
-    )
+    by_speed = f"{SPEED:g} times drive.speed_limit"
+    by_torque = f"{TORQUE:g} times drive.torque_limit"
     return {
         "input_speed": Range(-speed, speed, by_speed),
         "output_speed": Range(-speed * ratio, speed * ratio, f"{by_speed} at the output"),
