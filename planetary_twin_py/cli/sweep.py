@@ -178,13 +178,15 @@ def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
     from ..quantities import AXES_RESULTS, STUDY_RESULTS
     from ..studies.distribution import SHARES, distributions
 
+    found = distributions(table, names)
+    shares = [s for s in SHARES if any(s in each.percentiles for each in found)]
     shown = Table(caption="Percentiles are left out where fewer than five points are beyond them")
-    shown.add_column("result", no_wrap=True)
-    for heading in ("mean", "standard deviation", *(f"{share:g} %" for share in SHARES)):
-        shown.add_column(heading, justify="right")
-    for each in distributions(table, names):
+    shown.add_column("result", overflow="fold")
+    for heading in ("mean", "standard\ndeviation", *(f"{share:g} %" for share in shares)):
+        shown.add_column(heading, justify="right", no_wrap=True)
+    for each in found:
         quantity = (STUDY_RESULTS | AXES_RESULTS)[each.name]
-        values = [each.mean, each.deviation, *(each.percentiles.get(share) for share in SHARES)]
+        values = [each.mean, each.deviation, *map(each.percentiles.get, shares)]
         texts = ["-" if value is None else figure(value, quantity.si) for value in values]
         shown.add_row(each.name, *texts)
     Console().print(shown)
