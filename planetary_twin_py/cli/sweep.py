@@ -178,15 +178,19 @@ def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
     from ..quantities import AXES_RESULTS, STUDY_RESULTS
     from ..studies.distribution import SHARES, distributions
 
+    found = distributions(table, names)
+    shares = [s for s in SHARES if any(s in each.percentiles for each in found)]
     shown = Table(caption="Percentiles are left out where fewer than five points are beyond them")
-    shown.add_column("result", no_wrap=True)
-    for heading in ("mean", "standard deviation", *(f"{share:g} %" for share in SHARES)):
-        shown.add_column(heading, justify="right")
-    for each in distributions(table, names):
+    shown.add_column("", no_wrap=True)
+    columns = []
+    for each in found:
         quantity = (STUDY_RESULTS | AXES_RESULTS)[each.name]
-        values = [each.mean, each.deviation, *(each.percentiles.get(share) for share in SHARES)]
-        texts = ["-" if value is None else figure(value, quantity.si) for value in values]
-        shown.add_row(each.name, *texts)
+        values = [each.mean, each.deviation, *map(each.percentiles.get, shares)]
+        columns.append(["-" if v is None else figure(v, quantity.si) for v in values])
+        shown.add_column(each.name.replace("_", " "), justify="right", min_width=10)
+    headings = ("mean", "standard deviation", *(f"{share:g} %" for share in shares))
+    for row in zip(headings, *columns, strict=True):
+        shown.add_row(*row)
     Console().print(shown)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics import teeth
+from planetary_twin_py.dynamics import teeth, train
 from planetary_twin_py.planar.load_sharing import load_sharing
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
@@ -36,7 +36,8 @@ OTHER = {
 
 @pytest.fixture
 def builds():
-    """Number of builds of teeth, from none kept."""
+    """Number of builds of teeth, from none kept, also not in trains."""
+    train._built.cache_clear()
     teeth._built.cache_clear()
     return lambda: teeth._built.cache_info().misses
 
