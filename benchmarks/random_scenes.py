@@ -201,7 +201,9 @@ def compare_printed(scene: pt.Scene, tolerance: float) -> tuple[dict[str, float]
         warnings.simplefilter("always")
         run = pt.simulate(scene, duration, tolerance=tolerance)
         texts = tuple(str(each.message) for each in warned)
-        exact = printed(pt.simulate(scene, duration, tolerance=1e-7, method=method))
+        # Rosenbrock's method needs a step for each oscillation of stiff axes that tilt.
+        other = "collocation" if scene.tilting_axes else method
+        exact = printed(pt.simulate(scene, duration, tolerance=1e-7, method=other))
     errors = {
         name: float(np.nanmax(np.abs(values - exact[name][0]))) / exact[name][1] / tolerance
         for name, (values, _) in printed(run).items()

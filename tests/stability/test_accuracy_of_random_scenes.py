@@ -56,7 +56,7 @@ def test_errors_keep_to_ten_tolerances_or_the_run_warns_and_every_ledger_closes(
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("seed", range(101, 131))
 def test_every_printed_figure_of_any_scene_keeps_to_ten_tolerances_or_the_run_warns(seed):
-    """Ten scenes of any dynamics and ports, and differentials, against the other method at 1e-7."""
+    """Ten scenes of any dynamics and ports, and differentials, against a reference at 1e-7."""
     script, random, silent, compared = _benchmark(), np.random.default_rng(seed), [], 0
     for number in range(10):
         try:
