@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 MOST_STATES = 200_000
-"""States that are shown at once: half an hour at 100 Hz, 1 GB of memory."""
+"""States that are shown at once: half an hour at 100 Hz, 2.2 GB of memory."""
 _HALF_WIDTH = 0.5  # [s] shown on either side of the time cursor in a picture
 
 
