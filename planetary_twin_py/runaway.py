@@ -197,12 +197,12 @@ class Limits:
             ArithmeticError: a deflection exceeds its limit, or steps advance the run by hardly any
                 time.
         """
+        if integrator.control.next_step != 0.0:  # it has found no finite state
+            return
         train, begin, end = self._train, integrator.begin, integrator.end
         meshes = int(train.meshes)
         motions = (train.sign[:meshes] * end.x[train.body[:meshes]]).sum(axis=1)
         self._check_dte(np.abs(motions), load)
-        if integrator.control.next_step > 0.0:
-            return
         parted = np.flatnonzero(begin.side[:meshes] != end.side[:meshes])
         keeps = (
             f"flanks of {self.deflection.names[parted[0]]} engage and separate again and again; "
