@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -14,8 +14,9 @@ from ...commands import CAUSALITIES, Commands
 from ...integrators.clock import TICKS
 from ...scene import Scene
 from ...scene.live import LIVE, PORT_FIELDS
+from .intervals import Interval, Intervals
 from .origin import Origin, makers_here
-from .schedule import Change, Interval, RecordedRun, nanoseconds
+from .schedule import Change, RecordedRun, nanoseconds
 
 LONGEST = 3600.0  # [s] of a run that is longer than the recording
 NO_COMMANDS = Commands(np.empty(0))
@@ -83,7 +84,7 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
 
 def commanded(
     recorded: Mapping[int, Mapping[str, float]],
-    intervals: list[Interval],
+    intervals: Sequence[Interval],
     replaced: Set[str],
     commands: Commands,
 ) -> dict[int, dict[str, float]]:
@@ -136,7 +137,7 @@ def _values(scene: Scene, branch: Branch) -> tuple[dict[str, Any], Scene]:
     return values, changed if branch.start == 0.0 else scene
 
 
-def _stretched(intervals: list[Interval], duration: float | None) -> list[Interval]:
+def _stretched(intervals: Intervals, duration: float | None) -> Intervals:
     """Intervals of total length `duration` [s]: truncated, or extended by the longest interval."""
     if duration is None:
         return intervals
@@ -153,10 +154,10 @@ def _stretched(intervals: list[Interval], duration: float | None) -> list[Interv
         stretched.append(Interval(last.number + 1, stamp, last.end, last.end + length, *setting))
     excess = stretched[-1].end - end
     stretched[-1] = stretched[-1]._replace(end=end, stamp=stretched[-1].stamp - nanoseconds(excess))
-    return stretched
+    return Intervals(stretched)
 
 
-def _stamp_at(run: RecordedRun, intervals: list[Interval], time: float) -> int:
+def _stamp_at(run: RecordedRun, intervals: Sequence[Interval], time: float) -> int:
     """ROS time [ns] of the start of an interval at `time` [s]."""
     ends = [interval.stamp for interval in intervals if interval.end / TICKS <= time]
     return ends[-1] if ends else run.origin.begins

@@ -15,9 +15,10 @@ from ...scene import Scene
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
 from .compose import Composer
+from .intervals import Interval, Intervals
 from .origin import Origin, makers_here
 from .reader import SCENE_ATTACHMENT
-from .schedule import Change, Interval, RecordedRun, nanoseconds
+from .schedule import Change, RecordedRun, nanoseconds
 from .written import write_run
 
 NAMESPACE = "/planetary_twin"
@@ -71,9 +72,9 @@ def _run(plan: Plan) -> RecordedRun:
     """The run, starting now, in equal intervals; the last one may be shorter."""
     begins, end, length = time.time_ns(), round(plan.duration * TICKS), round(INTERVAL * TICKS)
     ends = [min((n + 1) * length, end) for n in range(math.ceil(end / length))]
-    intervals = [
+    intervals = Intervals(
         Interval(n + 1, begins + nanoseconds(to), n * length, to, plan.tolerance, plan.sample_rate)
         for n, to in enumerate(ends)
-    ]
+    )
     change = Change(1, begins, 0.0, plan.scene.live_values)
     return RecordedRun(Origin(plan.scene, begins, makers_here()), intervals, [change])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from bisect import bisect_left
 from collections import OrderedDict, deque
 from collections.abc import Iterator
@@ -12,7 +13,8 @@ from ...integrators.clock import TICKS
 from ...twin import Twin
 from ...window import Window
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
-from .schedule import Change, Interval, RecordedRun, stamp_of, without_gaps
+from .intervals import Interval
+from .schedule import Change, RecordedRun, stamp_of, without_gaps
 
 KEPT = 1000  # intervals in memory
 
@@ -21,8 +23,8 @@ class Resimulation:
     """Recorded runs that are simulated again on demand."""
 
     def __init__(self, runs: list[RecordedRun], remarks: list[str]) -> None:
-        self._stamps = [interval.stamp for run in runs for interval in run.intervals]
-        self._begins = [run.origin.begins for run in runs for _ in run.intervals]
+        self._stamps = array("q", (each.stamp for run in runs for each in run.intervals))
+        self._begins = array("q", (run.origin.begins for run in runs for _ in run.intervals))
         self._windows = _windows(runs, remarks)
         self._cache: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
         self._count = 0

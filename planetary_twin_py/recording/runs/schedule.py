@@ -22,24 +22,13 @@ from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
+from .intervals import Interval, Intervals
 from .origin import Origin, read_origin
 
 # For measured runs, which have no such settings: the defaults of `planetary-twin simulate`.
 TOLERANCE = 1e-4
 SAMPLE_RATE = 50_000.0  # [Hz]
 _LONGEST = 300  # characters of a remark
-
-
-class Interval(NamedTuple):
-    """A published interval, from its GearboxState."""
-
-    number: int  # of its message
-    stamp: int  # [ns]
-    begin: int  # [ticks] of simulated time
-    end: int
-    tolerance: float
-    sample_rate: float  # [Hz]
-    recorded: bool = True  # False if its message is missing and was inferred
 
 
 class Change(NamedTuple):
@@ -56,7 +45,7 @@ class RecordedRun:
     """A run, from time zero to the last interval before the next start."""
 
     origin: Origin
-    intervals: list[Interval] = field(default_factory=list)
+    intervals: Intervals = field(default_factory=Intervals)
     changes: list[Change] = field(default_factory=list)
     given: dict[int, dict[str, float]] = field(default_factory=dict)
     """Commands at the ports in an interval, by its stamp [ns]."""
@@ -88,13 +77,13 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
     return collected.runs(path, remarks)
 
 
-def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
+def without_gaps(run: RecordedRun, remarks: list[str]) -> Intervals:
     """Intervals of a run, with inferred intervals in place of missing messages.
 
     An inferred interval has the length and settings of the next recorded one. Where that is
     inconsistent, or the settings before were others, the result ends, with a warning in `remarks`.
     """
-    intervals: list[Interval] = []
+    intervals = Intervals()
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
     for interval in run.intervals:
         length, missing = interval.end - interval.begin, interval.number - number - 1
@@ -152,7 +141,7 @@ class _Collector:
         self._remarks = remarks
         self._origins: dict[int, Origin] = {}
         self._changes: list[Change] = []
-        self._intervals: list[Interval] = []
+        self._intervals = Intervals()
         self._commands: list[tuple[int, Any]] = []  # by stamp [ns]
 
     def origin(self, message: Any) -> None:
@@ -267,7 +256,7 @@ class _Collector:
                     f"the message of {POINT} at the start of a run is missing: that run cannot be "
                     "simulated again"
                 )
-                run.intervals = []
+                run.intervals = Intervals()
 
 
 def _with_ports(run: RecordedRun) -> list[Change]:
@@ -314,6 +303,4 @@ def _remove_uncertain(runs: list[RecordedRun], before: Change, after: Change) ->
     """Remove intervals that may depend on changes missing between two others."""
     for run in runs:
         if run.origin.begins < after.stamp:
-            run.intervals = [
-                interval for interval in run.intervals if interval.stamp <= before.stamp
-            ]
+            run.intervals = Intervals(i for i in run.intervals if i.stamp <= before.stamp)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ...dynamics.speed_loop import bandwidth
@@ -11,7 +11,8 @@ from ...integrators.clock import TICKS
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.playback import Playback
-from .schedule import Interval, RecordedRun, read_runs
+from .intervals import Interval
+from .schedule import RecordedRun, read_runs
 
 SETTLING = 4.0  # periods of the speed loop after a change, in addition to the speed ramp
 
@@ -67,6 +68,6 @@ def between(run: RecordedRun, begin: float, end: float) -> list[Interval]:
     return [i for i in run.intervals if ticks[0] <= i.begin and i.end <= ticks[1]]
 
 
-def length(intervals: list[Interval]) -> int:
+def length(intervals: Sequence[Interval]) -> int:
     """From the first to the last [ticks]."""
     return intervals[-1].end - intervals[0].begin if intervals else 0

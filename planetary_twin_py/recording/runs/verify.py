@@ -22,9 +22,10 @@ from ..ros2.definitions import OF_AXES
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, STATE, WAVEFORM
 from ..ros2.typestore import is_recorded
+from .intervals import Interval
 from .origin import Measured, makers_here
 from .resimulation import Resimulation
-from .schedule import Change, Interval, RecordedRun, messages_of, read_runs, stamp_of
+from .schedule import Change, RecordedRun, messages_of, read_runs, stamp_of
 
 _COMPARED = (STATE, WAVEFORM, JOINTS, *OF_AXES)
 ROUNDING = 1000  # [ns] of the stamp of the first sample of an interval

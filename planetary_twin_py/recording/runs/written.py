@@ -7,8 +7,9 @@ from typing import Any
 
 from ...integrators.clock import TICKS
 from .compose import Composer
+from .intervals import Interval
 from .resimulation import steps
-from .schedule import Interval, RecordedRun, nanoseconds
+from .schedule import RecordedRun, nanoseconds
 
 _PAUSE = 1_000_000_000  # [ns], larger differences of stamps and simulated time are pauses
 

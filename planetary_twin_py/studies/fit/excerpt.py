@@ -16,10 +16,10 @@ from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
 from ...recording.ros2.playback import Playback
 from ...recording.ros2.topics import STATE, WAVEFORM
+from ...recording.runs.intervals import Interval
 from ...recording.runs.origin import Measured
 from ...recording.runs.schedule import (
     Change,
-    Interval,
     RecordedRun,
     messages_of,
     nanoseconds,
