@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 
 class Interval(NamedTuple):
@@ -30,7 +30,7 @@ class Intervals(Sequence[Interval]):
     """
 
     def __init__(self, intervals: Iterable[Interval] = ()) -> None:
-        self._columns = tuple(array(kind) for kind in _TYPES)
+        self._columns: tuple[array[Any], ...] = tuple(array(kind) for kind in _TYPES)
         for interval in intervals:
             self.append(interval)
 
@@ -55,6 +55,6 @@ class Intervals(Sequence[Interval]):
         return map(_interval, zip(*self._columns, strict=True))
 
 
-def _interval(values: Iterable[int | float]) -> Interval:
-    *fields, recorded = values
-    return Interval(*fields, bool(recorded))  # type: ignore[arg-type] # ints are of integer columns
+def _interval(values: Iterable[Any]) -> Interval:
+    number, stamp, begin, end, tolerance, sample_rate, recorded = values
+    return Interval(number, stamp, begin, end, tolerance, sample_rate, bool(recorded))
