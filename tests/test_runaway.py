@@ -165,7 +165,7 @@ def test_a_run_without_progress_stops_and_says_what_keeps_it():
     engine.control.longest = 1e-12
     with pytest.raises(pt.RunawayError, match="makes no progress, its last step is 1e-12 s long"):
         engine.advance(1.0, 1, 1.0, 0)
-    assert engine.control.steps <= 2000
+    assert engine.control.steps <= 60_000
 
 
 def test_a_run_whose_flanks_keep_it_names_the_mesh():

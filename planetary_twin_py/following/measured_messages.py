@@ -14,14 +14,11 @@ import numpy as np
 
 from .checks import InputError
 from .follower import EncoderFormat, EncoderSamples, Readings
+from .message_types import ENCODERS, JOINTS, TEMPERATURE, VIBRATION
 from .position_check import PositionCheck
 from .sensors import JointNames
 from .vibration import VibrationSamples
 
-JOINTS = ("sensor_msgs/msg/JointState", "control_msgs/msg/DynamicJointState")
-TEMPERATURE = "sensor_msgs/msg/Temperature"
-ENCODERS = "planetary_twin_msgs/msg/EncoderBlock"
-VIBRATION = "planetary_twin_msgs/msg/SampledBlock"
 BLOCKS = (ENCODERS, VIBRATION)
 """Types of messages that have many samples."""
 KINDS = (*JOINTS, TEMPERATURE, *BLOCKS)

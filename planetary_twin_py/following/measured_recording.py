@@ -13,7 +13,8 @@ from ..recording.container.records import RecordingError, files_of, records_of
 from ..recording.ros2.typestore import DefinitionError, types_of
 from .bins import CHANNELS
 from .follower import Readings
-from .measured_messages import JOINTS, KINDS, Arrived, Block, MessageReader
+from .measured_messages import KINDS, Arrived, Block, MessageReader
+from .message_types import JOINTS
 from .sensors import JointNames
 
 BEGIN = np.datetime64(0, "s")  # second 0 of stamps of ROS 2

@@ -171,7 +171,10 @@ def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what,
     ("factors", "said"),
     [
         ({"input_speed": RPM}, "input_speed is 999.8 rad/s on average, 9.55 times"),
-        ({"input_torque": 1e-3, "output_torque": 1e-3}, "in kN m must be input_torque [kN m]"),
+        (
+            {"input_torque": 1e-3, "output_torque": 1e-3},
+            "a table in kN m needs the heading input_torque [kN m]",
+        ),
     ],
 )
 def test_a_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):

@@ -22,8 +22,12 @@ public:
         if (steps_ % STALLING_STEPS != 1) return;
         const State& end = integrator.end;
         const double now = static_cast<double>(end.seconds) + end.time, before = last_;
+        const std::int64_t events = integrator.control.flank_events - events_;
         last_ = now;
-        if (steps_ == 1 || std::fabs(now - before) >= STALLING_STEPS * NO_STEP) return;
+        events_ += events;
+        const bool moves = steps_ == 1 || std::fabs(now - before) >= STALLING_STEPS * NO_STEP;
+        stalls_ = moves ? 0 : stalls_ + 1;
+        if (stalls_ < (events > MANY_EVENTS ? 1 : MOST_STALLS)) return;
         integrator.control.next_step = 0.0;
         throw NoProgress{};
     }
@@ -34,9 +38,14 @@ private:
     // Mean step [s] that is no progress, far below the shortest periods of gears: a second of the
     // run would take hours.
     static constexpr double NO_STEP = 1e-9;
+    // Flanks that engage and separate need the modes of another contact state in each step, a
+    // millisecond of computing. Other steps are cheap, and trains that come to rest make thousands
+    // of them.
+    static constexpr std::int64_t MANY_EVENTS = STALLING_STEPS / 10, MOST_STALLS = 50;
 
-    std::int64_t steps_ = 0;
-    double last_ = 0.0;  // time at the last look at the progress [s]
+    std::int64_t steps_ = 0, stalls_ = 0;
+    std::int64_t events_ = 0;  // of flanks, up to the last look at the progress
+    double last_ = 0.0;        // time at the last look at the progress [s]
 };
 
 }  // namespace gearbox

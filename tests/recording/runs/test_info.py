@@ -74,7 +74,9 @@ def test_the_command_prints_them_and_its_figures_are_those_of_a_run(sound, tmp_p
     assert answer.exit_code == 0, answer.output
     assert "backlash = 3e-07 m, lambda_ratio = 1.5" in answer.output
     figures = json.loads((tmp_path / "figures.json").read_text())
-    assert set(figures) == {"topics", "duration_s", "real_time_factor", "overruns", "file"}
+    assert set(figures) == {
+        "topics", "duration_s", "real_time_factor", "overruns", "skips", "skipped_s", "file"
+    }  # fmt: skip
     assert figures["topics"][f"{NAMESPACE}/joint_states"]["recorded"] == 41
 
 

@@ -112,7 +112,7 @@ def test_a_port_changes_within_the_run_and_commands_for_the_one_before_have_no_e
     [
         (
             Branch({"drive.output.port": "pedal"}, 0.05),
-            "drive.output.port = 'pedal': must be 'machine', 'torque' or 'motion'",
+            "drive.output.port = 'pedal': must be 'machine', 'torque', 'motion' or 'brake'",
         ),
         (
             Branch({"drive.output.inertia": 1.0}, 0.05),

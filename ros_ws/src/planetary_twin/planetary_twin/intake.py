@@ -7,7 +7,8 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 
-from planetary_twin_py.following.measured_messages import JOINTS, Arrived
+from planetary_twin_py.following.measured_messages import Arrived
+from planetary_twin_py.following.message_types import JOINTS
 
 from .polling import PolledSubscription
 from .topics import MEASURED, matching_qos, message_class
