@@ -87,8 +87,6 @@ def start_state(scene: Scene, model: Model) -> tuple[State, str]:
         speed[0] = scene.drive.speed_control.start_speed
     force = mesh_force(scene, float(model.load.torque[MOTOR]))
     state, unbalanced, body = library(scene).initial_state(model, speed, force)
-    if not scene.moving_axes:
-        return state, ""
     if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
         from ..modal.whirl import whirl_warning  # whose gear sets are built from scenes
 

@@ -15,6 +15,7 @@ damping in the housing that acts on displacements in this frame. Tilts are left 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,9 +26,10 @@ from ..dynamics.train import build_train, held_axes
 from ..planar.rows import CENTRAL
 from ..planar.small_motion import depends_on_load
 from ..scene import OperatingPoint, Scene
-from .natural import loaded_planar_model
-from .springs import SpringModel
-from .turning import ROUNDING, Turning, factors, system, turning_terms
+
+if TYPE_CHECKING:
+    from .springs import SpringModel
+    from .turning import Turning
 
 MESHES = ("sun_planet", "planet_ring")  # kinds of springs, in the order of the core
 
@@ -51,6 +53,10 @@ def whirl_warning(scene: Scene, point: OperatingPoint) -> str:
     loaded = any(depends_on_load(getattr(supports, name)) for name in (*CENTRAL, "planet"))
     if speeds["carrier"] == 0.0 or loaded:
         return ""
+    # Here, because they load SciPy: other runs need not wait for it.
+    from .natural import loaded_planar_model
+    from .turning import ROUNDING, turning_terms
+
     model = loaded_planar_model(scene)
     terms = turning_terms(model, speeds["carrier"], speeds, scene.gearset.planet_angles)
     squares = np.linalg.eigvalsh(model.stiffness - terms.centripetal)
@@ -108,6 +114,8 @@ def growing(
     Returns:
         Growth and angular frequency in the frame of the carrier [1/s]; None if nothing grows.
     """
+    from .turning import ROUNDING, factors, system
+
     unit = 1.0 / np.sqrt(np.outer(model.mass, model.mass))
     _, springs, signs = factors(model, terms)
     matrix = system((terms.gyroscopic + damping) * unit, springs, signs)

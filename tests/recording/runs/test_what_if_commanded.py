@@ -10,6 +10,7 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.runs import recorded_commands as recorded_commands_of
 from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.intervals import Intervals
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
@@ -181,7 +182,7 @@ def test_commands_of_another_recording_act_at_the_same_times(machine, driven, tm
 
 def test_commands_of_missing_intervals_are_reported(driven, monkeypatch):
     (run,) = read_runs(driven, NAMESPACE, [])
-    del run.intervals[3:5]
+    run.intervals = Intervals([*run.intervals[:3], *run.intervals[5:]])
     monkeypatch.setattr(recorded_commands_of, "read_runs", lambda *_: [run])
     remarks = []
     assert len(recorded_commands_of.recorded_commands(driven, remarks)) == COUNT - 2
