@@ -36,7 +36,7 @@ class FleetCheck:
         self._usual = {name: np.full(count, value) for name, value in nominal.items()}
         self._known = {name: np.zeros(count, dtype=bool) for name in nominal}
         self._torques = np.full((2, count), np.nan)
-        self._repeats = Repeats(torque_change(sensors, train), count)
+        self._repeats = Repeats(torque_change(sensors, train), train.ratio, count)
         self._number = 0
 
     def without_codes(self, time: float, row: dict[str, Array]) -> dict[str, Array]:

@@ -98,7 +98,8 @@ class ReadingCheck:
     def __init__(self, train: FollowedTrain, sensors: Sensors) -> None:
         self.left_out = LeftOut()
         self._ranges = ranges_of(train)
-        self._scale, self._changed = sensors.scale, torque_change(sensors, train)
+        self._scale, self._ratio = sensors.scale, train.ratio
+        self._changed = torque_change(sensors, train)
         self._repeats: dict[str, Repeats] = {}
         self._nominal = nominal_values(train)
         self._usual: dict[tuple[str, str], float] = {}
@@ -136,7 +137,7 @@ class ReadingCheck:
                     self._omit(name, reason, which, (time, values, rows))
             kept[name] = values
         if set(TORQUES) <= set(kept) and len(time):
-            repeats = self._repeats.setdefault(sender, Repeats(self._changed))
+            repeats = self._repeats.setdefault(sender, Repeats(self._changed, self._ratio))
             torques = kept[TORQUES[0]], kept[TORQUES[1]]
             stuck = repeats.judge(torques[0][:, None], torques[1][:, None])
             for name, which in zip(TORQUES, stuck, strict=True):

@@ -1,7 +1,8 @@
 """Recognises a torque that repeats one value exactly while the other torque changes.
 
 A sensor that measures is noisy. One that repeats its last value, or the end of its range, is stuck
-as soon as the load moves; a constant torque of a simulation or a set point is not.
+as soon as the load moves; a constant torque of a simulation or a set point is not. Where one torque
+is constant, as of a motor at the end of its range, friction can move the other by about the loss.
 """
 
 from __future__ import annotations
@@ -23,11 +24,13 @@ class Repeats:
 
     Args:
         moved: change of each torque that shows a change of the load [N m].
+        ratio: speed of the output over that of the input.
         count: number of gearboxes.
     """
 
-    def __init__(self, moved: tuple[float, float], count: int = 1) -> None:
+    def __init__(self, moved: tuple[float, float], ratio: float, count: int = 1) -> None:
         self._moved = np.array(moved)[:, None, None]
+        self._at_input = np.array([1.0, ratio])[:, None, None]  # both torques referred to the input
         self._last = np.full((2, 1, count), np.nan)
         self._run = np.zeros((2, 1, count), dtype=np.int64)  # equal readings up to the last
         self._longest = np.zeros((2, 1, count), dtype=np.int64)  # run before the present one
@@ -58,7 +61,9 @@ class Repeats:
         other = read[::-1]
         at_start = np.take_along_axis(other, np.maximum(start - 1, 0), axis=1)
         at_start = np.where(start > 0, at_start, self._at_start)
-        stuck = long & (np.abs(other - at_start) > self._moved[::-1])
+        loss = np.abs(self._at_input * read + self._at_input[::-1] * at_start)
+        enough = np.maximum(self._moved[::-1], loss / np.abs(self._at_input[::-1]))
+        stuck = long & (np.abs(other - at_start) > enough)
         self._last, self._run, self._longest = read[:, -1:], run[:, -1:], longest[:, -1:]
         self._at_start = at_start[:, -1:]
         return np.asarray(stuck[0]), np.asarray(stuck[1])

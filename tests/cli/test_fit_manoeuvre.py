@@ -89,7 +89,7 @@ def test_the_stated_factor_is_accepted(tmp_path, steady):
         1,
         [
             ({"input_torque": 1e-3, "output_torque": 1e-3}, "is the unit of both torques right?"),
-            ({"time": 1e3}, "a heading of a table with milliseconds must be time [ms]"),
+            ({"time": 1e3}, "a table in milliseconds needs the heading time [ms]"),
         ],
     ),
 )

@@ -69,6 +69,8 @@ def read_summary(file: Path) -> Summary:
             elif piece.opcode == Opcode.CHANNEL:
                 (channel,) = opened(piece)
                 channels[channel.id] = channel
+                if len(channels) > MOST_TOPICS:
+                    raise ValueError("too many topics")
             elif piece.opcode == Opcode.METADATA_INDEX:
                 here = stream.tell()
                 stream.seek(MetadataIndex.read(data).offset)
@@ -76,8 +78,6 @@ def read_summary(file: Path) -> Summary:
                 stream.seek(here)
     if statistics is None:
         raise ValueError("no statistics")
-    if len(channels) > MOST_TOPICS:
-        raise ValueError("too many topics")
     chunks.sort(key=lambda chunk: chunk.place)
     return Summary(schemas, channels, statistics, chunks, metadata)
 
