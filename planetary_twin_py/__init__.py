@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._core import PortStates
-    from .accuracy import AccuracyWarning
     from .analysis.orders import (
         ByAngle,
         OrderMap,
@@ -31,8 +30,9 @@ if TYPE_CHECKING:
         strongest_lines,
     )
     from .batch import Outcome, simulate_many
+    from .choice_records import DynamicsChoice
     from .commands import Commands
-    from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .dynamics_choice import choose_dynamics
     from .exchange import check_exchange
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
@@ -41,18 +41,11 @@ if TYPE_CHECKING:
     from .following.changed_teeth import ToothState
     from .following.checks import InputError
     from .following.estimate import Estimate, Event
-    from .following.follower import (
-        EncoderFormat,
-        EncoderSamples,
-        Follower,
-        Following,
-        Readings,
-    )
+    from .following.follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
     from .following.sensors import Sensors
-    from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
-    from .modal.natural import natural_modes
-    from .planar.load_sharing import LoadSharing, load_sharing
+    from .natural_modes import natural_modes
+    from .planar.load_sharing import LoadSharing
     from .plots.study import plot_study
     from .result import Energy, Result, Stats
     from .runaway import RunawayError
@@ -68,9 +61,11 @@ if TYPE_CHECKING:
         parse_scene,
     )
     from .simulation import simulate
+    from .stable_load_sharing import load_sharing
     from .twin import Change, Twin
     from .twins import Twins
     from .units import rpm
+    from .warning_types import AccuracyWarning, LedgerWarning
     from .window import Waveform, Window
 
 _EXPORTS = {
@@ -82,9 +77,10 @@ _EXPORTS = {
         "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
         "strongest_lines",
     ),
-    "accuracy": ("AccuracyWarning",),
+    "warning_types": ("AccuracyWarning", "LedgerWarning"),
     "_core": ("PortStates",),
-    "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
+    "choice_records": ("DynamicsChoice",),
+    "dynamics_choice": ("choose_dynamics",),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
     "exchange": ("check_exchange",),
@@ -99,10 +95,10 @@ _EXPORTS = {
     "following.sensors": ("Sensors",),
     "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),
-    "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
-    "modal.natural": ("natural_modes",),
-    "planar.load_sharing": ("LoadSharing", "load_sharing"),
+    "natural_modes": ("natural_modes",),
+    "planar.load_sharing": ("LoadSharing",),
+    "stable_load_sharing": ("load_sharing",),
     "plots.study": ("plot_study",),
     "result": ("Energy", "Result", "Stats"),
     "runaway": ("RunawayError",),

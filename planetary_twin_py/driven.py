@@ -14,7 +14,7 @@ from .commands import Action, Commands, actions
 from .driven_engine import DrivenEngine
 from .integrators.clock import TICKS
 from .integrators.interpolant import Samples
-from .run import Run
+from .run_interface import Run
 from .scene import Scene, SceneError
 
 SPAN = Fraction(1, 100)  # [s] over which the power of a machine has one direction, that of its mean

@@ -13,6 +13,7 @@ from typing import NoReturn
 
 import numpy as np
 
+from . import _core
 from ._core import (
     EXCEEDED,
     IMPULSE,
@@ -47,6 +48,7 @@ from .integrators.clock import (
     sampling,
 )
 from .integrators.interpolant import Samples, Waves, new_samples
+from .modal.whirl import whirl_warning
 from .runaway import Limits, RunawayError
 from .scene import OperatingPoint, Scene
 from .step_scale import POINTS, StepScale, new_integrator
@@ -100,7 +102,8 @@ class Engine:
         self._cycles: dict[bool, int] = {}
         self._pause = SETTLING / bandwidth(scene)
         self._load(scene.operating_point)
-        state, self.start_warning = start_state(scene, self.model)
+        state, unbalanced = start_state(scene, self.model)
+        self.start_warning = unbalanced or whirl_warning(scene, scene.operating_point)
         self.integrator.begin = self.integrator.end = state
         self._prepare()
 
@@ -116,10 +119,10 @@ class Engine:
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
         self._load_oil(point)
-        load, ports = record_in(self._core, self._loads.build(point)), self.scene.drive.ports
+        load = self._loads.build(point)
         if self._given:  # values given at ports do not depend on the operating point
-            keep_given(self.model.load, load)
-        self.model.load, self._given = load, ports.given
+            keep_given(record_in(_core, self.model.load), load)
+        self.model.load, self._given = record_in(self._core, load), self.scene.drive.ports.given
         control, scale = self.integrator.control, self._scale
         control.tolerance = self.tolerance
         control.deflection = scale.deflection(point)

@@ -20,10 +20,6 @@ OF_STORED = ROUNDING  # allowed residual/stored energy
 FLOOR = 1e-15  # [J] allowed at standstill; a tooth of 1e8 N/m pressed by 1 mN stores 5e-15 J
 
 
-class LedgerWarning(UserWarning):
-    """The energy ledger of a run does not balance."""
-
-
 class Balance(NamedTuple):
     """Energy balance of a run, or of a part of it [J]."""
 

@@ -12,7 +12,7 @@ from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .planar.motion import AxesMotion
 
 if TYPE_CHECKING:
-    from .dynamics_choice import DynamicsChoice
+    from .choice_records import DynamicsChoice
 
 
 ROUNDING = 1e-9  # of the stored energy: work below it is due to rounding

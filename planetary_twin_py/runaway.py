@@ -6,8 +6,7 @@ are invalid long before: at a mesh deflection of a base pitch, teeth have broken
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from .dynamics.library import library
 from .dynamics.moving_axes import bearing_names
 from .dynamics.static_load import static_torques
 from .integrators.interpolant import Samples, Waves
+from .limit_records import Limit, displacement_limit
 from .scene import Scene
 
 EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of the drive
@@ -25,59 +25,6 @@ EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of t
 
 class RunawayError(ArithmeticError):
     """A run exceeded a physical limit and was stopped; the message states time and reason."""
-
-
-class Limit(NamedTuple):
-    """Largest magnitude of a quantity."""
-
-    quantity: str
-    unit: str
-    names: Sequence[str]
-    """Of the bodies, machines or meshes."""
-    largest: np.ndarray
-    """In `unit`, (names,)."""
-    reason: str
-    """Of the limit, for the message."""
-
-    def check(self, values: np.ndarray) -> None:
-        """Check values.
-
-        Args:
-            values: in `unit`, (times, names).
-
-        Raises:
-            ArithmeticError: a value exceeds its limit, or is NaN.
-        """
-        if (np.abs(values) <= self.largest).all():  # False if one is NaN
-            return
-        peak = np.abs(values).max(axis=0)
-        k = int(np.flatnonzero(~(peak <= self.largest))[0])
-        if np.isnan(peak[k]):
-            raise ArithmeticError(
-                f"{self.quantity} of {self.names[k]} = nan {self.unit}: must be a number: the "
-                "motion grows without bound; reduce the torques, or increase stiffness and damping"
-            )
-        raise ArithmeticError(
-            f"{self.quantity} of {self.names[k]} = {peak[k]:.4g} {self.unit}: must be at most "
-            f"{self.largest[k]:.4g} {self.unit}, {self.reason}"
-        )
-
-
-def displacement_limit(scene: Scene) -> Limit:
-    """Limit of the displacements of axes in the plane.
-
-    Args:
-        scene: scene with supports.
-    """
-    names, module = bearing_names(scene), scene.gearset.transverse.module
-    return Limit(
-        "displacement",
-        "m",
-        names,
-        np.full(len(names), module),
-        "a module, beyond which teeth may not mesh; reduce the torque, clearances or offsets "
-        "(errors.*_offset), or increase the stiffness of the bearings (supports.*.bearing)",
-    )
 
 
 def _axial_limit(scene: Scene) -> Limit:

@@ -28,23 +28,26 @@ from ._core import (
     WEIGHT,
     WORK,
 )
-from .accuracy import AccuracyWarning, accuracy_warnings
+from .accuracy import accuracy_warnings
+from .choice_records import AUTO
 from .commands import Commands
 from .driven import DrivenRun
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
-from .dynamics_choice import AUTO, choose_dynamics
+from .dynamics_choice import choose_dynamics
 from .energy_books import EnergyBooks
 from .integrators.clock import samples_until
 from .integrators.interpolant import Samples
-from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
-from .planar.axes_sums import read_axes
+from .ledger_check import balance_of_run, ledger_warning
 from .planar.motion import axes_motion, joined_flanks
 from .result import Energy, Result, Stats
-from .run import Run, start
+from .run import start
+from .run_interface import Run
 from .scene import Scene
 from .scene.given import check_scene
+from .simulate_axes import read_axes
 from .tolerance import check_tolerance
+from .warning_types import AccuracyWarning, LedgerWarning
 from .window import mesh_statistics
 
 MOST_SAMPLES = 20_000_000

@@ -6,9 +6,9 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from ._core import PortStates
-from .accuracy import Course, Settling, course_so_far, unsettled
 from .brief import brief
 from .commands import NOTHING, Command, CommandLog, Commands
+from .counters import Course, Settling, course_so_far, unsettled
 from .driven_engine import DrivenEngine
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, body_names, build_report, mesh_names
 from .dynamics.library import library

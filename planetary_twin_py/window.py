@@ -10,8 +10,8 @@ import numpy as np
 
 from . import _core
 from ._core import MESH_STATISTICS
-from .accuracy import Course
 from .brief import brief, brief_record
+from .counters import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
 from .planar.motion import AxesMotion

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import ModuleType
 
 from ._core import Report, Train, WindowEnd
-from .accuracy import Course
+from .counters import Course
 from .dynamics.bodies import body_names, machines, mesh_names
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS

@@ -21,7 +21,7 @@ from ._oil import print_oil
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..dynamics_choice import DynamicsChoice
+    from ..choice_records import DynamicsChoice
     from ..explanation.measure import Explanation
     from ..explanation.meshes import Meshes
     from ..scene import Scene
@@ -48,12 +48,11 @@ def explain(
 
     from rich.markup import escape
 
-    from ..accuracy import AccuracyWarning
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
     from ..explanation.turning import duration_for_means
-    from ..ledger_check import LedgerWarning
     from ..scene.summary import gears
+    from ..warning_types import AccuracyWarning, LedgerWarning
 
     console = console_beside(json_)
     for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
@@ -181,7 +180,7 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     """Errors and computing time of each dynamics."""
     from rich.table import Table
 
-    from ..dynamics_choice import FIGURES
+    from ..choice_records import FIGURES
 
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",

@@ -44,7 +44,7 @@ def load_sharing(
     """
     if picture is not None:
         need("plots", "matplotlib")
-    from ..planar.load_sharing import load_sharing as compute
+    from ..stable_load_sharing import load_sharing as compute
 
     try:
         loaded = changed_scene(scene, settings(set_ or []))

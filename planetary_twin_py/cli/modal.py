@@ -71,9 +71,10 @@ def modal(
         need("plots", "matplotlib")
     from ..modal.campbell import resonances
     from ..modal.natural import model_of, natural_modes, spring_model
+    from ..natural_modes import chosen
 
     try:
-        loaded = changed_scene(scene, settings(set_ or []))
+        loaded = chosen(changed_scene(scene, settings(set_ or [])), model)
         model = model_of(loaded) if model is None else model
         speed = _speed(input_speed, model)
         single, mean = (natural_modes(loaded, model, k, speed) for k in ("single", "mean"))
@@ -155,7 +156,7 @@ def _bearings_of_load(scene: Scene, model: str) -> str | None:
 
 def _bearings_without_stiffness(scene: Scene, model: str) -> str | None:
     """A remark on axial and tilting stiffnesses that the scene lacks, if the model has any."""
-    from ..spatial.bearings import missing_stiffnesses
+    from ..scene.support_rules import missing_stiffnesses
 
     if scene.supports is None or model != "spatial":
         return None

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from ..planar.axes_sums import AxesStatistics
+    from ..planar.axes_records import AxesStatistics
     from ..planar.motion import AxesMotion
     from ..result import Result
     from ..scene import Scene
@@ -63,13 +63,12 @@ def simulate(
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
 
-    from ..accuracy import AccuracyWarning
     from ..explanation.losses import losses_in_words
     from ..explanation.remarks import remarks
-    from ..ledger_check import LedgerWarning
     from ..scene.summary import gears, operating_point
     from ..scene.unused import without_effect
     from ..simulation import simulate as run
+    from ..warning_types import AccuracyWarning, LedgerWarning
 
     console = console_beside(json_)
     for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks

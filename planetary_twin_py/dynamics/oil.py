@@ -7,15 +7,7 @@ import math
 import numpy as np
 
 from .. import _core
-from .._core import (
-    TRACTION_LAWS,
-    Asperities,
-    Oil,
-    ShearThinning,
-    Traction,
-    half_width,
-    prescribe,
-)
+from .._core import TRACTION_LAWS, Asperities, Oil, ShearThinning, Traction, half_width, prescribe
 from ..lubrication.film import FILM_LAWS
 from ..lubrication.hertz import contact_modulus
 from ..lubrication.schlenk import log_schlenk_factor

@@ -7,17 +7,7 @@ meshes excite.
 
 from __future__ import annotations
 
-from .._core import (
-    BY_MACHINE,
-    BY_MOTION,
-    BY_TORQUE,
-    Load,
-    Model,
-    PortStates,
-    State,
-    Train,
-    load_at,
-)
+from .._core import BY_MACHINE, BY_MOTION, BY_TORQUE, Load, Model, PortStates, State, Train, load_at
 from ..integrators.clock import Instant
 from ..scene import OperatingPoint, Scene
 from .bodies import MOTOR, build_bodies
@@ -79,8 +69,7 @@ def start_state(scene: Scene, model: Model) -> tuple[State, str]:
         model: its train at the operating point.
 
     Returns:
-        The state; and a warning if axes that move are not in equilibrium there, or leave it, else
-        "".
+        The state; and a warning if axes that move are not in equilibrium there, else "".
     """
     speed = model.load.target_speed.copy()
     if scene.drive.speed_control.start_speed is not None:
@@ -88,9 +77,7 @@ def start_state(scene: Scene, model: Model) -> tuple[State, str]:
     force = mesh_force(scene, float(model.load.torque[MOTOR]))
     state, unbalanced, body = library(scene).initial_state(model, speed, force)
     if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
-        from ..modal.whirl import whirl_warning  # whose gear sets are built from scenes
-
-        return state, whirl_warning(scene, scene.operating_point)
+        return state, ""
     place = build_bodies(scene).place
     name = next(name for name, number in place.items() if number == body)
     return state, (

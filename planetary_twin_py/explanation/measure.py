@@ -6,7 +6,8 @@ from collections.abc import Callable
 from statistics import median
 from typing import NamedTuple
 
-from ..dynamics_choice import AUTO, DynamicsChoice, choose_dynamics
+from ..choice_records import AUTO, DynamicsChoice
+from ..dynamics_choice import choose_dynamics
 from ..result import Result
 from ..scene import Scene
 from ..simulation import TOLERANCE, simulate

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..dynamics.mesh_frequency import wanted_mesh_frequency
 from ..gearset.kinematics import mesh_frequency
 from ..planar.error_turns import WHOLE_TURN, fewest_turns
 from ..result import Result
@@ -18,7 +19,6 @@ from ..studies.turning import (
     off_speed,
     part_counts,
     speed_share,
-    wanted_mesh_frequency,
 )
 
 SHORT = 0.1  # [s]

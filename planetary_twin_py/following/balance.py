@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..engineering_units import percent
 from ..interval_text import plus_minus
 from ..scene import Scene
-from .balance_filter import (
+from .balance_filter import (  # fmt: skip
     CAUSES,
     FRICTION,
     PARAMETERS,
@@ -31,7 +31,7 @@ from .balance_filter import (
     T,
     alarm_memory,
     interval_memory,
-)  # fmt: skip
+)
 from .bins import Bin, Counters
 from .checked_bins import PERIOD, CheckedBins
 from .cusum import Cusum, Step

@@ -11,13 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..printable import one_line
-from ..recording.tables.measurements import (
-    TIME,
-    Column,
-    day_numbers,
-    missing_column,
-    read_columns,
-)
+from ..recording.tables.measurements import TIME, Column, day_numbers, missing_column, read_columns
 from ..units import LARGEST
 from .bins import AHEAD, CHANNELS
 from .follower import EncoderSamples, Readings

@@ -29,15 +29,8 @@ def model_of(scene: Scene) -> str:
     That of a quasi-static dynamics has the same axes as the dynamics that vibrates.
 
     Args:
-        scene: the scene; with dynamics: auto, `choose_dynamics` picks one.
-
-    Raises:
-        ValueError: the scene cannot run with any dynamics.
+        scene: the scene, whose dynamics is not auto.
     """
-    from ..dynamics_choice import AUTO, choose_dynamics  # runs, which most modes need not
-
-    if scene.dynamics == AUTO:
-        scene = choose_dynamics(scene).scene
     if scene.tilting_axes:
         return "spatial"
     return "planar" if scene.moving_axes else "torsional"

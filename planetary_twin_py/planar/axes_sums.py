@@ -7,69 +7,17 @@ resolves its natural modes; samples between those that the caller keeps only ent
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..driven import DrivenRun
-from ..dynamics.bodies import CENTRAL, BodyNames, body_names, mesh_names
-from ..integrators.clock import samples_until
+from ..dynamics.bodies import BodyNames, body_names, mesh_names
 from ..integrators.interpolant import Samples
 from ..scene import Scene
+from .axes_records import AxesStatistics, TiltingStatistics
 from .cycle_shares import CycleShares
 from .motion import flank_forces
 
-LEAST = 50_000.0  # [Hz] lowest rate at which axes are sampled
-PER_PERIOD = 16.0  # samples of the fastest mode: peaks are then accurate to 1e-3
 DISPLACEMENT, FORCE, THRUST, MOMENT, TILT = range(5)  # vectors of which magnitudes are summed
-_MOST_AT_ONCE = 20_000  # samples in memory
-
-
-class AxesStatistics(NamedTuple):
-    """Statistics of all axes over a run, with the directions of `AxesMotion`.
-
-    A load that stands still in the housing, such as weight, turns in the frame of the carrier, so
-    it is not part of the mean vectors of sun, ring and carrier, but of the mean magnitudes.
-    """
-
-    displacement_mean: np.ndarray
-    """Mean displacement [m], (bodies, 2)."""
-    displacement_peak: np.ndarray
-    """Largest displacement [m], (bodies,)."""
-    bearing_force_mean: np.ndarray
-    """Mean force on the bearing [N], (bodies, 2)."""
-    bearing_force_peak: np.ndarray
-    """Largest force on the bearing [N], (bodies,)."""
-    tilting: TiltingStatistics | None
-    """Statistics of axial motion and tilts; None where axes do not tilt."""
-    displacement_magnitude: np.ndarray
-    """Mean magnitude of the displacement [m], (bodies,)."""
-    bearing_force_magnitude: np.ndarray
-    """Mean magnitude of the force on the bearing [N], (bodies,)."""
-    largest_load_share: np.ndarray | None
-    """Largest share of each planet, of means over a mesh cycle, (planets,); None before a cycle is
-    complete."""
-
-
-class TiltingStatistics(NamedTuple):
-    """Statistics of axial motion and tilts over a run."""
-
-    axial_displacement_mean: np.ndarray
-    """Mean axial displacement [m], (bodies,)."""
-    tilt_mean: np.ndarray
-    """Mean tilt about two directions [rad], (bodies, 2)."""
-    axial_force_mean: np.ndarray
-    """Mean thrust on the bearing [N], (bodies,)."""
-    axial_force_peak: np.ndarray
-    """Largest thrust on the bearing [N], (bodies,)."""
-    tilting_moment_mean: np.ndarray
-    """Mean moment on the bearing about two directions [N m], (bodies, 2)."""
-    tilting_moment_peak: np.ndarray
-    """Largest moment on the bearing [N m], (bodies,)."""
-    tilt_magnitude: np.ndarray
-    """Mean magnitude of the tilt [rad], (bodies,)."""
-    tilting_moment_magnitude: np.ndarray
-    """Mean magnitude of the moment on the bearing [N m], (bodies,)."""
 
 
 class AxesSums:
@@ -162,61 +110,3 @@ def _peaks(values: np.ndarray) -> np.ndarray:
     summit = (here >= before) & (here >= after) & (bend > 0.0)
     rise = np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(here), where=summit)
     return np.maximum(largest, (here + rise).max(axis=0, initial=0.0, where=summit))
-
-
-def read_axes(
-    run: DrivenRun, scene: Scene, span: tuple[float, float], sample_rate: float
-) -> tuple[Samples, AxesStatistics]:
-    """Advance a run whose axes move.
-
-    Args:
-        run: the run, which has reached the start of `span`.
-        scene: its scene, whose axes move.
-        span: start and end [s].
-        sample_rate: sample rate of the returned samples [Hz].
-
-    Returns:
-        The samples, and the statistics over `span`.
-    """
-    begin, until = span
-    needed = max(LEAST, PER_PERIOD * _fastest_mode(scene))
-    decimation = max(1, math.ceil(needed / sample_rate))
-    rate = decimation * sample_rate
-    done, last = samples_until(begin, rate), samples_until(until, rate)
-    sums, parts = AxesSums(scene), list[Samples]()
-    while done < last:
-        count = min(_MOST_AT_ONCE, last - done)
-        # End between two samples, so that rounding cannot add or drop one.
-        time = until if done + count == last else (done + count + 0.5) / rate
-        samples = run.advance(time, done + 1, rate, count)
-        sums.add(samples)
-        first = (-done - 1) % decimation  # index of the first sample to keep
-        parts.append(Samples(*(part[first::decimation].copy() for part in samples)))
-        done += count
-    return Samples(*map(np.concatenate, zip(*parts, strict=True))), sums.statistics()
-
-
-def _fastest_mode(scene: Scene) -> float:
-    """Frequency of the fastest natural mode [Hz], 0 where nothing vibrates."""
-    if scene.quasi_static:
-        return 0.0
-    from ..modal.natural import natural_modes  # takes time to import
-
-    modes = natural_modes(_always_touching(scene), model=scene.dynamics, stiffness="mean")
-    return float(modes.frequencies.max())
-
-
-def _always_touching(scene: Scene) -> Scene:
-    """The scene with linear bearings and flanks that always touch, as stiff as they become."""
-    clearances = {
-        f"supports.{body}.clearance": 0.0
-        for body in (*CENTRAL, "planet")
-        if getattr(scene.supports, body).rolling is None
-    }
-    factors = {name: getattr(scene.errors, name) for name in ("planet_stiffness", "pin_stiffness")}
-    flat: dict[str, Any] = {
-        "mesh.runout": {},
-        "mesh.sun_planet_error": {},
-        "mesh.planet_ring_error": {},
-    }
-    return scene.replace(**clearances, **flat, **{"errors": factors, "supports.gravity": 0.0})

@@ -5,8 +5,8 @@ from __future__ import annotations
 import warnings
 from functools import lru_cache
 
-from ..accuracy import AccuracyWarning
 from ..scene import Scene
+from ..warning_types import AccuracyWarning
 from .load_sharing import load_sharing
 
 SCENES_KEPT = 16

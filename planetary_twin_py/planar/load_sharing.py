@@ -10,13 +10,11 @@ Singh 2008, on epicyclic load sharing.
 from __future__ import annotations
 
 import math
-import warnings
 from typing import NamedTuple
 
 import numpy as np
 
 from .._core.axes import RollingBearing
-from ..accuracy import AccuracyWarning
 from ..dynamics.bodies import rigid_ratios
 from ..dynamics.moving_axes import bearing_names, linear_bearing
 from ..dynamics.planet_groups import scene_phases
@@ -24,15 +22,15 @@ from ..dynamics.rolling_bearings import largest_element_load, rolling_bearing
 from ..dynamics.static_load import mesh_force
 from ..dynamics.teeth import build_teeth, stiffness_at
 from ..gearset.kinematics import mesh_cycles_per_turn
-from ..runaway import displacement_limit
+from ..limit_records import displacement_limit
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
+from ..scene.support_rules import unsupported
 from ..scene.supports import Support, Supports
 from .centrifugal import centrifugal
 from .errors import Displacements, displacements
 from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
 from .statics import Equilibrium, Springs, eccentricities, equilibrium
-from .unsupported import unsupported
 from .weight import weight_forces
 
 POSITIONS = 64  # in a mesh cycle, if the load repeats with it
@@ -123,18 +121,9 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     solution = equilibrium(springs, force, closed)
     if scene.supports is not None:
         _check_displacements(scene, eccentricities(springs, solution.displacement))
-        _warn_of_whirl(scene)
     elements = _element_loads(scene, springs, solution)
     on_bodies = weight + inertia.on(solution.displacement @ basis.T)
     return _assemble_result(scene, rows, turns, errors, basis, solution, on_bodies, elements)
-
-
-def _warn_of_whirl(scene: Scene) -> None:
-    """Warn of an equilibrium that vibration leaves."""
-    from ..modal.whirl import whirl_warning  # whose springs are linear about load sharing
-
-    if warning := whirl_warning(scene, scene.operating_point):
-        warnings.warn(warning, AccuracyWarning, stacklevel=3)
 
 
 def _check_displacements(scene: Scene, displaced: np.ndarray) -> None:

@@ -5,28 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._core import (
-    BOUNDARY,
-    FILM,
-    LAMBDA,
-    MESH_FORCE,
-    MESH_POWER,
-    POWER_LOSS,
-    VISCOUS,
-)
+from .._core import BOUNDARY, FILM, LAMBDA, MESH_FORCE, MESH_POWER, POWER_LOSS, VISCOUS
 from ..dynamics.bodies import CENTRAL
 from ..dynamics.library import library
 from ..integrators.interpolant import Samples, Waves
 from ..scene import Scene
 from ..spatial.motion import TiltingMotion, tilting_motion
+from .axes_records import AxesStatistics
 from .cycle_shares import CycleShares
-
-if TYPE_CHECKING:
-    from .axes_sums import AxesStatistics
 
 SUMMED = (MESH_FORCE, BOUNDARY, VISCOUS, POWER_LOSS, MESH_POWER)  # of both flanks
 OF_EITHER = (FILM, LAMBDA)  # of the flanks that carry, or of the others if these do not touch

@@ -11,14 +11,7 @@ from types import ModuleType
 
 import numpy as np
 
-from .._core import (
-    COAST_SIDE,
-    DRIVE_SIDE,
-    DTE,
-    MESH_FORCE,
-    Model,
-    State,
-)
+from .._core import COAST_SIDE, DRIVE_SIDE, DTE, MESH_FORCE, Model, State
 from ..dynamics.bodies import MOTOR
 from ..dynamics.mesh_sums import MeshSums
 from ..integrators.clock import Instant, delay

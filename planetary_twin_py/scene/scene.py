@@ -9,8 +9,6 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from ..gearset.kinematics import MEMBERS
-from ..planar.unsupported import unsupported, unsupported_along
-from ..spatial.bearings import missing_stiffnesses
 from .defect import explain
 from .drive import Drive
 from .errors import PER_PLANET, Errors
@@ -25,6 +23,7 @@ from .oil_grade import without_other_oil
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, Section, limit_of, listed, quantity
+from .support_rules import missing_stiffnesses, unsupported, unsupported_along
 from .supports import Supports
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))

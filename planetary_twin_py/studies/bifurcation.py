@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..accuracy import Course
+from ..counters import Course
 from ..dynamics.bodies import mesh_names
 from ..quantities import COURSE
 from ..scene import Scene

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..accuracy import Course, course_warnings
+from ..accuracy import course_warnings
+from ..counters import Course
 from ..quantities import COURSE
 
 if TYPE_CHECKING:

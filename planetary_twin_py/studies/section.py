@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 
 from .._core import DTE
-from ..accuracy import Course, course_so_far
+from ..counters import Course, course_so_far
 from ..dynamics.bodies import body_names, mesh_names
 from ..integrators.interpolant import Samples
 from ..run import start

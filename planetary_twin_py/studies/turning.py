@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..dynamics.bodies import rigid_speeds
-from ..gearset.kinematics import mesh_frequency
+from ..dynamics.mesh_frequency import wanted_mesh_frequency
 from ..planar.error_turns import WHOLE_TURN
 from ..quantities import ERROR_TURNS, SPEED_SHARE
 from ..scene import Scene
@@ -29,17 +28,6 @@ ADVICE = (
     "the speed loop has not settled or yields to the meshes: exclude more with --settling, "
     "simulate longer, or raise drive.speed_control.bandwidth"
 )
-
-
-def wanted_mesh_frequency(scene: Scene) -> float:
-    """Mesh frequency of rigid gears at the speeds of the operating point [Hz].
-
-    Args:
-        scene: the scene.
-    """
-    point = scene.operating_point
-    speeds = rigid_speeds(scene, (point.input_speed, point.second_input_speed))
-    return mesh_frequency(scene.gearset.tooth_numbers, speeds["sun"], speeds["carrier"])
 
 
 def speed_share(scene: Scene, found: float) -> float:

@@ -7,15 +7,7 @@ from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
 
-from ..quantities import (
-    BEARING,
-    MEMBERS,
-    MESH,
-    OPERATING_POINT,
-    SHARING,
-    TRAIN_PLOTS,
-    WAVEFORM,
-)
+from ..quantities import BEARING, MEMBERS, MESH, OPERATING_POINT, SHARING, TRAIN_PLOTS, WAVEFORM
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
 from . import orbits as orbit

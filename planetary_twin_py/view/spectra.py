@@ -13,7 +13,7 @@ from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
 from ..analysis.orders import order_spectrum
 from ..analysis.signals import relative_angle
 from ..analysis.spectrum import amplitude_spectrum
-from ..modal.natural import natural_modes
+from ..natural_modes import natural_modes
 from ..scene import Scene
 from .chart import Chart, Ticks, log_frame, send_labels, send_strips, texts_at
 from .colour_map import shade

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.spatial.bearings import BODIES
+from planetary_twin_py.scene.support_rules import BODIES
 
 
 def invoke(*arguments):

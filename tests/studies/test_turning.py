@@ -7,13 +7,14 @@ import pytest
 from studies.small import PAPER
 
 import planetary_twin_py as pt
+from planetary_twin_py.dynamics.mesh_frequency import wanted_mesh_frequency
 from planetary_twin_py.explanation.turning import turning_warnings
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.sweep import sweep
-from planetary_twin_py.studies.turning import speed_share, turning_of_study, wanted_mesh_frequency
+from planetary_twin_py.studies.turning import speed_share, turning_of_study
 
 SPEEDS = Axis("input_speed", (0.0, pt.rpm(100.0), pt.rpm(1000.0)))
 

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...accuracy import Course, course_warnings
+from ...accuracy import course_warnings
+from ...counters import Course
 from ...ledger_check import Balance, balance_of_window, ledger_warning
 from ...scene.drive import Ports
 from ...scene.live import PORT_FIELDS

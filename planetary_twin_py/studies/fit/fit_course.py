@@ -18,13 +18,7 @@ from ...scene import Scene
 from .course import FEWEST, Array, Course, read_course
 from .course_model import CourseModel
 from .estimate import Estimate, conclude
-from .least_squares import (
-    Minimum,
-    Residuals,
-    differentiate,
-    minimise,
-    with_initial_magnitudes,
-)
+from .least_squares import Minimum, Residuals, differentiate, minimise, with_initial_magnitudes
 from .parameter import Parameter, read_parameters
 from .residual_runs import Runs, count_runs
 

@@ -10,7 +10,7 @@ from functools import reduce
 
 import numpy as np
 
-from ...accuracy import Course
+from ...counters import Course
 from ...integrators.clock import TICKS
 from ...quantities import TRAIN
 from ...scene import TUNABLES

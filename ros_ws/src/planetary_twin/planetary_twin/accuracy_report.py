@@ -7,7 +7,8 @@ import threading
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Window
-from planetary_twin_py.accuracy import Course, course_warnings
+from planetary_twin_py.accuracy import course_warnings
+from planetary_twin_py.counters import Course
 from planetary_twin_py.recording.ros2.topics import status_name
 
 ACCURACY = "simulation: accuracy"

@@ -8,7 +8,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics_choice import AUTO
+from planetary_twin_py.choice_records import AUTO
 from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 from planetary_twin_py.run import check_point
 from planetary_twin_py.scene.live import LIVE, PORT_FIELDS

@@ -1,10 +1,15 @@
-"""Bearings without which loads of the teeth have no equilibrium."""
+"""Bearings that the teeth need for an equilibrium, and data of bearings that spatial runs need."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from ..scene.supports import Support, Supports
+if TYPE_CHECKING:
+    from .supports import Support, Supports
+
+BODIES = ("sun", "planet", "ring", "carrier")
+STIFFNESSES = ("axial", "tilting")
 
 
 def unsupported(supports: Supports) -> Iterator[str]:
@@ -51,3 +56,18 @@ def unsupported_along(supports: Supports) -> Iterator[str]:
 
 def _floats(support: Support) -> bool:
     return support.rolling is None and not support.bearing
+
+
+def missing_stiffnesses(supports: Supports) -> Iterator[str]:
+    """Fields that a spatial run needs and the scene does not have.
+
+    Args:
+        supports: supports of the scene.
+
+    Returns:
+        Names of the fields, for example "supports.sun.axial".
+    """
+    for body in BODIES:
+        for name in STIFFNESSES:
+            if getattr(getattr(supports, body), name) is None:
+                yield f"supports.{body}.{name}"
