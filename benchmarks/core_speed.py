@@ -78,7 +78,7 @@ def scene_of(case: Case) -> Any:
 
 def timed(case: Case, sampled: bool) -> Timed:
     """Run a case in this process."""
-    from planetary_twin_py.run import start
+    from planetary_twin_py.run.start import start
 
     engine = start(scene_of(case).scene(), case.tolerance, "march")
     engine.advance(case.lead, 1, SAMPLE_RATE, 0)
@@ -97,7 +97,7 @@ def timed(case: Case, sampled: bool) -> Timed:
 def errors(case: Case) -> tuple[float, float]:
     """Error of the DTE over its rms, and over that of its alternating part, of the worst mesh."""
     from planetary_twin_py._core import DTE
-    from planetary_twin_py.run import start
+    from planetary_twin_py.run.start import start
 
     compared = scene_of(case)
     room = round(compared.duration * SAMPLE_RATE)

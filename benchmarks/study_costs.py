@@ -13,7 +13,7 @@ import time
 import numpy as np
 
 import planetary_twin_py as pt
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid

@@ -29,11 +29,8 @@ if TYPE_CHECKING:
         power_density,
         strongest_lines,
     )
-    from .batch import Outcome, simulate_many
-    from .choice_records import DynamicsChoice
-    from .commands import Commands
-    from .dynamics_choice import choose_dynamics
-    from .exchange import check_exchange
+    from .checks.exchange import check_exchange
+    from .checks.load_sharing import load_sharing
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
@@ -44,11 +41,14 @@ if TYPE_CHECKING:
     from .following.follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
     from .following.sensors import Sensors
     from .modal.modes import NaturalModes
-    from .natural_modes import natural_modes
-    from .planar.load_sharing import LoadSharing
     from .plots.study import plot_study
-    from .result import Energy, Result, Stats
-    from .runaway import RunawayError
+    from .run.commands import Commands
+    from .run.dynamics_choice import DynamicsChoice
+    from .run.limits import RunawayError
+    from .run.result import Energy, Result, Stats
+    from .run.twin import Change, Twin
+    from .run.twins import Twins
+    from .run.window import Waveform, Window
     from .scene import (
         TUNABLES,
         OperatingPoint,
@@ -60,13 +60,13 @@ if TYPE_CHECKING:
         packaged_scenes,
         parse_scene,
     )
-    from .simulation import simulate
-    from .stable_load_sharing import load_sharing
-    from .twin import Change, Twin
-    from .twins import Twins
-    from .units import rpm
-    from .warning_types import AccuracyWarning, LedgerWarning
-    from .window import Waveform, Window
+    from .simulation.batch import Outcome, simulate_many
+    from .simulation.choose_dynamics import choose_dynamics
+    from .simulation.natural_modes import natural_modes
+    from .simulation.simulate import simulate
+    from .statics.load_sharing import LoadSharing
+    from .text.warning_types import AccuracyWarning, LedgerWarning
+    from .units.conversion import rpm
 
 _EXPORTS = {
     "analysis.orders": (
@@ -77,13 +77,13 @@ _EXPORTS = {
         "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
         "strongest_lines",
     ),
-    "warning_types": ("AccuracyWarning", "LedgerWarning"),
+    "text.warning_types": ("AccuracyWarning", "LedgerWarning"),
     "_core": ("PortStates",),
-    "choice_records": ("DynamicsChoice",),
-    "dynamics_choice": ("choose_dynamics",),
-    "commands": ("Commands",),
-    "batch": ("Outcome", "simulate_many"),
-    "exchange": ("check_exchange",),
+    "run.dynamics_choice": ("DynamicsChoice",),
+    "simulation.choose_dynamics": ("choose_dynamics",),
+    "run.commands": ("Commands",),
+    "simulation.batch": ("Outcome", "simulate_many"),
+    "checks.exchange": ("check_exchange",),
     "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent", "FleetScatter"),
     "following.balance_filter": ("Innovation",),
     "following.baseline": ("LearnedCell",),
@@ -96,22 +96,22 @@ _EXPORTS = {
     "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),
     "modal.modes": ("NaturalModes",),
-    "natural_modes": ("natural_modes",),
-    "planar.load_sharing": ("LoadSharing",),
-    "stable_load_sharing": ("load_sharing",),
+    "simulation.natural_modes": ("natural_modes",),
+    "statics.load_sharing": ("LoadSharing",),
+    "checks.load_sharing": ("load_sharing",),
     "plots.study": ("plot_study",),
-    "result": ("Energy", "Result", "Stats"),
-    "runaway": ("RunawayError",),
+    "run.result": ("Energy", "Result", "Stats"),
+    "run.limits": ("RunawayError",),
     "scene": (
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "friction_table",
         "load_scene",
         "packaged_scenes", "parse_scene",
     ),
-    "simulation": ("simulate",),
-    "twin": ("Change", "Twin"),
-    "twins": ("Twins",),
-    "units": ("rpm",),
-    "window": ("Waveform", "Window"),
+    "simulation.simulate": ("simulate",),
+    "run.twin": ("Change", "Twin"),
+    "run.twins": ("Twins",),
+    "units.conversion": ("rpm",),
+    "run.window": ("Waveform", "Window"),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _EXPORTS.items() for name in names}
 

@@ -11,7 +11,7 @@ from typing import Any
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
-from planetary_twin_py.printable import printable
+from planetary_twin_py.text.escaping import printable
 
 SECONDS = 5.0  # of the processor, which a sound file of this size needs a hundredth of
 MEGABYTES = 300.0

@@ -3,7 +3,7 @@
 import pytest
 
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.units import rpm
+from planetary_twin_py.units.conversion import rpm
 
 # held, input, output, torque [N m] that loads every mesh as 63 N m at the sun do
 FLOWS = [

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from planetary_twin_py.dynamics.speed_loop import bandwidth
+from planetary_twin_py.model.speed_loop import bandwidth
 
 DRIVE, OPEN, COAST = 1, 0, -1
 PAIRS = np.arange(-2, 3)  # tooth pairs considered, by their distance in base pitches

@@ -7,11 +7,11 @@ import pytest
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.accuracy import accuracy_warnings, course_warnings
+from planetary_twin_py.checks.accuracy import accuracy_warnings, course_warnings
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.counters import Course
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.run.counters import Course
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.inaccurate import inaccuracies
 from planetary_twin_py.studies.measures import measure

@@ -9,8 +9,8 @@ import pytest
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py import batch
-from planetary_twin_py.dynamics import train
+from planetary_twin_py.model import train
+from planetary_twin_py.simulation import batch
 
 # The first takes longest, so that others are done before it.
 SCENES = [

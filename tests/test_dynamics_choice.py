@@ -10,10 +10,10 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.dynamics_choice import choose_dynamics
-from planetary_twin_py.engineering_units import percent
 from planetary_twin_py.explanation.measure import explain
 from planetary_twin_py.recording.runs.offline import Plan, record
+from planetary_twin_py.simulation.choose_dynamics import choose_dynamics
+from planetary_twin_py.units.engineering import percent
 
 PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
 

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from planetary_twin_py.engineering_units import figure, percent
-from planetary_twin_py.units import to_si
+from planetary_twin_py.units.conversion import to_si
+from planetary_twin_py.units.engineering import figure, percent
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import pytest
 
-from planetary_twin_py.instant import instant, is_date
+from planetary_twin_py.text.stamps import instant, is_date
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planetary_twin_py.interval_text import interval_text, plus_minus
+from planetary_twin_py.text.intervals import interval_text, plus_minus
 
 
 @pytest.mark.parametrize(

@@ -10,25 +10,26 @@ from stability.sound import PAPER
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py import ledger_check, simulation
-from planetary_twin_py.cli import build_app
-from planetary_twin_py.explanation.remarks import remarks
-from planetary_twin_py.ledger_check import (
+from planetary_twin_py.checks import ledger as ledger_check
+from planetary_twin_py.checks.ledger import (
     Balance,
     advice,
     balance_of_run,
     balance_of_window,
     ledger_warning,
 )
-from planetary_twin_py.quantities import EXCESS
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.explanation.remarks import remarks
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.simulation import simulate as simulation
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.energy_balance import unbalanced_runs
 from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.table import tabulate
 from planetary_twin_py.studies.work import Failure
+from planetary_twin_py.units.catalogue import EXCESS
 
 # 1000 J through the train, 20 J lost by friction, 1 J by bearings, 5 J damped; all accounted for.
 CLOSED = pt.Energy(

@@ -11,7 +11,7 @@ import pytest
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py.integrators.clock import TICKS
+from planetary_twin_py.model.clock import TICKS
 
 HOURS = 1000
 MILLIONTH = Fraction(1, 10**6)  # of a sample period, within which a sample counts as reached

@@ -8,14 +8,14 @@ from collections.abc import Callable
 
 import pytest
 
-from planetary_twin_py.quality_control import (
+from planetary_twin_py.run.quality_control import (
     DEARER,
     LOWEST_SAMPLE_RATE,
     QualityControl,
     Setting,
     settings_of,
 )
-from planetary_twin_py.tolerance import LADDER, LIVE_TOLERANCE, TOLERANCES, ladder_of
+from planetary_twin_py.run.tolerance import LADDER, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 PERIOD, SHARE = 0.01, 0.4
 FULL = 50e3  # [Hz]

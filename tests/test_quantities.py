@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.quantities import (
+from planetary_twin_py.scene.quantity import unit_of
+from planetary_twin_py.units.catalogue import (
     AXES_WAVEFORM,
     MESH,
     OPERATING_POINT,
@@ -15,7 +16,6 @@ from planetary_twin_py.quantities import (
     WAVEFORM,
     axes_fields,
 )
-from planetary_twin_py.scene.quantity import unit_of
 
 MESSAGES = Path(__file__).parents[1] / "msgs_spec/msg"
 FIELD = re.compile(r"^\w+(\[\S*\])? (\w+) +# \[(.*?)\]", re.MULTILINE)

@@ -16,8 +16,8 @@ from planetary_twin_py._core import (
     POWER_LOSS,
     VISCOUS,
 )
-from planetary_twin_py.run import start
-from planetary_twin_py.window import mesh_statistics
+from planetary_twin_py.run.start import start
+from planetary_twin_py.run.window import mesh_statistics
 
 PAPER = pt.load_scene("paper")
 RATES = (10.0, 370.0, 6250.0, 50_000.0, 1e6)

@@ -8,7 +8,7 @@ import pint
 import pytest
 from tiers import first_rows
 
-from planetary_twin_py.units import _COMMON, UnitError, column_to_si, to_si
+from planetary_twin_py.units.conversion import _COMMON, UnitError, column_to_si, to_si
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from rich.table import Table
 
-from planetary_twin_py.batch import simulate_many
 from planetary_twin_py.scene import Scene, load_scene
+from planetary_twin_py.simulation.batch import simulate_many
 
 from .markdown import markdown_table
 

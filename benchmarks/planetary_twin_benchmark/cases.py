@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from planetary_twin_py.scene import Scene, load_scene
-from planetary_twin_py.units import rpm
+from planetary_twin_py.units.conversion import rpm
 
 from .timing import repeats
 

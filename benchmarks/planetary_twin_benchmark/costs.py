@@ -12,7 +12,7 @@ from rich.table import Table
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.gearset.phasing import nearest_assembly
 from planetary_twin_py.scene import Scene, load_scene
-from planetary_twin_py.units import rpm
+from planetary_twin_py.units.conversion import rpm
 
 from .markdown import markdown_table, three_digits
 from .timing import METHOD, SAMPLE_RATE, Speed, affordable, end_to_end, speed

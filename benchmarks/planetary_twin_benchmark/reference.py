@@ -27,8 +27,8 @@ from planetary_twin_py._core import (
     forces,
     observe,
 )
-from planetary_twin_py.engine import Engine
-from planetary_twin_py.integrators.clock import delay, instant, run_on
+from planetary_twin_py.model.clock import delay, instant, run_on
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import Scene
 
 RELATIVE, ABSOLUTE_X, ABSOLUTE_V = 1e-11, 1e-16, 1e-12

@@ -10,7 +10,7 @@ import numpy as np
 from rich.table import Table
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import Scene
 
 from .cases import Case

@@ -10,10 +10,10 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from planetary_twin_py.run import start
+from planetary_twin_py.run.start import start
 from planetary_twin_py.scene import Scene
-from planetary_twin_py.simulation import simulate
-from planetary_twin_py.warning_types import AccuracyWarning
+from planetary_twin_py.simulation.simulate import simulate
+from planetary_twin_py.text.warning_types import AccuracyWarning
 
 METHOD = "march"  # every mesh cycle is computed
 SAMPLE_RATE = 50_000.0

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from planetary_twin_py._core import damping_time
-from planetary_twin_py.dynamics.start import build_load
-from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.model.start import build_load
+from planetary_twin_py.model.train import build_train
 from planetary_twin_py.plots.style import BLUE, GREY, ORANGE, drawing, panels
 from planetary_twin_py.scene import Scene
-from planetary_twin_py.simulation import simulate
+from planetary_twin_py.simulation.simulate import simulate
 
 from .entry import Claim, Entry
 from .evidence import Evidence

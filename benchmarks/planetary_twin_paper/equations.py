@@ -163,7 +163,7 @@ EQUATIONS = (
     Equation(
         ("35", "37", "38"), "matrices of the gearset", "modal/printed.py",
         "from the scene, along the lines of action (`modal/torsional.py`)",
-        "as printed, carrier not coupled: `planetary_twin_py.natural_modes(scene, "
+        "as printed, carrier not coupled: `planetary_twin_py.simulation.natural_modes(scene, "
         "\"printed\")`",
     ),
 )  # fmt: skip

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from planetary_twin_py.plots.style import panels
 from planetary_twin_py.scene import Scene
-from planetary_twin_py.units import rpm
+from planetary_twin_py.units.conversion import rpm
 
 from .entry import Claim, Entry
 from .evidence import Evidence

@@ -6,9 +6,9 @@ import math
 from typing import NamedTuple
 
 from planetary_twin_py._core import lambda_ratio_of, tooth_contact
-from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.dynamics.static_load import mesh_force
 from planetary_twin_py.gearset.geometry import pitch_radius
+from planetary_twin_py.model.oil import build_oil
+from planetary_twin_py.model.static_load import mesh_force
 from planetary_twin_py.scene import Scene
 
 SUN, RING = 0, 1  # kinds of mesh

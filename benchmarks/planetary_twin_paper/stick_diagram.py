@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from planetary_twin_py.dynamics.bodies import body_names
-from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.gearset.phasing import check_assembly
+from planetary_twin_py.model.bodies import body_names
+from planetary_twin_py.model.train import build_train
 from planetary_twin_py.plots.style import BLUE, GREEN, GREY, ORANGE, PINK, drawing, panels
 from planetary_twin_py.scene import Scene, load_scene
 

@@ -15,10 +15,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planetary_twin_py.result import Result
+from planetary_twin_py.run.result import Result
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.simulation import simulate
-from planetary_twin_py.units import rpm
+from planetary_twin_py.simulation.simulate import simulate
+from planetary_twin_py.units.conversion import rpm
 
 DURATION = 0.12  # [s]
 SETTLED = 0.04  # [s] start of means, which cover whole mesh cycles at every speed of the study

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..engineering_units import percent
+from ..units.engineering import percent
 
 EDGE = 0.8  # of half the sample rate: lines above it are about as high as those beyond
 NEGLIGIBLE = 0.01  # of the highest line: height of aliases up to which the rate is sufficient

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..units import to_si
+from ..units.conversion import to_si
 
 
 class Band(NamedTuple):

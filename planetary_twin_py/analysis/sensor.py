@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from ..dynamics.bodies import rigid_ratios
+from ..model.bodies import rigid_ratios
 from ..recording.tables.sensor import Sensor
 from ..scene import Scene
 from .even_steps import at_equal_steps, drift_remark, drifts, resampled

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
-from ..dynamics.bodies import rigid_ratios
+from ..model.bodies import rigid_ratios
 from ..scene import Scene
 
 MULTIPLES = 3  # of the speeds that are named

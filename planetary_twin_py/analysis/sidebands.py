@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import NamedTuple, Self
 
-from ..dynamics.bodies import rigid_ratios
+from ..model.bodies import rigid_ratios
 from ..scene import Scene
 
 MOST = 3  # sidebands on each side of a harmonic that are named, or one for each planet if more

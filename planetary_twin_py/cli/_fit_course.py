@@ -7,17 +7,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
+from ..text.intervals import interval_text
 from ._fitted import Fitted, Part
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ..following.sensors import Sensors
+    from ..plots.fit_report import Report
     from ..studies.fit.fit_course import FittedCourse
-    from ..studies.fit.report import Report
 
 
 def fit_manoeuvre(
@@ -67,7 +67,7 @@ def fit_manoeuvre(
         remark(f"warning: {line}")
 
     def report() -> Report:
-        from ..studies.fit.report import report_of_course
+        from ..plots.fit_report import report_of_course
 
         return report_of_course(found)
 

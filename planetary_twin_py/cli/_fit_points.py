@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from ..engineering_units import percent
-from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
+from ..text.intervals import interval_text
+from ..units.engineering import percent
 from ._fitted import Fitted, Part
 
 if TYPE_CHECKING:
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
+    from ..plots.fit_report import Report
     from ..studies.fit.identify import Identified, Search
-    from ..studies.fit.report import Report
 
 
 def fit_points(
@@ -55,7 +55,7 @@ def fit_points(
         remark(f"warning: {line}")
 
     def report() -> Report:
-        from ..studies.fit.report import report_of_points
+        from ..plots.fit_report import report_of_points
 
         return report_of_points(found)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from ..studies.fit.report import Report
+    from ..plots.fit_report import Report
 
 
 class Part(NamedTuple):

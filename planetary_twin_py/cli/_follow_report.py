@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..engineering_units import percent
-from ..instant import instant, is_date
-from ..interval_text import interval_text
 from ..terminal.messages import remark
 from ..terminal.names import shown
+from ..text.intervals import interval_text
+from ..text.stamps import instant, is_date
+from ..units.engineering import percent
 
 if TYPE_CHECKING:
     from rich.console import Console

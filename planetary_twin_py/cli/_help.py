@@ -37,7 +37,7 @@ class Command(TyperCommand):
             with naming_options(options):
                 return super().invoke(ctx)
         except ArithmeticError as error:
-            from ..runaway import RunawayError  # imports NumPy, which is loaded by now
+            from ..run.limits import RunawayError  # imports NumPy, which is loaded by now
 
             if not isinstance(error, RunawayError):
                 raise

@@ -52,7 +52,7 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
         ValueError: see `read_axis`.
     """
     from ..studies.axes import Axis, Normal, read_axis
-    from ..units import is_number
+    from ..units.conversion import is_number
 
     found = read_axis(scene, field, text)
     if isinstance(found, Axis):
@@ -77,7 +77,7 @@ def default_speeds(scene: Scene, share: float, count: str) -> str:
         The range up to the largest of 1, 2, 5, 10 ... rpm within `drive.speed_limit`, in the sense
         of the input speed of the scene.
     """
-    from ..units import rpm
+    from ..units.conversion import rpm
 
     limit = scene.drive.speed_limit / rpm(1.0)
     decade = 10.0 ** math.floor(math.log10(limit))
@@ -126,11 +126,11 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
         table: results.
         scenes: scenes that were computed, such as those of `Study.extremes`.
     """
+    from ..checks.fixed_axes import held_axes_warning
     from ..explanation.backlash import backlash_of_scene
     from ..explanation.deflection import deflection_of_scene
     from ..explanation.oil import oil_of_scenes
     from ..explanation.pressure import pressure_of_scene
-    from ..planar.held_axes import held_axes_warning
     from ..studies.clipping import clipping_of_study
     from ..studies.energy_balance import unbalanced_runs
     from ..studies.inaccurate import inaccuracies

@@ -47,7 +47,7 @@ def bifurcation(
     check_suffix(out, TABLES + PICTURES)
     from pyarrow import compute as pc
 
-    from ..planar.held_axes import held_axes_warning
+    from ..checks.fixed_axes import held_axes_warning
     from ..scene.unused import without_effect
     from ..studies.axes import Axis
     from ..studies.bifurcation import Dwell

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, remark
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
+from ..units.engineering import figure
 from ._study import TABLES, check_suffix, warn, write_results
 from .sweep import _executor, _kept, _progress
 
@@ -83,7 +83,7 @@ def duty(
 
 def _lines(summary: Summary, points: int) -> list[str]:
     """The results in words."""
-    from ..quantities import STUDY_RESULTS
+    from ..units.catalogue import STUDY_RESULTS
 
     lines = [
         f"duty cycle of {summary.duration:g} s, {points} operating points, in steady running",

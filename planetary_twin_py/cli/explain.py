@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.console import print_list
 from ..terminal.interruptible import interruptible
@@ -16,14 +15,15 @@ from ..terminal.messages import fail, remark
 from ..terminal.names import shown
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
+from ..units.engineering import figure
 from ._oil import print_oil
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..choice_records import DynamicsChoice
     from ..explanation.measure import Explanation
     from ..explanation.meshes import Meshes
+    from ..run.dynamics_choice import DynamicsChoice
     from ..scene import Scene
     from ..studies.measures import RunSummary
 
@@ -52,7 +52,7 @@ def explain(
     from ..explanation.meshes import describe_meshes
     from ..explanation.turning import duration_for_means
     from ..scene.summary import gears
-    from ..warning_types import AccuracyWarning, LedgerWarning
+    from ..text.warning_types import AccuracyWarning, LedgerWarning
 
     console = console_beside(json_)
     for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
@@ -90,7 +90,7 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     from rich.table import Table
 
     from ..scene.summary import power_enters_at_output
-    from ..units import rpm
+    from ..units.conversion import rpm
 
     point = scene.operating_point
     inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
@@ -180,7 +180,7 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     """Errors and computing time of each dynamics."""
     from rich.table import Table
 
-    from ..choice_records import FIGURES
+    from ..run.dynamics_choice import FIGURES
 
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",

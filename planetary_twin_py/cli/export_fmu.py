@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 
+from ..run.tolerance import LIVE_TOLERANCE
 from ..terminal.arguments import SceneArgument, SetOption
 from ..terminal.messages import fail
 from ..terminal.output_files import file_ending_in
 from ..terminal.settings import changed_scene, settings
-from ..tolerance import LIVE_TOLERANCE
 
 
 def export_fmu(

@@ -118,7 +118,7 @@ def fit(  # noqa: PLR0913 - an argument for each option
         fail(error)
     write_json(found.figures, json_)
     if report is not None:
-        from ..studies.fit.report import write_report
+        from ..plots.fit_report import write_report
 
         with writing("--report", report):
             write_report(report, found.report())

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.names import shown
 from ..terminal.output_files import PICTURES, file_ending_in, writing
 from ..terminal.settings import changed_scene, settings
+from ..units.engineering import figure, without_rounding
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..planar.load_sharing import LoadSharing
     from ..scene import Scene
     from ..scene.supports import Support
+    from ..statics.load_sharing import LoadSharing
 
 
 def load_sharing(
@@ -44,7 +44,7 @@ def load_sharing(
     """
     if picture is not None:
         need("plots", "matplotlib")
-    from ..stable_load_sharing import load_sharing as compute
+    from ..checks.load_sharing import load_sharing as compute
 
     try:
         loaded = changed_scene(scene, settings(set_ or []))
@@ -76,7 +76,7 @@ def _planets(scene: Scene, found: LoadSharing) -> Table:
     import numpy as np
     from rich.table import Table
 
-    from ..planar.rows import CENTRAL
+    from ..model.planar_rows import CENTRAL
 
     planets = scene.gearset.planets
     largest = found.mesh_force.max(axis=0)
@@ -108,7 +108,7 @@ def _members(scene: Scene, found: LoadSharing) -> Table:
     import numpy as np
     from rich.table import Table
 
-    from ..planar.rows import CENTRAL
+    from ..model.planar_rows import CENTRAL
 
     table = Table(
         title="Axes",
@@ -167,8 +167,8 @@ def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
 def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
     import numpy as np
 
-    from ..planar.motion import axes_names
-    from ..planar.rows import CENTRAL
+    from ..model.planar_rows import CENTRAL
+    from ..run.axes.motion import axes_names
 
     return {
         "scene": scene.name,

@@ -141,9 +141,9 @@ def _figures(found: LostMotion) -> dict[str, object]:
 
 def _torque(scene: Scene, text: str | None) -> float:
     """Largest torque on the output [N m]."""
-    from ..dynamics.bodies import LOAD_MACHINE
-    from ..dynamics.static_load import static_torques
-    from ..units import to_si
+    from ..model.bodies import LOAD_MACHINE
+    from ..model.static_load import static_torques
+    from ..units.conversion import to_si
 
     if text is None:
         torque = abs(scene.operating_point.input_torque * static_torques(scene)[LOAD_MACHINE])

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, remark
 from ..terminal.names import shown
 from ..terminal.output_files import output_file, writing
 from ..terminal.settings import changed_scene, settings
+from ..units.engineering import figure
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -71,7 +71,7 @@ def modal(
         need("plots", "matplotlib")
     from ..modal.campbell import resonances
     from ..modal.natural import model_of, natural_modes, spring_model
-    from ..natural_modes import chosen
+    from ..simulation.natural_modes import chosen
 
     try:
         loaded = chosen(changed_scene(scene, settings(set_ or [])), model)
@@ -110,7 +110,7 @@ def _speed(text: str | None, model: str) -> float | None:
     if text is None:
         return None
     from ..modal.natural import MOVING_AXES
-    from ..units import to_si
+    from ..units.conversion import to_si
 
     try:
         speed = float(to_si(text, "rad/s"))  # type: ignore[arg-type]
@@ -136,7 +136,7 @@ def _whirl(scene: Scene, speed: float | None) -> str:
 def _bearings_of_load(scene: Scene, model: str) -> str | None:
     """A remark on bearings that are linear about their static load, if the model has any."""
     from ..modal.natural import MOVING_AXES
-    from ..planar.small_motion import depends_on_load
+    from ..statics.small_motion import depends_on_load
 
     supports = scene.supports
     if supports is None or model not in MOVING_AXES:
@@ -208,7 +208,7 @@ def _turning(scene: Scene, speed: float | None) -> str:
 
 
 def _rpm(speed: float, digits: str = "g") -> str:
-    from ..units import rpm
+    from ..units.conversion import rpm
 
     return f"{speed / rpm(1.0):{digits}} rpm"
 

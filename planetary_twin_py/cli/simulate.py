@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..engineering_units import figure, without_rounding
 from ..terminal.arguments import (
     DurationOption,
     JsonOption,
@@ -24,17 +23,18 @@ from ..terminal.names import shown
 from ..terminal.output_files import check_file, check_recording
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import HERTZ, SECONDS
+from ..units.engineering import figure, without_rounding
 from ._oil import print_oil
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from ..planar.axes_records import AxesStatistics
-    from ..planar.motion import AxesMotion
-    from ..result import Result
+    from ..run.axes.motion import AxesMotion
+    from ..run.axes.statistics import AxesStatistics
+    from ..run.axes.tilting import TiltingMotion
+    from ..run.result import Result
     from ..scene import Scene
-    from ..spatial.motion import TiltingMotion
 
 
 def simulate(
@@ -67,8 +67,8 @@ def simulate(
     from ..explanation.remarks import remarks
     from ..scene.summary import gears, operating_point
     from ..scene.unused import without_effect
-    from ..simulation import simulate as run
-    from ..warning_types import AccuracyWarning, LedgerWarning
+    from ..simulation.simulate import simulate as run
+    from ..text.warning_types import AccuracyWarning, LedgerWarning
 
     console = console_beside(json_)
     for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
@@ -198,8 +198,8 @@ def _train(scene: Scene, result: Result) -> dict[str, float]:
 
 def _meshes(result: Result) -> dict[str, dict[str, float]]:
     """Results of the sun meshes and of the ring meshes, by measure with its SI unit."""
-    from ..quantities import MESH
     from ..studies.measures import mesh_rows
+    from ..units.catalogue import MESH
 
     keys = {name: f"{name}_{quantity.si}".rstrip("_") for name, quantity in MESH.items()}
     return {
@@ -211,7 +211,7 @@ def _meshes(result: Result) -> dict[str, dict[str, float]]:
 def _table(meshes: dict[str, dict[str, float]]) -> Table:
     from rich.table import Table
 
-    from ..quantities import MESH
+    from ..units.catalogue import MESH
 
     table = Table("", title="Meshes by kind", caption="A peak is the largest magnitude")
     for side in meshes:

@@ -294,7 +294,7 @@ def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[st
     if asked.is_table:
         return
     from ..analysis.aliases import NEGLIGIBLE, alias_remark
-    from ..natural_modes import natural_modes
+    from ..simulation.natural_modes import natural_modes
 
     if found.alias_share <= NEGLIGIBLE:
         return

@@ -119,8 +119,8 @@ def sweep(  # noqa: PLR0913 - an argument for each option
 
 def _measures(text: str | None) -> list[str]:
     """Names of results from the option --y."""
-    from ..quantities import AXES_RESULTS, STUDY_RESULTS
     from ..scene.names import did_you_mean
+    from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
 
     names = text.split(",") if text else []
     for name in names:
@@ -174,9 +174,9 @@ def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..engineering_units import figure
-    from ..quantities import AXES_RESULTS, STUDY_RESULTS
     from ..studies.distribution import SHARES, distributions
+    from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
+    from ..units.engineering import figure
 
     found = distributions(table, names)
     shares = [s for s in SHARES if any(s in each.percentiles for each in found)]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from ..checks.fixed_axes import equal_planets
 from ..gearset.phasing import mesh_phases
-from ..planar.held_axes import equal_planets
-from ..planar.load_sharing import load_sharing
 from ..scene import Scene
+from ..statics.load_sharing import load_sharing
 
 HELD = "gears and carrier rotate about rigid axes: no bearing loads, no orbits"
 

@@ -6,7 +6,7 @@ import math
 
 from ..gearset.interference import SENSE_OF_RING
 from ..scene import Scene
-from ..units import customary
+from ..units.conversion import customary
 
 FINE = 0.02
 """Of the module: more than the tolerances of tooth thickness and centre distance."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.teeth import build_teeth
-from ..engineering_units import figure
-from ..quantities import SIDES, side_title
-from ..result import Result
+from ..model.mean_stiffness import mean_stiffness
+from ..model.teeth import build_teeth
+from ..run.result import Result
 from ..scene import Scene
+from ..units.catalogue import SIDES, side_title
+from ..units.engineering import figure
 from .mesh_loads import loads_of_run, loads_of_scene
 
 LARGEST = 0.1

@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from .._core import tooth_contact
-from ..dynamics.oil import build_oil
+from ..model.oil import build_oil
 from ..scene import Scene
 from .mean_friction import contacts_of, mean_coefficient, oil_with
 

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .._core import Oil, tooth_contact
-from ..dynamics.oil import build_oil
-from ..dynamics.pair_loads import pair_loads
-from ..losses.ohlendorf import slip_per_position
+from ..lubrication.ohlendorf import slip_per_position
+from ..model.oil import build_oil
+from ..model.pair_loads import pair_loads
 from ..scene import Scene
 
 POSITIONS = 60  # in a mesh cycle

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from statistics import median
 from typing import NamedTuple
 
-from ..choice_records import AUTO, DynamicsChoice
-from ..dynamics_choice import choose_dynamics
-from ..result import Result
+from ..run.dynamics_choice import AUTO, DynamicsChoice
+from ..run.result import Result
 from ..scene import Scene
-from ..simulation import TOLERANCE, simulate
+from ..simulation.choose_dynamics import choose_dynamics
+from ..simulation.simulate import TOLERANCE, simulate
 from ..studies.measures import RunSummary, summary_of
 from .remarks import remarks
 from .terms import Term, terms

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..dynamics.static_load import mesh_force
-from ..quantities import SIDES
-from ..result import Result
+from ..model.static_load import mesh_force
+from ..run.result import Result
 from ..scene import Scene
+from ..units.catalogue import SIDES
 
 
 def loads_of_run(run: Result) -> list[float]:

@@ -6,15 +6,15 @@ import math
 from typing import NamedTuple
 
 from .._core import damping_time
-from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.mesh_damping import natural_frequencies
-from ..dynamics.start import build_load
-from ..dynamics.static_load import mesh_force
-from ..dynamics.stiffness_laws import GEARS, loaded_force
-from ..dynamics.train import build_train, held_axes
 from ..gearset.working import WorkingMesh
-from ..losses.ohlendorf import tooth_loss_factor
+from ..lubrication.ohlendorf import tooth_loss_factor
 from ..mesh.overlap import overlap_ratio
+from ..model.mean_stiffness import mean_stiffness
+from ..model.mesh_damping import natural_frequencies
+from ..model.start import build_load
+from ..model.static_load import mesh_force
+from ..model.stiffness_laws import GEARS, loaded_force
+from ..model.train import build_train, held_axes
 from ..scene import Scene
 from ..tooth.iso import iso_pair
 from ..tooth.material import Material

@@ -6,14 +6,14 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from ..dynamics.oil import build_oil
-from ..dynamics.start import build_load
-from ..dynamics.static_load import mesh_force
-from ..dynamics.train import build_train, held_axes
-from ..engineering_units import figure
 from ..lubrication.viscosity import viscosity_at
+from ..model.oil import build_oil
+from ..model.start import build_load
+from ..model.static_load import mesh_force
+from ..model.train import build_train, held_axes
 from ..scene import Scene
 from ..scene.oil_grade import DEFINED
+from ..units.engineering import figure
 from .mean_friction import Contacts, contacts_of, mean_coefficient
 
 REGRESSION = "schlenk"

@@ -6,9 +6,9 @@ import math
 
 from .._core import half_width
 from ..lubrication.hertz import contact_modulus
-from ..quantities import SIDES, side_title
-from ..result import Result
+from ..run.result import Result
 from ..scene import Scene
+from ..units.catalogue import SIDES, side_title
 from .mesh_loads import loads_of_run, loads_of_scene
 
 LARGEST = 2e9

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..accuracy import accuracy_warnings
-from ..ledger_check import balance_of_run, ledger_warning
-from ..result import Result
+from ..checks.accuracy import accuracy_warnings
+from ..checks.ledger import balance_of_run, ledger_warning
+from ..run.result import Result
 from ..scene import Scene
 from ..studies.clipping import clipping_of_run
 from ..studies.measures import clipped_friction

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from ..dynamics.moving_axes import linear_bearing
-from ..dynamics.stiffness_laws import stiffness_laws
+from ..model.moving_axes import linear_bearing
+from ..model.stiffness_laws import stiffness_laws
 from ..scene import Scene
 from .axes import meaning_of_held_axes
 from .losses import KINDS, bearings_with_losses, losses, losses_in_words, members_with_drag

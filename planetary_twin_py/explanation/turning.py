@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..dynamics.mesh_frequency import wanted_mesh_frequency
 from ..gearset.kinematics import mesh_frequency
-from ..planar.error_turns import WHOLE_TURN, fewest_turns
-from ..result import Result
+from ..model.mesh_frequency import wanted_mesh_frequency
+from ..run.result import Result
 from ..scene import Scene
+from ..statics.error_turns import WHOLE_TURN, fewest_turns
 from ..studies.turning import (
     ADVICE,
     MANY,

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..brief import brief
 from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import alarm_memory, interval_memory
 from ..following.estimate import CONFIDENT
@@ -19,6 +18,7 @@ from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..scene import Scene
 from ..scene.given import check_scene
+from ..text.object_repr import brief
 from .balances import PARAMETERS, Balances, F, Row
 from .cusums import TERM, Cusums, Steps, limit
 from .faults import Faults

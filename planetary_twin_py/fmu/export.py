@@ -9,9 +9,9 @@ from importlib.metadata import version as version_of
 from pathlib import Path
 
 from .._core.levels import NEEDS
+from ..run.tolerance import LIVE_TOLERANCE
 from ..scene import Scene
 from ..scene.given import check_scene
-from ..tolerance import LIVE_TOLERANCE
 from .description import Description, model_description_2, model_description_3
 from .records import build_records, file_of, put_variables
 from .variables import variables

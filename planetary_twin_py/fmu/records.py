@@ -6,14 +6,14 @@ from fractions import Fraction
 
 from .. import _core
 from .._core import DIGEST, SOURCES, VARIABLE_KINDS, Exported
-from ..driven_engine import DrivenEngine
-from ..dynamics.bodies import body_names, build_report, mesh_names
-from ..dynamics.cycle import common_cycles, turns_per_cycle
-from ..dynamics.point_laws import record_of
-from ..runaway import Limits
+from ..model.bodies import body_names, build_report, mesh_names
+from ..model.cycle import common_cycles, turns_per_cycle
+from ..model.error_scale import POINTS, new_integrator
+from ..model.point_laws import record_of
+from ..run.limits import Limits
+from ..run.port_engine import DrivenEngine
+from ..run.tolerance import TOLERANCES
 from ..scene import Scene
-from ..step_scale import POINTS, new_integrator
-from ..tolerance import TOLERANCES
 from .variables import Variable
 
 SETTABLE = {"input": 1, "tunable": 1, "fixed": 2}

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from .._core import Exported
-from ..dynamics.bodies import LOAD_MACHINE, MOTOR, mesh_names
-from ..dynamics.speed_loop import SpeedLoopCheck
-from ..dynamics.train import build_train
+from ..model.bodies import LOAD_MACHINE, MOTOR, mesh_names
+from ..model.speed_loop import SpeedLoopCheck
+from ..model.train import build_train
 from ..scene import OperatingPoint, Scene
 from ..scene.drive import Causality
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engineering_units import percent
-from ..interval_text import plus_minus
 from ..scene import Scene
-from .balance_filter import (  # fmt: skip
+from ..text.intervals import plus_minus
+from ..units.engineering import percent
+from .balance_filter import (
     CAUSES,
     FRICTION,
     PARAMETERS,

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..interval_text import plus_minus
+from ..text.intervals import plus_minus
 from .baseline import Baseline
 from .compliance import Compliance
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable

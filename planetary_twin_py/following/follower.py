@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..brief import brief
 from ..scene import Scene
 from ..scene.given import check_scene
-from ..units import LARGEST
+from ..text.object_repr import brief
+from ..units.conversion import LARGEST
 from .balance import BalanceFollower
 from .balance_filter import Innovation
 from .baseline import LearnedCell

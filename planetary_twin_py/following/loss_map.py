@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Scene
 from ..scene.errors import Errors
 from ..scene.mesh import Runout
-from ..simulation import simulate
+from ..simulation.simulate import simulate
 from .train import followed_train
 
 Array = NDArray[np.float64]

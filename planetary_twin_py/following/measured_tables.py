@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..printable import one_line
 from ..recording.tables.measurements import TIME, Column, day_numbers, missing_column, read_columns
-from ..units import LARGEST
+from ..text.escaping import one_line
+from ..units.conversion import LARGEST
 from .bins import AHEAD, CHANNELS
 from .follower import EncoderSamples, Readings
 from .stamps import stamp_remarks, unset_stamps

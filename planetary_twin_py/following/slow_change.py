@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ..interval_text import plus_minus
+from ..text.intervals import plus_minus
 from .estimate import CONFIDENT
 
 SETTLED = 120.0  # [s] after which the first estimates no longer depend on the prior

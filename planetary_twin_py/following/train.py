@@ -6,8 +6,8 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..dynamics.bodies import CENTRAL, base_radii, machines, rigid_ratios, rim_masses
 from ..gearset.kinematics import mesh_cycles_per_turn
+from ..model.bodies import CENTRAL, base_radii, machines, rigid_ratios, rim_masses
 from ..scene import Scene, SceneError
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene
-from ..simulation import simulate
+from ..simulation.simulate import simulate
 from .train import FollowedTrain, followed_train
 
 Array = NDArray[np.float64]

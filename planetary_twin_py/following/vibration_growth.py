@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
 
-from ..interval_text import plus_minus
+from ..text.intervals import plus_minus
 from .estimate import CONFIDENT, Event, estimated, not_identifiable
 from .onset import onset_of
 from .tooth_search import ALARM

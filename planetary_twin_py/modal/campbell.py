@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..dynamics.bodies import rigid_speeds
+from ..model.bodies import rigid_speeds
 from ..scene import Scene
 from .excitation import EXCITED, excitation
 from .forcing import forcing

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from ..dynamics.planet_groups import scene_phases
+from ..model.planet_groups import scene_phases
 from ..scene import Scene
 from .forcing import KINDS
 from .springs import SpringModel

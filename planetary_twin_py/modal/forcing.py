@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.planet_groups import scene_phases
-from ..dynamics.static_load import mesh_force
-from ..dynamics.teeth import build_teeth, stiffness_at
+from ..model.mean_stiffness import mean_stiffness
+from ..model.planet_groups import scene_phases
+from ..model.static_load import mesh_force
+from ..model.teeth import build_teeth, stiffness_at
 from ..scene import Scene
 from .springs import Spring, SpringModel
 

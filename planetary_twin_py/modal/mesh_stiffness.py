@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..dynamics.mean_stiffness import mean_stiffness
-from ..dynamics.stiffness_laws import stiffness_laws
-from ..dynamics.teeth import build_teeth
+from ..model.mean_stiffness import mean_stiffness
+from ..model.stiffness_laws import stiffness_laws
+from ..model.teeth import build_teeth
 from ..scene import Scene
 
 STIFFNESSES = ("single", "mean")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from ..dynamics.bodies import rigid_speeds
-from ..planar.carrying import carrying
-from ..planar.small_motion import radial_stiffness
+from ..model.bodies import rigid_speeds
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
 from ..scene.supports import Support, Supports
+from ..statics.loaded_planets import carrying
+from ..statics.small_motion import radial_stiffness
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
 from .modes import NaturalModes, modes_of
 from .planar import PlanarBody, PlanarSet, planar_model

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..planar.rows import CENTRAL, DRIVE, planar_rows
+from ..model.planar_rows import CENTRAL, DRIVE, planar_rows
 from .springs import Spring, SpringModel
 
 

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..dynamics.bodies import base_radii, build_bodies, machines
-from ..dynamics.train import held_axes
+from ..model.bodies import base_radii, build_bodies, machines
+from ..model.train import held_axes
 from ..scene import Scene
 from ..scene.drive import MOVED
 from .mesh_stiffness import MeshStiffness

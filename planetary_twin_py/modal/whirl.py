@@ -20,12 +20,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._core import AXES, damping_time
-from ..dynamics.bodies import rigid_speeds
-from ..dynamics.moving_axes import bearing_names, linear_bearing
-from ..dynamics.train import build_train, held_axes
-from ..planar.rows import CENTRAL
-from ..planar.small_motion import depends_on_load
+from ..model.bodies import rigid_speeds
+from ..model.moving_axes import bearing_names, linear_bearing
+from ..model.planar_rows import CENTRAL
+from ..model.train import build_train, held_axes
 from ..scene import OperatingPoint, Scene
+from ..statics.small_motion import depends_on_load
 
 if TYPE_CHECKING:
     from .springs import SpringModel

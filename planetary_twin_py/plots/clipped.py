@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..quantities import CLIPPED, SIDES
 from ..studies.clipping import THRESHOLD
+from ..units.catalogue import CLIPPED, SIDES
 from .quantity import Column
 
 LEGEND = "hollow: viscous friction is clipped to zero part of the time"

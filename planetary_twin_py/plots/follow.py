@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..following.follower import Following
 from ..following.tooth_search import ALARM
-from ..instant import instant, is_date
+from ..text.stamps import instant, is_date
 from .style import BLUE, CYCLE, GREY, WIDTH, applied
 
 HEIGHT = 2.1  # of a row [in]

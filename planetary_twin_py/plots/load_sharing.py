@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..planar.load_sharing import LoadSharing
-from ..planar.rows import CENTRAL
+from ..model.planar_rows import CENTRAL
 from ..scene import Scene
+from ..statics.load_sharing import LoadSharing
 from .style import GREY, applied, panels
 
 MICRO = 1e6

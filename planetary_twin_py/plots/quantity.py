@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import (
+from ..scene.names import did_you_mean
+from ..units.catalogue import (
     AXES_RESULTS,
     OPERATING_POINT,
     SIDES,
@@ -15,7 +16,6 @@ from ..quantities import (
     Quantity,
     side_title,
 )
-from ..scene.names import did_you_mean
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..quantities import SIDES, side_title
+from ..units.catalogue import SIDES, side_title
 from .clipped import clipped_points, mark
 from .quantity import Column, find
 from .style import BLUE, GREEN, ORANGE, logarithmic, panels

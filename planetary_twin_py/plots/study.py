@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from ..quantities import AXES_RESULTS, STUDY_RESULTS
 from ..studies.marks import BIFURCATION
+from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
 from .bifurcation import bifurcation_diagram
 from .clipped import LEGEND, clipped_points, mark
 from .maps import draw_map

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from ..units import UnitError
+from ..units.conversion import UnitError
 from .names import nearest, no_such_field
 from .paths import field_paths
 from .quantity import Section, bounds, excluded_ends, limit_of, listed, sections_in, unit_of, within

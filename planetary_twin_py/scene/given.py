@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from ..printable import one_line
+from ..text.escaping import one_line
 from .quantity import SceneError
 from .scene import Scene
 

@@ -7,7 +7,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from ..printable import one_line
+from ..text.escaping import one_line
 from .names import did_you_mean
 from .oil_grade import without_other_oil
 from .paths import NoSuchPath, with_value

@@ -7,7 +7,7 @@ from typing import Any, Literal, Self
 from pydantic import Field, model_validator
 
 from ..lubrication.viscosity_grade import GRADES, HIGHEST_INDEX, LOWEST_INDEX
-from ..units import to_si
+from ..units.conversion import to_si
 from .friction_table import FrictionTable
 from .oil_grade import with_grade
 from .quantity import Section, quantity

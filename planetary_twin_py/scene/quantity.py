@@ -9,8 +9,8 @@ from typing import Any, get_args, get_origin
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.fields import FieldInfo
 
-from ..printable import one_line
-from ..units import UnitError, is_number, to_si
+from ..text.escaping import one_line
+from ..units.conversion import UnitError, is_number, to_si
 
 _MOST_LINES = 30  # of a message
 _LONGEST_LINE = 400  # characters

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..engineering_units import figure
-from ..units import customary
+from ..units.conversion import customary
+from ..units.engineering import figure
 from .scene import Scene
 
 

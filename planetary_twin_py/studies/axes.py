@@ -14,7 +14,7 @@ from ..scene import OperatingPoint, Scene, SceneError
 from ..scene.errors import PER_PLANET
 from ..scene.names import no_such_field
 from ..scene.quantity import unit_of
-from ..units import has_unit, is_number, to_si
+from ..units.conversion import has_unit, is_number, to_si
 
 _NORMAL = re.compile(r"normal\(([^,()]+),([^,()]+)\)")
 LOGARITHMIC = "log"

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..counters import Course
-from ..dynamics.bodies import mesh_names
-from ..quantities import COURSE
+from ..model.bodies import mesh_names
+from ..run.counters import Course
 from ..scene import Scene
+from ..units.catalogue import COURSE
 from .marks import BIFURCATION
 from .section import Section
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ..quantities import CLIPPED, SIDES
+from ..units.catalogue import CLIPPED, SIDES
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..quantities import SIDES
 from ..recording.tables.measurements import TIME, Array, missing_column, read_columns
 from ..scene import OperatingPoint, Scene
 from ..scene.names import did_you_mean
 from ..scene.quantity import unit_of
+from ..units.catalogue import SIDES
 from .plan import MOST_POINTS, Point, Settings, Study
 
 if TYPE_CHECKING:

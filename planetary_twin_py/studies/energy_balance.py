@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from ..ledger_check import advice
-from ..quantities import EXCESS
+from ..checks.ledger import advice
+from ..units.catalogue import EXCESS
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..accuracy import course_warnings
-from ..counters import Course
-from ..quantities import COURSE
+from ..checks.accuracy import course_warnings
+from ..run.counters import Course
+from ..units.catalogue import COURSE
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..dynamics.bodies import LOAD_MACHINE, rigid_ratios
-from ..dynamics.static_load import static_torques
-from ..dynamics.stiffness_laws import stiffness_laws
+from ..model.bodies import LOAD_MACHINE, rigid_ratios
+from ..model.static_load import static_torques
+from ..model.stiffness_laws import stiffness_laws
+from ..run.twin import Twin
 from ..scene import Scene
-from ..twin import Twin
 
 SHARE = 0.03  # of the torque, at which lost motion is measured
 UPPER = 0.5  # of the torque, from which the stiffness is measured

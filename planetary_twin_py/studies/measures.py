@@ -7,11 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..ledger_check import balance_of_window
-from ..planar.error_turns import fewest_turns
-from ..planar.motion import AxesMotion
-from ..planar.statistics import axes_statistics
-from ..quantities import (
+from ..checks.ledger import balance_of_window
+from ..run.axes.motion import AxesMotion
+from ..run.axes.window_statistics import axes_statistics
+from ..run.result import Result
+from ..run.twin import Twin
+from ..run.window import Window
+from ..scene import Scene
+from ..statics.error_turns import fewest_turns
+from ..units.catalogue import (
     CLIPPED,
     COURSE,
     ERROR_TURNS,
@@ -23,10 +27,6 @@ from ..quantities import (
     STUDIED,
     STUDIED_OF_AXES,
 )
-from ..result import Result
-from ..scene import Scene
-from ..twin import Twin
-from ..window import Window
 from .plan import Settings
 from .turning import speed_share
 

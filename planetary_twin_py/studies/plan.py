@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from ..run.window_plan import LONGEST_WINDOW
 from ..scene import Scene, SceneError
-from ..simulation import check_run
-from ..window_plan import LONGEST_WINDOW
+from ..simulation.simulate import check_run
 from .axes import Axis, Normal, Span, admitted
 
 MOST_POINTS = 1_000_000

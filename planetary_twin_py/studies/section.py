@@ -12,10 +12,10 @@ from fractions import Fraction
 import numpy as np
 
 from .._core import DTE
-from ..counters import Course, course_so_far
-from ..dynamics.bodies import body_names, mesh_names
-from ..integrators.interpolant import Samples
-from ..run import start
+from ..model.bodies import body_names, mesh_names
+from ..run.counters import Course, course_so_far
+from ..run.samples import Samples
+from ..run.start import start
 from ..scene import Scene
 
 GUARD = 0.05  # mesh cycles before the section at which the approach by the mean speed ends

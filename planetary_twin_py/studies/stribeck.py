@@ -9,10 +9,10 @@ import json
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
+from ..run.twin import Twin
+from ..run.window import Window
+from ..run.window_plan import LOWEST_SAMPLE_RATE
 from ..scene import Scene
-from ..twin import Twin
-from ..window import Window
-from ..window_plan import LOWEST_SAMPLE_RATE
 from .axes import Axis, Normal, Span
 from .measures import row
 from .plan import Point, describe, grid

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..quantities import AXES_RESULTS, STUDY_RESULTS
+from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
 from .journal import Journal
 from .plan import Study
 from .work import Evaluation, Executor, Failure, Found

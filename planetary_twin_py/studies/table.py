@@ -15,8 +15,8 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
-from ..quantities import AXES_RESULTS, STUDY_RESULTS, Quantity
 from ..scene.quantity import unit_of
+from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS, Quantity
 from .axes import look_up
 from .marks import BIFURCATION
 from .plan import Study

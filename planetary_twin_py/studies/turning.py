@@ -7,10 +7,10 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..dynamics.mesh_frequency import wanted_mesh_frequency
-from ..planar.error_turns import WHOLE_TURN
-from ..quantities import ERROR_TURNS, SPEED_SHARE
+from ..model.mesh_frequency import wanted_mesh_frequency
 from ..scene import Scene
+from ..statics.error_turns import WHOLE_TURN
+from ..units.catalogue import ERROR_TURNS, SPEED_SHARE
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -81,7 +81,7 @@ def need(extra: str, *modules: str) -> None:
 def _say(line: str, colour: str) -> None:
     from rich.console import Console  # honours NO_COLOR and pipes
 
-    from ..printable import printable
+    from ..text.escaping import printable
 
     Console(stderr=True).print(
         printable(line), style=colour, markup=False, emoji=False, highlight=False, soft_wrap=True

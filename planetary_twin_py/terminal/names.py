@@ -16,6 +16,6 @@ def shown(name: str) -> str:
     """
     from rich.markup import escape
 
-    from ..printable import one_line
+    from ..text.escaping import one_line
 
     return escape(one_line(name, _LONGEST))

@@ -79,7 +79,7 @@ def _interpreted(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
     from ..scene.paths import leaves
     from ..scene.quantity import unit_of
     from ..studies.axes import look_up
-    from ..units import is_number
+    from ..units.conversion import is_number
 
     for name, value in leaves(changes):
         if is_number(str(value)) and (unit := unit_of(look_up(scene, name)[0])):
@@ -108,7 +108,7 @@ def in_words(name: str, value: float, unit: str) -> str:
     Returns:
         For example "input_speed = 1000 rad/s (9549 rpm)".
     """
-    from ..units import customary
+    from ..units.conversion import customary
 
     usual = customary(value, unit)
     return f"{name} = {value:g} {unit}".rstrip() + (f" ({usual})" if usual else "")

@@ -15,7 +15,7 @@ from rich.padding import Padding
 from rich.table import Column, Table
 from rich.text import Text
 
-from ..printable import printable
+from ..text.escaping import printable
 
 _INDENT = 4
 _UNLIMITED = 100_000  # characters, wider than any table

@@ -42,7 +42,7 @@ def _read(given: str | float, unit: str, required: str) -> float:
         return float(given)
     except ValueError:
         pass
-    from ..units import to_si  # imports pint, which plain numbers do not need
+    from ..units.conversion import to_si  # imports pint, which plain numbers do not need
 
     try:
         return float(str(to_si(given, unit)))

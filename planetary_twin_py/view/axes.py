@@ -14,10 +14,10 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..quantities import COMPONENTS, MEMBERS
 from ..recording.runs.reader import Recording, Series
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
+from ..units.catalogue import COMPONENTS, MEMBERS
 from . import timeline
 from .gears import MILLIMETRES, Moved
 from .layer import Layer

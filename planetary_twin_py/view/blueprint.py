@@ -7,9 +7,17 @@ from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
 
-from ..quantities import BEARING, MEMBERS, MESH, OPERATING_POINT, SHARING, TRAIN_PLOTS, WAVEFORM
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
+from ..units.catalogue import (
+    BEARING,
+    MEMBERS,
+    MESH,
+    OPERATING_POINT,
+    SHARING,
+    TRAIN_PLOTS,
+    WAVEFORM,
+)
 from . import orbits as orbit
 from . import phase_portrait, spectra
 from .axes import Scales

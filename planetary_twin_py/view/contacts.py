@@ -17,8 +17,8 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..dynamics.pair_loads import pair_loads
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
+from ..model.pair_loads import pair_loads
 from ..recording.runs.reader import Recording
 from ..scene import Scene
 from ..scene.gearset import Gearset

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from ..quantities import OPERATING_POINT
 from ..recording.runs.reader import Recording
+from ..units.catalogue import OPERATING_POINT
 from . import timeline
 from .layer import Layer
 

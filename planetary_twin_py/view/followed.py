@@ -8,9 +8,9 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..quantities import Quantity
 from ..recording.runs.followed import Followed, MessageColumns, read_followed
 from ..recording.runs.reader import Recording, Series
+from ..units.catalogue import Quantity
 from . import timeline
 from .layer import Layer
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..quantities import MEMBERS
 from ..recording.runs.axes_samples import AxesSamples
+from ..units.catalogue import MEMBERS
 from .chart import Chart, Ticks, log_frame, send_strips
 from .frames import Frames
 from .layer import Layer

@@ -9,8 +9,8 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..quantities import BEARING, MEMBERS, MESH, TRAIN_PLOTS
 from ..recording.runs.reader import Recording
+from ..units.catalogue import BEARING, MEMBERS, MESH, TRAIN_PLOTS
 from . import timeline
 from .layer import Colour, Layer
 

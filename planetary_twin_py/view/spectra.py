@@ -13,8 +13,8 @@ from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
 from ..analysis.orders import order_spectrum
 from ..analysis.signals import relative_angle
 from ..analysis.spectrum import amplitude_spectrum
-from ..natural_modes import natural_modes
 from ..scene import Scene
+from ..simulation.natural_modes import natural_modes
 from .chart import Chart, Ticks, log_frame, send_labels, send_strips, texts_at
 from .colour_map import shade
 from .frames import Frames

@@ -12,9 +12,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ..quantities import WAVEFORM
 from ..recording.runs.reader import Recording
 from ..recording.runs.waveform import Ranges, TimeSpan, Waveform
+from ..units.catalogue import WAVEFORM
 from . import timeline
 from .detail import first_rows
 from .layer import Layer

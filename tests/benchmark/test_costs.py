@@ -6,8 +6,8 @@ import pytest
 from planetary_twin_benchmark import costs
 from planetary_twin_benchmark.timing import Speed, affordable
 
-from planetary_twin_py.engine import Engine
 from planetary_twin_py.gearset.phasing import mesh_phases
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 
 

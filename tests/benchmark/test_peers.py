@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 
 from planetary_twin_py._core import DTE, POWER_LOSS, Evaluation, begin_step, derivative, forces
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene, packaged_scenes
 
 pytestmark = pytest.mark.slow

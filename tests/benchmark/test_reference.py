@@ -6,7 +6,7 @@ from planetary_twin_benchmark.reference import Reference
 from planetary_twin_benchmark.table import dte_error
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 
 RATE, SPAN = 50_000.0, 180e-6  # [Hz], [s]
 

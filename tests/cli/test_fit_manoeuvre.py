@@ -9,7 +9,7 @@ from command_line import run, run_here
 from following.plants import played
 from tiers import first_rows
 
-from planetary_twin_py.interval_text import interval_text
+from planetary_twin_py.text.intervals import interval_text
 
 RAMP = Path(__file__).parents[1] / "data/compact/ramp.parquet"
 DRAG = "losses.sun_drag.coulomb"

@@ -11,7 +11,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.scene.summary import operating_point
 from planetary_twin_py.studies.fit.parameter import read_parameters
-from planetary_twin_py.units import to_si
+from planetary_twin_py.units.conversion import to_si
 
 SHORT = ["--duration", "0.004", "--set", "lambda_ratio=1.5", "--set", "mesh.ramp=0.05"]
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.polynomial import Legendre
 
 from planetary_twin_py._core import radau
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 
 PAPER = load_scene("paper")

@@ -15,7 +15,7 @@ from planetary_twin_py._core import (
     evaluate,
     tooth_contact,
 )
-from planetary_twin_py.dynamics.oil import build_oil
+from planetary_twin_py.model.oil import build_oil
 from planetary_twin_py.scene import friction_table, load_scene
 
 TABLE = friction_table(

@@ -15,7 +15,7 @@ from planetary_twin_py._core import (
     set_step_constants,
     turn_pairs,
 )
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 
 

@@ -12,9 +12,9 @@ import math
 import numpy as np
 
 from planetary_twin_py._core import DRIVE_SIDE, TOTAL, Integrator, Model, advance, cut, radau
-from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
-from planetary_twin_py.integrators.clock import NEVER, Instant, instant, sampling
-from planetary_twin_py.integrators.interpolant import new_samples
+from planetary_twin_py.model.bodies import LOAD_MACHINE
+from planetary_twin_py.model.clock import NEVER, Instant, instant, sampling
+from planetary_twin_py.run.samples import new_samples
 
 MASS, MOTOR, GROUND = 0, 1, 2
 PER_PERIOD = 64

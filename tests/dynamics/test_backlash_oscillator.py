@@ -11,7 +11,7 @@ import pytest
 from dynamics.backlash_oscillator import Oscillator, amplitude
 from scipy.integrate import solve_ivp
 
-from planetary_twin_py.simulation import TOLERANCE
+from planetary_twin_py.simulation.simulate import TOLERANCE
 
 ZETA, MEAN, ALTERNATING = 0.05, 0.1, 0.05
 STEP = 0.002  # of the sweeps, where it matters

@@ -8,7 +8,7 @@ from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import BEARING, BODIES, SLOWEST_TURN, Evaluation, apply_drag
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 
 LOSSES = {
     "planet_bearing": {"mean_diameter": "10 mm", "f0": 8.0, "f1": 1e-3},
@@ -101,7 +101,7 @@ def test_drag_passes_through_standstill_as_bearings_do():
     assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)
 
 
-@pytest.mark.filterwarnings("ignore::planetary_twin_py.warning_types.AccuracyWarning")
+@pytest.mark.filterwarnings("ignore::planetary_twin_py.text.warning_types.AccuracyWarning")
 @pytest.mark.parametrize("speed", [0.0, 1.0])
 def test_drag_of_a_light_member_costs_steps_of_its_motion_not_of_the_nanoseconds_of_its_drag(speed):
     """0.1 N m that reverses within 0.01 rad/s stops 6.6e-8 kg m^2 within 7 ns."""

@@ -20,7 +20,7 @@ from planetary_twin_py._core import (
     mesh_motion,
     set_step_constants,
 )
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 
 
 def random_moment(engine, random):

@@ -8,9 +8,9 @@ from tiers import first_rows
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
-from planetary_twin_py.dynamics.bodies import body_names, mesh_names
-from planetary_twin_py.dynamics.pair_loads import pair_loads
-from planetary_twin_py.run import start
+from planetary_twin_py.model.bodies import body_names, mesh_names
+from planetary_twin_py.model.pair_loads import pair_loads
+from planetary_twin_py.run.start import start
 
 PAPER = pt.load_scene("paper")
 CRACKED = pt.load_scene("cracked_tooth")

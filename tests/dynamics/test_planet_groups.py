@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.planet_groups import planet_groups
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.planet_groups import planet_groups
+from planetary_twin_py.run.engine import Engine
 
 PAPER = pt.load_scene("paper")
 TOLERANCE = 1e-6

@@ -7,9 +7,9 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import TOTAL
-from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
-from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.explanation.meshes import describe_meshes
+from planetary_twin_py.model.stiffness_laws import tooth_pairs
+from planetary_twin_py.model.train import build_train
 
 PAPER = pt.load_scene("paper")
 STAGE = pt.load_scene("reference_gearbox_stage")

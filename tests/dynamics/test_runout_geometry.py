@@ -25,9 +25,9 @@ from planetary_twin_py._core import (
     place_lines,
     set_step_constants,
 )
-from planetary_twin_py.dynamics.bodies import base_radii
-from planetary_twin_py.dynamics.train import build_train
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.bodies import base_radii
+from planetary_twin_py.model.train import build_train
+from planetary_twin_py.run.engine import Engine
 
 SIZE = 1e-6  # [m] small beside a tooth: errors are of first order in it
 SCENE = pt.load_scene("paper").replace(backlash="60 um")

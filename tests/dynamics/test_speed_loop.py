@@ -9,7 +9,7 @@ from power_flows import ALL_FLOWS, DIFFERENTIALS, scene_of
 from stability.sound import PAPER, PLAIN
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.speed_loop import (
+from planetary_twin_py.model.speed_loop import (
     FIELD,
     LinearTrain,
     bandwidth,
@@ -17,8 +17,8 @@ from planetary_twin_py.dynamics.speed_loop import (
     linear_loop,
     speed_loop_gains,
 )
-from planetary_twin_py.dynamics.train import build_train
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.train import build_train
+from planetary_twin_py.run.engine import Engine
 
 WIND = pt.load_scene("wind_turbine_stage")
 HEAVY = PAPER.replace(**{"drive.output.inertia": 135.0})  # a vehicle on an e-axle

@@ -7,8 +7,8 @@ import pytest
 from power_flows import ALL_FLOWS, scene_of
 
 from planetary_twin_py import simulate
-from planetary_twin_py.engine import Engine
-from planetary_twin_py.units import rpm
+from planetary_twin_py.run.engine import Engine
+from planetary_twin_py.units.conversion import rpm
 
 FORCE = 63.0 / 3 / (0.012 * math.cos(math.radians(21.34)))  # 1878.8 N
 

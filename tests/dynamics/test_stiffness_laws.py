@@ -6,8 +6,8 @@ from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import find_segment, mesh_stiffness
-from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
-from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.model.stiffness_laws import tooth_pairs
+from planetary_twin_py.model.train import build_train
 
 PAPER = pt.load_scene("paper")
 INVOLUTE = PAPER.replace(**{"mesh.stiffness": "involute"})

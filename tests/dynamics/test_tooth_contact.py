@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from lubrication.friction_laws import FRICTION_LAWS
 
 from planetary_twin_py._core import lambda_ratio_of, tooth_contact
-from planetary_twin_py.dynamics.oil import build_oil
+from planetary_twin_py.model.oil import build_oil
 from planetary_twin_py.scene import friction_table, load_scene
 
 TABLE = friction_table(

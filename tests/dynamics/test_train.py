@@ -8,8 +8,8 @@ from power_flows import ALL_FLOWS, DIFFERENTIALS, FLOWS, scene_of
 from scipy.linalg import eigvalsh
 
 from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
-from planetary_twin_py.dynamics.train import build_train
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.train import build_train
+from planetary_twin_py.run.engine import Engine
 
 
 @ALL_FLOWS

@@ -10,7 +10,7 @@ from docs.blocks import ROOT
 from examples.two_mass_joint import TwoMasses
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.bodies import build_bodies
+from planetary_twin_py.model.bodies import build_bodies
 
 mujoco = pytest.importorskip("mujoco")
 sys.path.insert(0, str(Path(ROOT) / "docs" / "examples"))

@@ -7,8 +7,8 @@ import pytest
 from power_flows import FLOWS, flow_name, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
 from planetary_twin_py.explanation.meshes import describe_meshes
+from planetary_twin_py.model.stiffness_laws import tooth_pairs
 
 PAPER = pt.load_scene("paper")
 COSINE = math.cos(math.radians(21.34))

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.planet_groups import axes_stand, planet_groups
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.gearset.phasing import (
     assembled,
@@ -16,6 +15,7 @@ from planetary_twin_py.gearset.phasing import (
     mesh_phases,
     nearest_assembly,
 )
+from planetary_twin_py.model.planet_groups import axes_stand, planet_groups
 
 PAPER = Teeth(30, 20, 70)
 FITTING = np.radians([90.0, -28.8, 208.8])

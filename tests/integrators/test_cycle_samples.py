@@ -6,9 +6,9 @@ from stability.sound import PAPER
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import QUANTITIES, sample
-from planetary_twin_py.engine import Engine
-from planetary_twin_py.integrators.clock import delay, instant
-from planetary_twin_py.integrators.interpolant import new_samples
+from planetary_twin_py.model.clock import delay, instant
+from planetary_twin_py.run.engine import Engine
+from planetary_twin_py.run.samples import new_samples
 
 SHARE = 0.01  # of the tolerance, that interpolation may add
 INSTANTS = 211  # in two mesh cycles, a prime number: anywhere in the steps

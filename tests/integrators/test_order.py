@@ -14,7 +14,7 @@ from planetary_twin_py._core import (
     sweep,
     update_nodes,
 )
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 
 START, SPAN = 1e-5, 6e-5  # [s] within one segment of all meshes

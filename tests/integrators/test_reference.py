@@ -8,8 +8,8 @@ from power_flows import FLOWS, scene_of
 from reference_model import Reference
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.dynamics.bodies import body_names, mesh_names
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.bodies import body_names, mesh_names
+from planetary_twin_py.run.engine import Engine
 
 pytestmark = pytest.mark.slow
 

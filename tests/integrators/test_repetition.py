@@ -17,11 +17,11 @@ from planetary_twin_py._core import (
     STIFFNESS_WORK,
     WORK,
 )
-from planetary_twin_py.dynamics.cycle import common_cycles
-from planetary_twin_py.dynamics.speed_loop import bandwidth
-from planetary_twin_py.dynamics.start import build_load
-from planetary_twin_py.dynamics.train import build_train
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.cycle import common_cycles
+from planetary_twin_py.model.speed_loop import bandwidth
+from planetary_twin_py.model.start import build_load
+from planetary_twin_py.model.train import build_train
+from planetary_twin_py.run.engine import Engine
 
 TOLERANCE = 1e-3
 RUNOUT = {

@@ -5,7 +5,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import DTE
-from planetary_twin_py.run import start
+from planetary_twin_py.run.start import start
 
 DURATION, RATE = 0.3, 20_000.0
 

@@ -5,7 +5,7 @@ import pytest
 from power_flows import FLOWS, scene_of
 
 from planetary_twin_py._core import Workspace, begin_step, forces, rosenbrock_step
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 
 SPAN = 4e-5  # [s] within one segment of all meshes

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.units import rpm
+from planetary_twin_py.units.conversion import rpm
 
 SLOW = pt.load_scene("paper").replace(input_speed=rpm(20))
 THREE_CYCLES = 0.3  # [s]

@@ -6,7 +6,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import bearing_torque
-from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.model.train import build_train
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.gearset.geometry import PathOfContact, planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.losses.ohlendorf import tooth_loss_factor
+from planetary_twin_py.lubrication.ohlendorf import tooth_loss_factor
 
 PAPER = Teeth(30, 20, 70), math.radians(21.34), 1.0
 SUN = sun_planet_path(*PAPER), 30, 20, False

@@ -4,8 +4,8 @@ import math
 from typing import NamedTuple
 
 from planetary_twin_py._core import log_film_thickness
-from planetary_twin_py.dynamics.oil import build_oil
 from planetary_twin_py.lubrication.film import FILM_LAWS
+from planetary_twin_py.model.oil import build_oil
 
 CASES = [(mesh, rpm) for mesh in ("sp", "pr") for rpm in (1000, 2000, 3000)]
 MODULUS = 206e9 / (1 - 0.3**2)  # E' = 2 E*

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.dynamics.library import library, record_in
-from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.run import start
+from planetary_twin_py.model.library import library, record_in
+from planetary_twin_py.model.oil import build_oil
+from planetary_twin_py.run.start import start
 from planetary_twin_py.scene import load_scene
 
 CHANGES = (

@@ -5,7 +5,7 @@ from lubrication.friction_laws import EXAMPLE_TABLE, FRICTION_LAWS
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import TRACTION_LAWS
-from planetary_twin_py.dynamics.oil import build_oil
+from planetary_twin_py.model.oil import build_oil
 
 PAPER = pt.load_scene("paper").replace(**{"lubrication.friction_table": EXAMPLE_TABLE})
 

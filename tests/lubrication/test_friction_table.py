@@ -8,7 +8,7 @@ from command_line import run as run_command
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import lambda_ratio_of, tooth_contact
-from planetary_twin_py.dynamics.oil import build_oil
+from planetary_twin_py.model.oil import build_oil
 
 PAPER = pt.load_scene("paper").replace(
     **{"lubrication.traction": "eyring", "lubrication.boundary": "load_sharing"}

@@ -7,11 +7,11 @@ from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import PAIRS, TERMS, TOTAL
-from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.gearset.geometry import PathOfContact
 from planetary_twin_py.mesh.stiffness import given_stiffness
 from planetary_twin_py.mesh.tip_relief import PairGap, Relief, relieved_table
 from planetary_twin_py.mesh.tooth_pairs import pair_table
+from planetary_twin_py.model.train import build_train
 
 PATH = PathOfContact(0.75, 0.85)
 STIFFNESS, FORCE = 2e8, 2000.0

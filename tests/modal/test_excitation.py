@@ -8,14 +8,14 @@ from planar.moving_scenes import planar, supports
 from power_flows import FLOWS
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.bodies import rigid_ratios
-from planetary_twin_py.dynamics.planet_groups import scene_phases
 from planetary_twin_py.gearset.kinematics import mesh_cycles_per_turn
 from planetary_twin_py.modal.campbell import resonances
 from planetary_twin_py.modal.excitation import EXCITED, NO_MESH, SUPPRESSED, excitation
 from planetary_twin_py.modal.modes import clusters
 from planetary_twin_py.modal.natural import natural_modes, spring_model
 from planetary_twin_py.modal.turning import turning_terms
+from planetary_twin_py.model.bodies import rigid_ratios
+from planetary_twin_py.model.planet_groups import scene_phases
 
 AWAY = 1e-4  # relative distance of a frequency from a natural frequency
 

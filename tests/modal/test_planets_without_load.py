@@ -10,7 +10,7 @@ from power_flows import FLOWS, scene_of
 import planetary_twin_py as pt
 from planetary_twin_py.modal.campbell import resonances
 from planetary_twin_py.modal.natural import carrying_planets, spring_model
-from planetary_twin_py.warning_types import AccuracyWarning
+from planetary_twin_py.text.warning_types import AccuracyWarning
 
 ANGLES = evenly(5)
 AWAY = 1e-4  # [m] counter-clockwise, which takes the load off a pin, as the sun drives that way

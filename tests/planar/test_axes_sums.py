@@ -5,7 +5,7 @@ import pytest
 from planar.moving_scenes import planar
 
 import planetary_twin_py as pt
-from planetary_twin_py import simulate_axes
+from planetary_twin_py.simulation import simulate_axes
 
 SETTLING, SPAN = 0.0033, 0.01
 

@@ -10,7 +10,7 @@ from planar.published_set import MESH, PIN, TORQUE, scene
 
 from planetary_twin_py.modal.planar import PlanarBody, PlanarSet, planar_model
 from planetary_twin_py.modal.turning import turning_modes, turning_terms
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 ANGLE = math.radians(21.34)
 PITCH = {"sun": 0.012, "planet": 0.008, "ring": 0.028}

@@ -6,10 +6,10 @@ from planar.moving_scenes import planar
 from power_flows import FLOWS
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.bodies import rigid_ratios
 from planetary_twin_py.explanation.turning import turning_warnings
-from planetary_twin_py.planar.cycle_shares import CycleShares
-from planetary_twin_py.planar.error_turns import fewest_turns
+from planetary_twin_py.model.bodies import rigid_ratios
+from planetary_twin_py.run.axes.load_shares import CycleShares
+from planetary_twin_py.statics.error_turns import fewest_turns
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid

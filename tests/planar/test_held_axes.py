@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.planar.held_axes import held_axes_warning, static_shares
+from planetary_twin_py.checks.fixed_axes import held_axes_warning, static_shares
 
 FLOATING = pt.load_scene("floating_sun")
 HELD = FLOATING.replace(dynamics="torsional")

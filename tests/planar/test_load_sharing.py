@@ -12,7 +12,7 @@ import pytest
 from planar.published_set import MESH, PIN, TORQUE, scene
 
 from planetary_twin_py import load_scene, simulate
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 HELD, FREE = 1e14, 0.0
 ANGLE = math.radians(21.34)

@@ -14,7 +14,7 @@ from planar.published_set import MESH, PIN, TORQUE, scene
 from tiers import first_rows
 
 from planetary_twin_py import simulate
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 HELD, FREE, E = 1e14, 0.0, 5e-6
 ANGLE = math.radians(21.34)

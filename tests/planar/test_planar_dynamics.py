@@ -11,9 +11,9 @@ from power_flows import DIFFERENTIALS, FLOWS, flow_name
 from tiers import first
 
 from planetary_twin_py import SceneError, Twin, load_scene, simulate
-from planetary_twin_py.accuracy import course_warnings
-from planetary_twin_py.planar.load_sharing import load_sharing
-from planetary_twin_py.run import start
+from planetary_twin_py.checks.accuracy import course_warnings
+from planetary_twin_py.run.start import start
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}

@@ -6,10 +6,10 @@ from planar.moving_scenes import planar
 from power_flows import FLOWS, flow_name
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.cycle import common_cycles
-from planetary_twin_py.dynamics.planet_groups import planet_groups
-from planetary_twin_py.dynamics.train import build_train
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.cycle import common_cycles
+from planetary_twin_py.model.planet_groups import planet_groups
+from planetary_twin_py.model.train import build_train
+from planetary_twin_py.run.engine import Engine
 
 IN_PHASE = {
     "gearset.teeth": {"sun": 36, "planet": 18, "ring": 72},

@@ -9,8 +9,8 @@ from planar.reference_in_plane import PlanarReference
 from power_flows import FLOWS
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.dynamics.bodies import build_bodies
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.bodies import build_bodies
+from planetary_twin_py.run.engine import Engine
 
 RATE = 50_000.0
 

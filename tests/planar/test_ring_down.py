@@ -8,10 +8,10 @@ from planar.moving_scenes import evenly, planar
 from power_flows import FLOWS
 from tiers import first
 
-from planetary_twin_py import natural_modes
 from planetary_twin_py._core import axes
-from planetary_twin_py.engine import Engine
-from planetary_twin_py.planar.carrying import carrying
+from planetary_twin_py.run.engine import Engine
+from planetary_twin_py.simulation import natural_modes
+from planetary_twin_py.statics.loaded_planets import carrying
 
 RATE = 200_000.0
 SOFT = {"coupling_stiffness": 1e-2, "coupling_damping": 0.0}  # leave the gears to themselves

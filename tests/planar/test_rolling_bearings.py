@@ -20,16 +20,16 @@ from spatial.tilting_scenes import spatial
 from tiers import first
 
 from planetary_twin_py import SceneError, simulate
-from planetary_twin_py.dynamics.rolling_bearings import (
+from planetary_twin_py.modal.natural import spring_model
+from planetary_twin_py.model.rolling_bearings import (
     eccentricity,
     largest_element_load,
     press,
     rolling_bearing,
 )
-from planetary_twin_py.modal.natural import spring_model
-from planetary_twin_py.planar.load_sharing import load_sharing
-from planetary_twin_py.planar.small_motion import radial_stiffness
 from planetary_twin_py.scene.supports import Rolling
+from planetary_twin_py.statics.load_sharing import load_sharing
+from planetary_twin_py.statics.small_motion import radial_stiffness
 
 ROLLERS = Rolling(rollers=14, length=0.012)
 BALLS = Rolling(balls=9, diameter=0.008)

@@ -8,7 +8,7 @@ from planar.moving_scenes import planar
 from power_flows import FLOWS, flow_name
 
 from planetary_twin_py import simulate
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 ERRORS = {
     "errors.pin_tangential": [-2e-5, 5e-6, 0.0],

@@ -16,10 +16,10 @@ from spatial.tilting_scenes import spatial
 from tiers import first
 
 from planetary_twin_py import SceneError, load_scene, simulate
-from planetary_twin_py.dynamics.planet_groups import planet_groups
 from planetary_twin_py.explanation.terms import terms
 from planetary_twin_py.modal.natural import natural_modes
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.model.planet_groups import planet_groups
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 ANGLE = math.radians(21.34)
 MESHES, PINS = (0.8, 1.0, 1.1, 1.0), (1.0, 0.5, 1.0, 2.0)

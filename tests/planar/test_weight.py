@@ -10,7 +10,7 @@ from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py import simulate
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 G = 9.81
 HEAVY = {"supports.gravity": G}

@@ -3,7 +3,7 @@
 import numpy as np
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.bodies import build_bodies, machines
+from planetary_twin_py.model.bodies import build_bodies, machines
 
 PAPER = pt.load_scene("paper")
 RATIO = -3.0 / 7.0  # of the output's speed to the input's

@@ -8,7 +8,7 @@ import pytest
 from ports.ports_of_paper import CAUSALITIES, PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py.integrators.clock import TICKS
+from planetary_twin_py.model.clock import TICKS
 
 PAIRS = list(itertools.product(CAUSALITIES, repeat=2))
 LENGTH = 2e-3  # [s] of a window

@@ -8,7 +8,7 @@ import pytest
 from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, RATIO, driven
 
 import planetary_twin_py as pt
-from planetary_twin_py.integrators.clock import TICKS
+from planetary_twin_py.model.clock import TICKS
 
 PORTS = [pair for pair in itertools.product(CAUSALITIES, repeat=2) if pair != ("machine",) * 2]
 

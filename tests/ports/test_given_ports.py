@@ -16,7 +16,7 @@ from ports.ports_of_paper import (
 )
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.bodies import build_bodies
+from planetary_twin_py.model.bodies import build_bodies
 
 DAMPED = {"drive.input.coupling_damping": 2.0, "drive.output.coupling_damping": 10.0}
 

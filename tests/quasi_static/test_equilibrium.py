@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.optimize import root
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.static_load import mesh_force
+from planetary_twin_py.model.static_load import mesh_force
 
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
 OMEGA = PAPER.operating_point.input_speed

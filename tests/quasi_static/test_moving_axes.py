@@ -11,7 +11,7 @@ from quasi_static.steady_drive import STEADY
 from spatial.tilting_scenes import spatial
 
 from planetary_twin_py import Twin, load_scene, simulate
-from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.statics.load_sharing import load_sharing
 
 STILL = {"dynamics": "quasi_static_planar"}
 CONSTANT = {"mesh.double_pair_ratio": 1.0, "mesh.ramp": 0.0, "lubrication.friction": False}

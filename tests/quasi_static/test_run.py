@@ -10,9 +10,9 @@ from quasi_static.steady_drive import STEADY
 from test_long_run import HOURS, columns, turns_after
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.mesh_frequency import wanted_mesh_frequency
-from planetary_twin_py.integrators.clock import TICKS
-from planetary_twin_py.run import start
+from planetary_twin_py.model.clock import TICKS
+from planetary_twin_py.model.mesh_frequency import wanted_mesh_frequency
+from planetary_twin_py.run.start import start
 
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
 LOSSES = {

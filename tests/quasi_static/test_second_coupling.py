@@ -14,8 +14,8 @@ from planetary_twin_py._core import (
     frame_cycle_rate,
     solve_equilibrium,
 )
-from planetary_twin_py.dynamics.bodies import SECOND_MOTOR, base_radii
-from planetary_twin_py.quasi_static.engine import QuasiStaticEngine
+from planetary_twin_py.model.bodies import SECOND_MOTOR, base_radii
+from planetary_twin_py.run.quasi_static.engine import QuasiStaticEngine
 
 SOFT = "drive.second_input.coupling_stiffness"
 FLOWS = pytest.mark.parametrize("flow", DIFFERENTIALS, ids=flow_name)

@@ -9,8 +9,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint, RecorderStatus
 
 import planetary_twin_py as pt
-from planetary_twin_py.quality_control import Setting
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status
+from planetary_twin_py.run.quality_control import Setting
 
 from .peer import Peer
 

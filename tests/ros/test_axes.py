@@ -22,10 +22,10 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
 import planetary_twin_py as pt
-from planetary_twin_py.planar.load_sharing import load_sharing
 from planetary_twin_py.recording.ros2.topics import is_status
 from planetary_twin_py.recording.runs.origin import read_origin
 from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.statics.load_sharing import load_sharing
 from planetary_twin_py.view.live import LiveView
 from planetary_twin_py.view.show import to_file
 

@@ -16,8 +16,8 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 
 import planetary_twin_py as pt
-from planetary_twin_py.quality_control import HALVINGS, Setting
-from planetary_twin_py.tolerance import LADDER
+from planetary_twin_py.run.quality_control import HALVINGS, Setting
+from planetary_twin_py.run.tolerance import LADDER
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer

@@ -14,7 +14,7 @@ from planetary_twin.real_time import RealTimeReport
 from planetary_twin.stamps import Skip
 
 import planetary_twin_py as pt
-from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
+from planetary_twin_py.run.quality_control import QualityControl, Setting, settings_of
 
 from .reported import figures
 

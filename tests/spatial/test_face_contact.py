@@ -7,7 +7,7 @@ import pytest
 from spatial.test_spatial_dynamics import constant, tilting_of_teeth
 
 import planetary_twin_py as pt
-from planetary_twin_py.spatial.face_contact import uneven_deflection
+from planetary_twin_py.checks.face_contact import uneven_deflection
 
 
 def test_the_squeeze_at_an_end_follows_from_the_moment_of_the_teeth():

@@ -10,8 +10,8 @@ from spatial.reference_in_space import SpatialReference
 from spatial.tilting_scenes import spatial
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.dynamics.bodies import build_bodies, tilting_radii, tilts_of
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.model.bodies import build_bodies, tilting_radii, tilts_of
+from planetary_twin_py.run.engine import Engine
 
 RATE = 50_000.0
 ERRORS = {"errors.pin_tangential": [-2e-5, 1e-5, 0.0], "lubrication.friction": False}

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.modal.spatial import SpatialBody, SpatialSet, spatial_model
-from planetary_twin_py.planar.rows import COAST, DRIVE, planar_rows
-from planetary_twin_py.spatial.rows import MeshOfKind, leaning_row
+from planetary_twin_py.model.planar_rows import COAST, DRIVE, planar_rows
+from planetary_twin_py.model.tilting_rows import MeshOfKind, leaning_row
 
 ANGLE, HELIX, WIDTH, STIFFNESS = 0.37, 0.21, 0.03, 2e8
 SUN, PLANET, ARM = 0.05, 0.04, 0.09

@@ -15,7 +15,7 @@ from stability.sound import PAPER
 from tiers import first
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.engine import Engine
+from planetary_twin_py.run.engine import Engine
 
 BEGIN, SPAN = 0.02, 4e-3  # [s]
 SCENE = PAPER.replace(**RATTLE)

@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
-from planetary_twin_py.dynamics.static_load import static_torques
+from planetary_twin_py.model.bodies import LOAD_MACHINE
+from planetary_twin_py.model.static_load import static_torques
 from planetary_twin_py.studies.lost_motion import lost_motion
 
 TORQUE, PLAY = 100.0, 2e-5  # [N m], [m]

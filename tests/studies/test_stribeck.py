@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.cli._study import default_speeds
-from planetary_twin_py.dynamics.mesh_frequency import wanted_mesh_frequency
+from planetary_twin_py.model.mesh_frequency import wanted_mesh_frequency
 from planetary_twin_py.studies.axes import Axis, read_axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck

@@ -9,7 +9,6 @@ from scipy.integrate import trapezoid
 from studies.small import AXES, PAPER, QUICK, STUDY
 
 import planetary_twin_py as pt
-from planetary_twin_py.quantities import STUDY_RESULTS
 from planetary_twin_py.studies import work
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.journal import Journal
@@ -19,6 +18,7 @@ from planetary_twin_py.studies.plan import grid
 from planetary_twin_py.studies.sweep import sweep
 from planetary_twin_py.studies.table import write
 from planetary_twin_py.studies.work import Failure
+from planetary_twin_py.units.catalogue import STUDY_RESULTS
 
 # So small an addendum that a tooth pair leaves before the next one enters.
 BROKEN = grid(PAPER, [Axis("gearset.addendum", (0.3, 1.0))], QUICK)

@@ -7,8 +7,8 @@ import pytest
 from studies.small import PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.mesh_frequency import wanted_mesh_frequency
 from planetary_twin_py.explanation.turning import turning_warnings
+from planetary_twin_py.model.mesh_frequency import wanted_mesh_frequency
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid

@@ -16,10 +16,10 @@ from planetary_twin_py._core import (
     show_states,
 )
 from planetary_twin_py._core import Problem as Record
-from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.dynamics.start import build_load, start_state
-from planetary_twin_py.dynamics.static_load import mesh_force
-from planetary_twin_py.dynamics.train import build_train, lightest_body
+from planetary_twin_py.model.oil import build_oil
+from planetary_twin_py.model.start import build_load, start_state
+from planetary_twin_py.model.static_load import mesh_force
+from planetary_twin_py.model.train import build_train, lightest_body
 from planetary_twin_py.scene import Scene
 
 CALLS = 100_000  # of the right-hand side, to time it

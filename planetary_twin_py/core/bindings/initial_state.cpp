@@ -1,4 +1,4 @@
-// Initial state of a run, for `planetary_twin_py.dynamics.start`.
+// Initial state of a run, for `planetary_twin_py.model.start`.
 
 #include "train/initial_state.hpp"
 

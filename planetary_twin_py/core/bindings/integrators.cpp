@@ -1,4 +1,4 @@
-// Integration of a run, for `planetary_twin_py.engine`.
+// Integration of a run, for `planetary_twin_py.run.engine`.
 
 #include <nanobind/stl/pair.h>
 

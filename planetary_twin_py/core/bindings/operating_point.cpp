@@ -1,4 +1,4 @@
-// Records of a run at an operating point, for `planetary_twin_py.dynamics.start`.
+// Records of a run at an operating point, for `planetary_twin_py.model.start`.
 
 #include "run/operating_point.hpp"
 

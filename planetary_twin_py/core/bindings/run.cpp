@@ -1,4 +1,4 @@
-// Windows of a run, for `planetary_twin_py.engine` and `planetary_twin_py.twin`.
+// Windows of a run, for `planetary_twin_py.run.engine` and `planetary_twin_py.run.twin`.
 
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>

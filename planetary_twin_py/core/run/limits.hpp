@@ -1,7 +1,7 @@
 #pragma once
 
 // Limits of physically possible values: a run that exceeds them is stopped, see
-// planetary_twin_py/runaway.py.
+// planetary_twin_py/run/limits.py.
 
 #include <algorithm>
 #include <cmath>

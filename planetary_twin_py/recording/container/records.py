@@ -16,7 +16,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, DataEnd, Message, Schema
 from mcap.stream_reader import CRCValidationError
 
-from ...printable import one_line
+from ...text.escaping import one_line
 from ..tables.suffixes import TABLES
 from .damage import Damages
 from .foreign import how_stored

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ...printable import one_line
+from ...text.escaping import one_line
 
 _WHOLE = re.compile(r"-?[0-9]{1,18}")
 _LONGEST = 60  # characters of a value in a message

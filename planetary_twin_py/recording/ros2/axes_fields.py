@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ...planar.motion import AxesMotion
-from ...planar.statistics import axes_statistics
-from ...quantities import AXES_WAVEFORM, COMPONENTS, FLANKS, MEMBERS, SIDES, VECTORS
-from ...window import Window
+from ...run.axes.motion import AxesMotion
+from ...run.axes.window_statistics import axes_statistics
+from ...run.window import Window
+from ...units.catalogue import AXES_WAVEFORM, COMPONENTS, FLANKS, MEMBERS, SIDES, VECTORS
 from .fields import with_room
 
 

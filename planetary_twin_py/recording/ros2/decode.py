@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from mcap.records import Channel, Message, Schema
 from rosbags.typesys.store import Typestore
 
-from ...printable import one_line
+from ...text.escaping import one_line
 from ..container.records import RecordingError
 from .definitions import KINDS, OF_PORTS
 from .layout import Layout, LayoutError

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ...quantities import MEMBERS, SIDES, TRAIN
-from ...window import Window
+from ...run.window import Window
+from ...units.catalogue import MEMBERS, SIDES, TRAIN
 
 WAVES = ("dte", "mesh_force", "friction")
 ROOM = 7  # largest number of planets in a message

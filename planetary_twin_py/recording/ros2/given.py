@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ...commands import CAUSALITIES, SIDES
+from ...run.commands import CAUSALITIES, SIDES
 from ...scene import Scene
 from ...scene.drive import Causality
 

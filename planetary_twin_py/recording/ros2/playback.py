@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
 
-from ...printable import one_line
+from ...text.escaping import one_line
 from ..container.extent import Extent
 from ..container.log_order import DISORDER
 from ..container.records import RecordingError, files_of

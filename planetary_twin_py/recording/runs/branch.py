@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ...commands import CAUSALITIES, Commands
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
+from ...run.commands import CAUSALITIES, Commands
 from ...scene import Scene
 from ...scene.live import LIVE, PORT_FIELDS
 from .intervals import Interval, Intervals

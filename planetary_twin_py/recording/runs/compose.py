@@ -9,7 +9,7 @@ import numpy as np
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from ...robot import robot_description
-from ...window import Window
+from ...run.window import Window
 from ..container.records import RecordingError
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
 from ..ros2.bag import BagWriter

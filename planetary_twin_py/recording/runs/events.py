@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
 from ..ros2.topics import STATE
 from .schedule import messages_of
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from mcap.records import Channel, Message, Metadata, Schema
 
-from ...printable import one_line
+from ...text.escaping import one_line
 from ..container.message_index import UNSOUND, Index, LogTimes
 from ..container.progress import may_be_written
 from ..container.records import files_of

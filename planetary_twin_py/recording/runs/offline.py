@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import yaml
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
 from ...scene import Scene
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of

@@ -14,7 +14,7 @@ import numpy as np
 from mcap.records import Attachment, Channel, Message
 from numpy.typing import NDArray
 
-from ...printable import one_line
+from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of, sections_of
 from ..ros2.decode import Topics
 from ..ros2.definitions import KINDS

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...commands import NAMES, Commands
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
+from ...run.commands import NAMES, Commands
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.playback import Playback

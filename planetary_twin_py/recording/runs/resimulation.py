@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from ...integrators.clock import TICKS
-from ...twin import Twin
-from ...window import Window
+from ...model.clock import TICKS
+from ...run.twin import Twin
+from ...run.window import Window
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
 from .intervals import Interval
 from .schedule import Change, RecordedRun, stamp_of, without_gaps

@@ -11,9 +11,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ...integrators.clock import TICKS
-from ...printable import one_line
+from ...model.clock import TICKS
 from ...scene.live import PORT_FIELDS
+from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
 from ..ros2.given import causality, joint_names, values_of

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ...dynamics.speed_loop import bandwidth
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
+from ...model.speed_loop import bandwidth
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.playback import Playback

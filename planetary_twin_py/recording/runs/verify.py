@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...accuracy import course_warnings
-from ...counters import Course
-from ...ledger_check import Balance, balance_of_window, ledger_warning
+from ...checks.accuracy import course_warnings
+from ...checks.ledger import Balance, balance_of_window, ledger_warning
+from ...run.counters import Course
+from ...run.window import Window
 from ...scene.drive import Ports
 from ...scene.live import PORT_FIELDS
-from ...window import Window
 from ..container.records import RecordingError, files_of
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_of_kind
 from ..ros2.definitions import OF_AXES

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import yaml
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
 from ...scene import Scene
 from ..ros2.bag import BagWriter
 from ..ros2.definitions import OF_AXES, OF_PORTS, topics_of

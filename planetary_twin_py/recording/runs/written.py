@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
 from .compose import Composer
 from .intervals import Interval
 from .resimulation import steps

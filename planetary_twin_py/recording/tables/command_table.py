@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...commands import NAMES, UNITS, Commands
+from ...run.commands import NAMES, UNITS, Commands
 from ...scene.names import did_you_mean
 from .measurements import TIME, missing_column, naming, read_columns
 

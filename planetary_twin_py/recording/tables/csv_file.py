@@ -14,8 +14,8 @@ from typing import BinaryIO
 import pyarrow as pa
 import pyarrow.csv
 
-from ...printable import one_line
-from ...units import is_number
+from ...text.escaping import one_line
+from ...units.conversion import is_number
 from .unpacking import check_columns
 
 _COMMENT = re.compile(r"^[ \t]*(?:#|%|//).*(?:\r\n?|\n|\Z)", re.MULTILINE)

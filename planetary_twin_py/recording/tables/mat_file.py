@@ -12,7 +12,7 @@ from typing import Any, BinaryIO
 import numpy as np
 import pyarrow as pa
 
-from ...printable import one_line
+from ...text.escaping import one_line
 from .unpacking import UnpackedTooLargeError, check_unpacked
 
 _LONGEST_REASON = 200  # characters

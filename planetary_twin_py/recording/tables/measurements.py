@@ -14,9 +14,9 @@ import pyarrow as pa
 from numpy.typing import NDArray
 from pyarrow import parquet
 
-from ...printable import one_line
 from ...scene.names import did_you_mean
-from ...units import LARGEST, column_to_si
+from ...text.escaping import one_line
+from ...units.conversion import LARGEST, column_to_si
 from .csv_file import read_csv
 from .mat_file import MatError, read_mat
 from .parquet_pages import unpacked_size

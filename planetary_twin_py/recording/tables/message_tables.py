@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...printable import one_line
-from ...quantities import AXES_WAVEFORM as AXES_SAMPLES
-from ...quantities import COMPONENTS, MEMBERS
+from ...text.escaping import one_line
+from ...units.catalogue import AXES_WAVEFORM as AXES_SAMPLES
+from ...units.catalogue import COMPONENTS, MEMBERS
 from ..container.records import RecordingError
 from ..ros2.fields import ROOM, WAVES
 from ..ros2.message_units import units_of

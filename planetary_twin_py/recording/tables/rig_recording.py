@@ -14,9 +14,9 @@ import yaml
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import get_types_from_msg
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
+from ...run.window_plan import LONGEST_WINDOW
 from ...scene import TUNABLES, Scene
-from ...window_plan import LONGEST_WINDOW
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
 from ..ros2.fields import ROOM

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...printable import one_line
-from ...units import column_to_si
+from ...text.escaping import one_line
+from ...units.conversion import column_to_si
 from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
 from .rounded_stamps import rounded_grid
 from .sensor_faults import fault_remarks

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
 from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
 from ...recording.ros2.playback import Playback
@@ -27,8 +27,8 @@ from ...recording.runs.schedule import (
     stamp_of,
 )
 from ...recording.runs.steadiness import between, length, longest_steady_part, settling
+from ...run.twin import Twin
 from ...scene import Scene
-from ...twin import Twin
 
 LONGEST = 1.0  # [s] used by default
 HISTORY = 2.0  # [s] before the excerpt that are simulated as recorded; if longer, see `_reference`

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...counters import Course
+from ...run.counters import Course
 from ..local import Threads
 from .estimate import Estimate, conclude
 from .excerpt import Excerpt, read_excerpt

@@ -7,7 +7,7 @@ from itertools import groupby
 
 import numpy as np
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
 from ...recording.tables.possible_losses import MEASURED, impossible_loss
 from .excerpt import Excerpt
 

@@ -10,13 +10,13 @@ from functools import reduce
 
 import numpy as np
 
-from ...counters import Course
-from ...integrators.clock import TICKS
-from ...quantities import TRAIN
+from ...model.clock import TICKS
+from ...run.counters import Course
+from ...run.twin import Twin
+from ...run.window import Window
+from ...run.window_plan import LONGEST_WINDOW
 from ...scene import TUNABLES
-from ...twin import Twin
-from ...window import Window
-from ...window_plan import LONGEST_WINDOW
+from ...units.catalogue import TRAIN
 from .excerpt import Excerpt
 from .readings import Array, IntervalReadings, Readings, read, simulated
 from .steady_points import steady_points

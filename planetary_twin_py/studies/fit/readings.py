@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...quantities import MEMBERS, MESH, SIDES, TRAIN
 from ...recording.ros2.fields import state_fields
-from ...window import Window
+from ...run.window import Window
+from ...units.catalogue import MEMBERS, MESH, SIDES, TRAIN
 from .excerpt import Excerpt
 
 Array = NDArray[np.float64]

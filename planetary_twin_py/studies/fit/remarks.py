@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...accuracy import course_warnings
+from ...checks.accuracy import course_warnings
 from .identify import Identified
 from .parameter import Parameter
 from .readings import Array

@@ -10,10 +10,10 @@ from bisect import bisect_right
 from collections.abc import Iterator, Mapping
 from itertools import groupby
 
-from ...integrators.clock import TICKS
+from ...model.clock import TICKS
+from ...run.twin import Twin
+from ...run.window import Window
 from ...scene import TUNABLES
-from ...twin import Twin
-from ...window import Window
 from .excerpt import Excerpt
 
 

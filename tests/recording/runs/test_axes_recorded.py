@@ -11,7 +11,6 @@ from power_flows import FLOWS
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from planetary_twin_py import simulate
-from planetary_twin_py.quantities import axes_fields
 from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields, largest_of_kind
 from planetary_twin_py.recording.runs import compose
 from planetary_twin_py.recording.runs.branch import Branch
@@ -20,6 +19,7 @@ from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.tables.export import Export, export
+from planetary_twin_py.units.catalogue import axes_fields
 
 DURATION, RATE = 0.05, 20_000.0
 PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}

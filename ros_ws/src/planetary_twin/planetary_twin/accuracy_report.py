@@ -7,9 +7,9 @@ import threading
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Window
-from planetary_twin_py.accuracy import course_warnings
-from planetary_twin_py.counters import Course
+from planetary_twin_py.checks.accuracy import course_warnings
 from planetary_twin_py.recording.ros2.topics import status_name
+from planetary_twin_py.run.counters import Course
 
 ACCURACY = "simulation: accuracy"
 

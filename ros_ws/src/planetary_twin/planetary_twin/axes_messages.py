@@ -9,9 +9,9 @@ import numpy as np
 from planetary_twin_msgs import msg
 
 from planetary_twin_py import Window
-from planetary_twin_py.planar.motion import AxesMotion
-from planetary_twin_py.quantities import AXES_WAVEFORM
 from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields, axes_waveform_fields
+from planetary_twin_py.run.axes.motion import AxesMotion
+from planetary_twin_py.units.catalogue import AXES_WAVEFORM
 
 
 class AxesStateMessage:

@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from sensor_msgs.msg import JointState
 
-from planetary_twin_py.printable import one_line
 from planetary_twin_py.recording.ros2.given import FIELDS
 from planetary_twin_py.recording.ros2.topics import status_name
+from planetary_twin_py.text.escaping import one_line
 
 COMMANDS = "simulation: commands"
 _LONGEST = 40  # characters of a name

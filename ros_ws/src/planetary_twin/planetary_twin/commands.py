@@ -120,7 +120,7 @@ def _run(
 ) -> None:
     """Run with the `given` values of --set and --param."""
     # Imported here: ROS and the model take a second to load, and Ctrl-C must end that cleanly.
-    from planetary_twin_py.tolerance import ladder_of
+    from planetary_twin_py.run.tolerance import ladder_of
 
     from .running.node_settings import node_settings
     from .running.outcome import print_outcome

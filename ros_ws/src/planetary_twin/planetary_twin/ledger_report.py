@@ -7,7 +7,7 @@ import threading
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Window
-from planetary_twin_py.ledger_check import Balance, balance_of_window, ledger_warning
+from planetary_twin_py.checks.ledger import Balance, balance_of_window, ledger_warning
 from planetary_twin_py.recording.ros2.topics import status_name
 
 LEDGER = "simulation: energy ledger"

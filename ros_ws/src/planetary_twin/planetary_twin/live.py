@@ -10,8 +10,8 @@ from concurrent.futures import Future
 from typing import Any
 
 from planetary_twin_py import Twin
-from planetary_twin_py.quality_control import QualityControl, Setting
-from planetary_twin_py.runaway import RunawayError
+from planetary_twin_py.run.limits import RunawayError
+from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.scene.live import PORT_FIELDS
 
 from .command_queue import CommandQueue

@@ -6,8 +6,8 @@ from enum import StrEnum
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import Twin, Window
-from planetary_twin_py.quality_control import QualityControl, Setting
-from planetary_twin_py.twin import Change
+from planetary_twin_py.run.quality_control import QualityControl, Setting
+from planetary_twin_py.run.twin import Change
 
 
 class Listener(Protocol):

@@ -17,10 +17,10 @@ from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Window
-from planetary_twin_py.quantities import TRAIN
 from planetary_twin_py.recording.ros2.fields import MEMBERS, TURN, WAVES, mesh_field
 from planetary_twin_py.recording.ros2.point import point_fields
-from planetary_twin_py.twin import Change
+from planetary_twin_py.run.twin import Change
+from planetary_twin_py.units.catalogue import TRAIN
 
 from .whole_turns import WholeTurns
 

@@ -15,9 +15,9 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
-from planetary_twin_py.quantities import BEARING, MESH, SHARING, TRAIN, Quantity, side_title
 from planetary_twin_py.recording.ros2.topics import AXES_STATE
 from planetary_twin_py.terminal.console import make_console
+from planetary_twin_py.units.catalogue import BEARING, MESH, SHARING, TRAIN, Quantity, side_title
 
 from .measured_rows import beside_rows
 from .remote import Remote

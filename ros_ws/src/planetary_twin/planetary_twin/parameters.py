@@ -20,7 +20,7 @@ from rclpy.parameter import Parameter
 
 from planetary_twin_py import TUNABLES, Tunable
 from planetary_twin_py.scene.quantity import unit_of, within
-from planetary_twin_py.units import customary
+from planetary_twin_py.units.conversion import customary
 
 from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Change
-from planetary_twin_py.quality_control import QualityControl
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
+from planetary_twin_py.run.quality_control import QualityControl
 
 from .live_interface import Progress, State
 from .stamps import Stamps

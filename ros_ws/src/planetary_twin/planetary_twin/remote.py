@@ -20,7 +20,7 @@ from rclpy.parameter import parameter_value_to_python
 
 from planetary_twin_py import TUNABLES
 from planetary_twin_py.scene.names import did_you_mean
-from planetary_twin_py.units import to_si
+from planetary_twin_py.units.conversion import to_si
 
 from .client import TIMEOUT, Client
 from .network import stay_on_this_machine

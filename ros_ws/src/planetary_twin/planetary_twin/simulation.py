@@ -16,12 +16,12 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
-from planetary_twin_py.planar.held_axes import held_axes_warning
-from planetary_twin_py.quality_control import QualityControl, Setting
+from planetary_twin_py.checks.fixed_axes import held_axes_warning
 from planetary_twin_py.recording.ros2.given import joint_names, values_of
 from planetary_twin_py.robot import robot_description
-from planetary_twin_py.runaway import RunawayError
-from planetary_twin_py.twin import Change
+from planetary_twin_py.run.limits import RunawayError
+from planetary_twin_py.run.quality_control import QualityControl, Setting
+from planetary_twin_py.run.twin import Change
 
 from . import simulation_services
 from .accuracy_report import AccuracyReport

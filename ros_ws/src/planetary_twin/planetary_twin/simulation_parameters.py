@@ -8,12 +8,12 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.choice_records import AUTO
-from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
-from planetary_twin_py.run import check_point
+from planetary_twin_py.run.dynamics_choice import AUTO
+from planetary_twin_py.run.quality_control import QualityControl, Setting, settings_of
+from planetary_twin_py.run.start import check_point
+from planetary_twin_py.run.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 from planetary_twin_py.scene.live import LIVE, PORT_FIELDS
 from planetary_twin_py.scene.unused import without_effect
-from planetary_twin_py.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 
 from .pacing import check_rate_factor
 from .parameter_node import ParameterNode

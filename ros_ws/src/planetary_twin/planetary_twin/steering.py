@@ -122,7 +122,7 @@ def op(
 def _say_units(typed: Mapping[str, str]) -> None:
     """Print the unit that was assumed for each quantity without a unit."""
     from planetary_twin_py.scene import TUNABLES
-    from planetary_twin_py.units import is_number
+    from planetary_twin_py.units.conversion import is_number
 
     for name, value in typed.items():
         if name in TUNABLES and TUNABLES[name].unit and is_number(value):

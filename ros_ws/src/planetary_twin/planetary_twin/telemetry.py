@@ -21,7 +21,7 @@ from planetary_twin_py.recording.ros2.given import fields_of, joint_names
 from planetary_twin_py.recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN
 from planetary_twin_py.recording.runs.origin import Origin, makers_here
 from planetary_twin_py.robot import frames
-from planetary_twin_py.twin import Change
+from planetary_twin_py.run.twin import Change
 
 from .axes_messages import AxesStateMessage, AxesWaveformMessage
 from .messages import (

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import NamedTuple
 
-from planetary_twin_py.tolerance import AUTOMATIC
+from planetary_twin_py.run.tolerance import AUTOMATIC
 
 from ..network import stay_on_this_machine
 from ..running.children import Child

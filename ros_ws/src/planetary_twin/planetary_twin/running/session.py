@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from planetary_twin_py.tolerance import AUTOMATIC
+from planetary_twin_py.run.tolerance import AUTOMATIC
 
 from ..network import stay_on_this_machine
 from ..telemetry import STALL

@@ -1,1 +1,0 @@
-"""Runs without dynamics: the train turns rigidly with its loads in static equilibrium."""

@@ -1,0 +1,381 @@
+"""A run in progress: the model of a scene, its state, and the integrator.
+
+`Twin` and `simulate` are built on it. It knows bodies and meshes only by their index in arrays;
+names and messages belong to the layers above.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import NoReturn
+
+import numpy as np
+
+from .. import _core
+from .._core import (
+    EXCEEDED,
+    IMPULSE,
+    LEDGER,
+    NO_FINITE_STATE,
+    NOT_FINITE,
+    Control,
+    Model,
+    PointLaws,
+    Report,
+    WindowEnd,
+    keep_given,
+    prescribe,
+)
+from ..modal.whirl import whirl_warning
+from ..model.clock import (
+    NEVER,
+    TICKS,
+    Instant,
+    Sampling,
+    delay,
+    instant,
+    instant_of_ticks,
+    sampling,
+)
+from ..model.cycle import common_cycles, turns_per_cycle
+from ..model.error_scale import POINTS, StepScale, new_integrator
+from ..model.library import library, record_in
+from ..model.mesh_sums import MeshSums, clear, mesh_sums
+from ..model.oil import build_oil
+from ..model.planet_bearings import check_planet_bearings
+from ..model.speed_loop import SpeedLoopCheck, bandwidth
+from ..model.start import LoadBuilder, start_state
+from ..model.train import build_train, held_axes
+from ..scene import OperatingPoint, Scene
+from .energy import EnergyBooks
+from .limits import Limits, RunawayError
+from .samples import Samples, Waves, new_samples
+from .tolerance import check_tolerance
+from .window_jobs import WindowJob, WindowJobs
+
+SETTLING = 1.0  # periods of the speed loop until steady running may be recognised
+WATCHED = Fraction(1, 10)  # [s] between two checks of a run against its limits
+LONGEST_UNWATCHED = float(WATCHED)
+
+
+class Engine:
+    """Integrates a scene from its start.
+
+    Args:
+        scene: scene to simulate.
+        tolerance: local error of a step, relative to the static deflection of the meshes.
+        method: one of METHODS; "march" uses collocation where it is applicable, otherwise
+            Rosenbrock's method; "auto" also repeats periodic motion without computing it. Creeping
+            gears are always integrated by Rosenbrock's method.
+
+    Raises:
+        ValueError: the tolerance is out of range, or the scene cannot be built.
+    """
+
+    def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
+        check_tolerance(tolerance)
+        self.scene = scene
+        self.tolerance = tolerance
+        self._may_repeat = method == "auto"
+        self.train = build_train(scene)
+        self._core = library(scene)
+        self.model: Model = self._core.Model(train=self.train)
+        self.integrator = new_integrator(self._core, method)
+        # Parts of the integrator that every window reads, because each look-up costs time.
+        self._end, self._scratch = self.integrator.end, self.integrator.scratch
+        self._periodic, self._last = self.integrator.periodic, self.integrator.last
+        self._shown: tuple[float | Fraction, Samples] | None = None
+        self._limits = Limits(scene, self.train)
+        self._failure: RunawayError | None = None
+        self._speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
+        for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
+            if speed is not None:
+                where = scene.operating_point.model_copy(update={"input_speed": speed})
+                self._speed_loop.check(where)
+        self._loads = LoadBuilder(scene, self.train)
+        self._scale = StepScale(scene, self.train, self._loads.laws)
+        self._given = False
+        self._oil = build_oil(scene, scene.operating_point)
+        self._oil_temperature = scene.operating_point.oil_temperature
+        self._cycles: dict[bool, int] = {}
+        self._pause = SETTLING / bandwidth(scene)
+        self._load(scene.operating_point)
+        state, unbalanced = start_state(scene, self.model)
+        self.start_warning = unbalanced or whirl_warning(scene, scene.operating_point)
+        self.integrator.begin = self.integrator.end = state
+        self._prepare()
+
+    def _prepare(self) -> None:
+        """Call all functions of a window once; at time zero this changes nothing."""
+        self._core.begin_step(self.model, self.integrator)
+        self.integrator.end = self.integrator.begin  # tooth pairs may have started to stick
+        self.advance(0.0, 1, 1.0, 0)
+        self.books(0.0)
+        self.pop_mesh_sums(0.0)
+        self._core.cut(self.model, self.integrator, instant(0.0))
+
+    def _load(self, point: OperatingPoint) -> None:
+        """Put an operating point into the model, and scale the tolerances to its deflections."""
+        self._load_oil(point)
+        load = self._loads.build(point)
+        if self._given:  # values given at ports do not depend on the operating point
+            keep_given(record_in(_core, self.model.load), load)
+        self.model.load, self._given = record_in(self._core, load), self.scene.drive.ports.given
+        control, scale = self.integrator.control, self._scale
+        control.tolerance = self.tolerance
+        control.deflection = scale.deflection(point)
+        control.elastic_deflection = scale.elastic_deflection(point)
+        control.acceleration_deflection = scale.acceleration_deflection(self.model.load)
+        control.speed_per_deflection = scale.speed_per_deflection
+        points = next(n for least, n in POINTS if self.tolerance > least)
+        if self.integrator.run.nodes.count != points:
+            self.integrator.run.nodes = self._core.radau(points)
+        control.changed = True
+        self._allow_periodic()
+
+    def _load_oil(self, point: OperatingPoint) -> None:
+        """Put the oil of an operating point into the model."""
+        if point.oil_temperature != self._oil_temperature:
+            self._oil, self._oil_temperature = build_oil(self.scene, point), point.oil_temperature
+        prescribe(self._oil, point.lambda_ratio)
+        self.model.oil = record_in(self._core, self._oil)
+
+    def _allow_periodic(self) -> None:
+        """Set the number of mesh cycles after which everything repeats."""
+        periodic = self.integrator.periodic
+        rippled = self.model.load.ripple != 0.0
+        if rippled not in self._cycles:
+            may_repeat = self._may_repeat and not self.scene.drive.ports.given
+            cycles = common_cycles(self.train, self.model.load) if may_repeat else 0
+            self._cycles[rippled] = cycles
+        cycles = self._cycles[rippled]
+        if cycles > 0:
+            turns = abs(cycles * turns_per_cycle(self.train))
+            periodic.numerator, periodic.denominator = turns.numerator, turns.denominator
+        periodic.cycles = cycles
+        periodic.pause = self._pause
+
+    def advance(
+        self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
+    ) -> Samples:
+        """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
+
+        Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
+        at any age of the run.
+
+        Raises:
+            RunawayError: no step is possible, or a limit is exceeded, see `runaway`.
+        """
+        samples, done = new_samples(self.train, room + 1), 0
+        for stop in (*self._stops(until, instant(until)), until):
+            # All that are due by then, and one at the stop, which the next of them overwrites.
+            part = room
+            if stop != until:
+                part = min(max(_due(stop, sample_rate, first_sample), done), room)
+            at = sampling(first_sample + done, sample_rate)
+            self._run(stop, at, _rows(samples, done, part + 1))
+            done = part
+            self._pass(stop)
+        return _rows(samples, 0, room)
+
+    def window(
+        self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
+    ) -> WindowJobs:
+        """Integrate to `until` [ticks]; fill the waveform, and all that is known at its end.
+
+        Yields the parts of the window, and receives the outcome of each by `send`.
+
+        Raises:
+            RunawayError: no step is possible, or a limit is exceeded, see `runaway`.
+        """
+        if self._failure is not None:
+            raise self._failure
+        goal, done, room = instant_of_ticks(until), 0, len(out.time)
+        self._shown = None
+
+        def part_to(at: Instant, rows: Waves, closes: bool) -> WindowJobs:
+            job = WindowJob(
+                self.model, self.integrator, at, sampling(first + done, rate), self._limits.record,
+                report, first + done, rate, rows, end, closes,
+            )  # fmt: skip
+            try:
+                outcome = yield job
+            except KeyboardInterrupt:
+                self._end_interrupted()
+                raise
+            self._watch(outcome, end)
+            self._watch_axes(rows)
+
+        for stop in self._stops(Fraction(until, TICKS), goal):
+            due = min(max(_due(stop, rate, first), done), room)
+            part = _wave_rows(out, done, due)
+            yield from part_to(instant(stop), part, False)
+            self._pass(stop)
+            done = due
+        out = _wave_rows(out, done, room)
+        yield from part_to(goal, out, True)
+
+    def _watch(self, outcome: int, end: WindowEnd) -> None:
+        """Stop the run if the core has found no possible step, or has exceeded a limit."""
+        try:
+            if outcome == NOT_FINITE:
+                raise ArithmeticError(NO_FINITE_STATE)
+            if outcome == EXCEEDED:
+                self._limits.check_window(end, self.model.load)
+        except ArithmeticError as reason:
+            self._fail(reason)
+
+    def _watch_axes(self, rows: Waves) -> None:
+        """Stop the run if samples exceed a limit of moving axes, which the core does not have."""
+        try:
+            self._limits.check_waves(rows)
+        except ArithmeticError as reason:
+            self._fail(reason)
+
+    def _fail(self, reason: ArithmeticError) -> NoReturn:
+        if str(reason) == NO_FINITE_STATE:
+            try:
+                self._limits.check_progress(self.integrator, self.model.load)
+            except ArithmeticError as cause:
+                reason = cause
+        self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
+        raise self._failure from None
+
+    def _end_interrupted(self) -> None:
+        """End the run after Ctrl-C within a window, whose samples are lost."""
+        where = float(self.reached)
+        self._failure = RunawayError(f"the run was interrupted near {where:g} s: start a new one")
+
+    def begin_window(self, time: int, end: WindowEnd) -> None:
+        """Begin a window at `time` [ticks], the end of the last one."""
+        self._core.begin_window(self.model, self.integrator, instant_of_ticks(time), end)
+        sample = self.sample(Fraction(time, TICKS))
+        end.turns, end.angle = sample.turns[0], sample.angle[0]
+
+    def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
+        """Instants [s] before `until` at which the core returns, to check limits, for example."""
+        if delay(self._end, goal) > LONGEST_UNWATCHED:
+            stop = self.reached + WATCHED
+            while stop < until:
+                yield stop
+                stop += WATCHED
+
+    def _pass(self, stop: float | Fraction) -> None:
+        """Continue after a stop."""
+
+    def _run(self, until: float | Fraction, at: Sampling, samples: Samples) -> None:
+        """Fill all `samples`; the last one is at `until`."""
+        if self._failure is not None:
+            raise self._failure
+        try:
+            self._core.advance(self.model, self.integrator, instant(until), NEVER, at, samples)
+            self._check(samples)
+        except KeyboardInterrupt:
+            self._end_interrupted()
+            raise
+        except ArithmeticError as reason:
+            self._fail(reason)
+        self._shown = until, _rows(samples, len(samples.turns) - 1, None)
+
+    def _check(self, samples: Samples) -> None:
+        """Raise an `ArithmeticError` if the train exceeds a limit."""
+        limits = self._limits
+        limits.check_deflection(samples, self.model.load)
+        limits.check_displacements(samples.moved, samples.tilting)
+        limits.speed.check(samples.speed)
+        limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
+
+    def sample(self, time: float | Fraction) -> Samples:
+        """One sample at `time` [s], the end of the last window."""
+        if self._shown is not None and self._shown[0] == time:
+            return self._shown[1]
+        samples = new_samples(self.train, 1)
+        self._run(time, sampling(1, 1.0), samples)
+        return samples
+
+    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
+        """Continue with this point and tolerance from `time` [s], the end of the last window.
+
+        Raises:
+            ValueError: the speed loop would not be stable, or bearings of planets are too soft;
+                nothing has changed.
+            RunawayError: the run has been stopped.
+        """
+        if self._failure is not None:
+            raise self._failure
+        check_planet_bearings(self.scene, point)
+        if self.scene.mesh.damping.follows_speed:
+            self._speed_loop.check(point)
+        self._end_step(time)
+        self.tolerance = tolerance
+        self._load(point)
+
+    def _end_step(self, time: float | Fraction) -> None:
+        """End the last step at `time` [s], the end of the last window, and the ledger with it."""
+        self._core.cut(self.model, self.integrator, instant(time))
+        clear(self.integrator.sums.total)
+        self.integrator.sums.taken = self.integrator.control.step  # what lies before `time`
+        self._shown = None
+
+    @property
+    def reached(self) -> Fraction:
+        """End of the last step [s], at or after the end of the last window."""
+        return int(self._end.seconds) + Fraction(float(self._end.time))
+
+    @property
+    def laws(self) -> PointLaws:
+        """How the loads depend on the operating point."""
+        return self._loads.laws
+
+    @property
+    def control(self) -> Control:
+        """Step control and counters."""
+        return self.integrator.control
+
+    @property
+    def repeats(self) -> bool:
+        """Whether mesh cycles are repeated, see core/integrators/periodic.hpp."""
+        return bool(self._periodic.replaying)
+
+    @property
+    def powers(self) -> np.ndarray:
+        """Time derivative of the ledger [W] at `reached`."""
+        return np.array(self._last.power)
+
+    def books(self, time: float | Fraction) -> EnergyBooks:
+        """Energy at `time` [s], the end of the last window; the ledger is that since it was taken.
+
+        The last step ends after `time`: a copy of it is made again, so that it ends there. The
+        run itself goes on as if nothing had been asked.
+        """
+        ended, ledger = self.integrator.copy(), np.empty(LEDGER)
+        self._core.cut(self.model, ended, instant(time))
+        kinetic, elastic = self._core.stored(self.model, ended.end, ended.scratch)
+        self._core.pop_energy_ledger(ended, instant(time), ledger)
+        return EnergyBooks(ledger, float(kinetic), float(elastic))
+
+    def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes from the previous call to `time` [s].
+
+        `time` is the end of the last window.
+        """
+        taken = self._core.MeshSums()
+        self._core.pop_mesh_sums(self.model, self.integrator, instant(time), taken)
+        return mesh_sums(taken, int(self.train.meshes))
+
+
+def _due(time: Fraction | float, rate: float, first: int) -> int:
+    """Number of samples from number `first` on that lie before `time` [s] or at it."""
+    return math.floor(Fraction(time) * Fraction(rate)) + 1 - first
+
+
+def _wave_rows(waves: Waves, begin: int, end: int) -> Waves:
+    """Some of the samples; what is written there is written into them."""
+    return Waves(*(each[begin:end] for each in waves))
+
+
+def _rows(samples: Samples, begin: int, end: int | None) -> Samples:
+    """Views of some of the samples, which share their memory."""
+    return Samples(*(each[begin:end] for each in samples))

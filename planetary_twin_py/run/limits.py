@@ -1,0 +1,209 @@
+"""Limits at which a run is stopped, because no real gearbox can exceed them.
+
+With an unstable drive or an extreme load, the motion grows until numbers overflow. The equations
+are invalid long before: at a mesh deflection of a base pitch, teeth have broken or jumped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from .. import _core
+from .._core import DTE, IMPULSE, Integrator, Load, Train, WindowEnd
+from ..model.bodies import MACHINE_NAMES, MeshNames, build_bodies, mesh_names
+from ..model.library import library
+from ..model.limits import Limit, displacement_limit
+from ..model.moving_axes import bearing_names
+from ..model.static_load import static_torques
+from ..scene import Scene
+from .samples import Samples, Waves
+
+EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of the drive
+
+
+class RunawayError(ArithmeticError):
+    """A run exceeded a physical limit and was stopped; the message states time and reason."""
+
+
+def _axial_limit(scene: Scene) -> Limit:
+    names = bearing_names(scene)
+    return Limit(
+        "axial displacement",
+        "m",
+        names,
+        np.full(len(names), scene.gearset.face_width),
+        "gearset.face_width, at which teeth no longer meet; reduce the torque, or increase the "
+        "axial stiffness of the bearings (supports.*.axial)",
+    )
+
+
+class Limits:
+    """Limits of a run.
+
+    Args:
+        scene: the scene.
+        train: from `dynamics.train.build_train`.
+    """
+
+    def __init__(self, scene: Scene, train: Train) -> None:
+        drive, meshes = scene.drive, mesh_names(scene)
+        size = np.hypot(train.line_tangential, train.line_radial)
+        self._errors = size.sum(axis=1)[: train.meshes]
+        self._train = train
+        self.deflection = Limit(
+            "deflection",
+            "m",
+            _mesh_names(meshes, int(train.meshes)),
+            np.full(train.meshes, train.base_pitch),
+            "a base pitch, at which teeth break or jump; reduce the torques or increase the "
+            "stiffness",
+        )
+        """Of the mesh deflection, see `check_deflection`."""
+        ratios = np.abs(train.ratio[: train.bodies]).sum(axis=1)
+        fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
+        self.speed = Limit(
+            "speed",
+            "rad/s",
+            _names(build_bodies(scene).place, int(train.bodies)),
+            np.where(_displaces(scene), np.inf, EXCESS * fastest * ratios),
+            f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
+        )
+        """Of the speeds of the bodies."""
+        accelerating = drive.speed_control.slew_rate * _inertia(train)
+        self.torque = Limit(
+            "torque",
+            "N m",
+            MACHINE_NAMES[: train.machines],
+            EXCESS * (drive.torque_limit + accelerating) * np.abs(static_torques(scene)),
+            f"{EXCESS:g} times the torque at drive.torque_limit = {drive.torque_limit:g} N m and "
+            f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
+        )
+        """Of the torques of the machines."""
+        self.displacement = displacement_limit(scene)
+        """Of the displacements of axes that move, see `check_displacements`."""
+        self.axial = _axial_limit(scene)
+        """The same along the axes."""
+        self.record: _core.Limits = library(scene).Limits(
+            deflection=self.deflection.largest,
+            error=self._errors,
+            speed=self.speed.largest,
+            torque=self.torque.largest,
+        )
+        """All of them for the core, which finds whether a window exceeds one."""
+
+    def check_deflection(self, samples: Samples, load: Load) -> None:
+        """Check the mesh deflection along the line of action.
+
+        Its lower bound is |DTE| minus half the backlash and the largest form errors.
+
+        Args:
+            samples: of the meshes.
+            load: gives the backlash.
+
+        Raises:
+            ArithmeticError: a deflection exceeds its limit, or is NaN.
+        """
+        self._check_dte(np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0), load)
+
+    def check_displacements(self, moved: np.ndarray, tilting: np.ndarray) -> None:
+        """Check the displacements of axes, if these move.
+
+        Args:
+            moved: displacements in the plane [m], (samples, bearings, 2).
+            tilting: as in `Samples`, (samples, bearings, 6 or 0).
+
+        Raises:
+            ArithmeticError: a displacement exceeds its limit, or is NaN.
+        """
+        if moved.shape[1]:
+            self.displacement.check(np.hypot(moved[:, :, 0], moved[:, :, 1]))
+        if tilting.shape[2]:
+            self.axial.check(tilting[:, :, 0])
+
+    def check_waves(self, waves: Waves) -> None:
+        """Check the displacements of axes in the samples of a window, see `check_displacements`.
+
+        Args:
+            waves: the samples.
+        """
+        rows, bearings = len(waves.time), waves.displacement.shape[1] // 2
+        if rows and bearings:
+            moved = waves.displacement.reshape(rows, bearings, 2)
+            self.check_displacements(moved, waves.tilting.reshape(rows, bearings, -1))
+
+    def check_progress(self, integrator: Integrator, load: Load) -> None:
+        """Check a run that the core has stopped: whether it runs away, or makes no progress.
+
+        Args:
+            integrator: of the run, after its last step.
+            load: gives the backlash.
+
+        Raises:
+            ArithmeticError: a deflection exceeds its limit, or steps advance the run by hardly any
+                time.
+        """
+        if integrator.control.next_step != 0.0:  # it has found no finite state
+            return
+        train, begin, end = self._train, integrator.begin, integrator.end
+        meshes = int(train.meshes)
+        motions = (train.sign[:meshes] * end.x[train.body[:meshes]]).sum(axis=1)
+        self._check_dte(np.abs(motions), load)
+        parted = np.flatnonzero(begin.side[:meshes] != end.side[:meshes])
+        keeps = (
+            f"flanks of {self.deflection.names[parted[0]]} engage and separate again and again; "
+            "reduce the backlash, load the train more, or choose dynamics = 'planar' or 'torsional'"
+            if len(parted)
+            else "errors of longer steps exceed the tolerance; loosen the tolerance, soften "
+            "bearings and couplings, or give light bodies more inertia"
+        )
+        raise ArithmeticError(
+            f"the run makes no progress, its last step is {integrator.control.step:.2g} s long: "
+            f"{keeps}"
+        )
+
+    def check_window(self, end: WindowEnd, load: Load) -> None:
+        """Check deflections and speeds of the samples of a window, and the torques at its end.
+
+        Args:
+            end: of the window.
+            load: gives the backlash.
+
+        Raises:
+            ArithmeticError: one of them exceeds its limit, or is NaN.
+        """
+        machines = len(self.torque.largest)
+        self._check_dte(end.peaks.dte[: len(self._errors)], load)
+        self.speed.check(end.peaks.speed[None, : len(self.speed.largest)])
+        self.torque.check(end.power[None, IMPULSE : IMPULSE + machines])
+
+    def _check_dte(self, largest: np.ndarray, load: Load) -> None:
+        """Check deflections by the largest |DTE|, (meshes,); NaN if there is one."""
+        self.deflection.check(np.maximum(largest - load.half_backlash - self._errors, 0.0)[None])
+
+
+def _inertia(train: Train) -> float:
+    """Largest inertia of the whole train, referred to a motor [kg m^2]."""
+    squares = train.mass * train.radius**2
+    return float((squares[:, None] * train.ratio**2).sum(axis=0).max())
+
+
+def _displaces(scene: Scene) -> list[bool]:
+    """Whether a coordinate is a displacement of an axis, which has no speed of rotation."""
+    bodies = build_bodies(scene)
+    return ["." in name for name in _names(bodies.place, len(bodies.mass) - 1)]
+
+
+def _mesh_names(meshes: MeshNames, count: int) -> list[str]:
+    """Names of the entries of the meshes; where each flank has one, both have the same name."""
+    names, places = list(meshes.names), meshes.place.tolist()
+    named = {place % count: name for name, place in zip(names[::-1], places[::-1], strict=True)}
+    half = count // 2
+    return [named[at] if at in named else named[(at + half) % count] for at in range(count)]
+
+
+def _names(place: Mapping[str, int], count: int) -> list[str]:
+    """Names in order of their indices; the first of several names with the same index."""
+    first = {at: name for name, at in reversed(list(place.items()))}
+    return [first[at] for at in range(count)]

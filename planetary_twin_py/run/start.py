@@ -1,0 +1,58 @@
+"""Starts a run of a scene, dynamic or quasi-static."""
+
+from __future__ import annotations
+
+from ..model.planet_bearings import check_planet_bearings
+from ..model.speed_loop import check_speed_loop
+from ..model.train import build_train, held_axes
+from ..scene import OperatingPoint, Scene, SceneError
+from ..text.escaping import one_line
+from .interface import Run
+from .port_engine import DrivenEngine
+from .quasi_static.engine import QuasiStaticEngine
+
+
+def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
+    """Start a run of `scene` with the dynamics that it selects.
+
+    Args:
+        scene: to simulate.
+        tolerance: see `Engine`.
+        method: see `Engine`; quasi-static runs have no choice.
+
+    Returns:
+        The run.
+
+    Raises:
+        ValueError: an argument is out of range, or the scene cannot be built.
+    """
+    if scene.dynamics == "auto":
+        name = one_line(scene.name, 100)
+        raise SceneError(
+            "dynamics = 'auto': must be selected first: use `choose_dynamics(scene).scene`, or "
+            f"give torsional, planar or quasi_static; `planetary-twin explain {name}` "
+            "compares them"
+        )
+    check_planet_bearings(scene, scene.operating_point)
+    if not scene.quasi_static:
+        return DrivenEngine(scene, tolerance, method)
+    if method not in ("auto", "march"):
+        raise ValueError(
+            f"method = {method!r}: must be auto or march, because dynamics = {scene.dynamics!r}"
+        )
+    return QuasiStaticEngine(scene, tolerance)
+
+
+def check_point(scene: Scene, point: OperatingPoint) -> None:
+    """Check that a run of `scene` is stable at an operating point.
+
+    Args:
+        scene: the scene.
+        point: the operating point.
+
+    Raises:
+        ValueError: the speed loop of the drive is not stable, or bearings of planets are too soft.
+    """
+    check_planet_bearings(scene, point)
+    if not scene.quasi_static:
+        check_speed_loop(scene, build_train(held_axes(scene)), point)

@@ -1,0 +1,445 @@
+"""A simulation that advances in windows and whose inputs can be changed between them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from .._core import PortStates
+from ..model.bodies import LOAD_MACHINE, MOTOR, body_names, build_report, mesh_names
+from ..model.clock import TICKS
+from ..model.library import library
+from ..scene import OperatingPoint, Scene, SceneError
+from ..scene.drive import Causality, Ports
+from ..scene.given import check_scene
+from ..scene.live import PORT_FIELDS, live_values, split_live
+from ..text.number_check import check_number
+from ..text.object_repr import brief
+from .commands import NOTHING, Command, CommandLog, Commands
+from .counters import Course, Settling, course_so_far, unsettled
+from .port_engine import DrivenEngine
+from .samples import bearings_of, new_waves, tilts
+from .start import start
+from .tolerance import LIVE_TOLERANCE, check_tolerance
+from .window import Window
+from .window_jobs import WindowJobs, run_alone
+from .window_plan import Plan, check_sample_rate, samples_until, window_end
+from .window_results import WindowResults
+
+LONGEST_STEP = 1.0  # [s] of `Twin.step`, which cannot be interrupted
+
+
+class Change(NamedTuple):
+    """Inputs of a run from a certain time on."""
+
+    time: float
+    """Simulated time from which they apply [s]."""
+    point: OperatingPoint
+    """Operating point."""
+    tolerance: float
+    """Relative local error tolerance."""
+    sample_rate: float
+    """Sample rate of the waveform [Hz]; it does not affect the motion."""
+    ports: Ports = Ports()
+    """What acts on the shafts of input and output."""
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Operating point and ports, by the arguments of `Twin.set`."""
+        return live_values(self.point, self.ports)
+
+
+class Twin:
+    """A running gearbox whose operating point can be changed between windows.
+
+    The equations of motion are those of `simulate`; their sources are in docs/model.md.
+
+    Args:
+        scene: the scene; the run starts at the speeds of its operating point, deflected by its
+            torques. This is a steady state unless a port is given: its torque starts at the value
+            without losses, which a machine at the other port adds, or which slows the train down.
+        sample_rate: sample rate of the waveform [Hz].
+        tolerance: relative local error tolerance; the default is suitable for real time.
+        keep_commands: whether to keep the commands at the ports, see `commands`.
+
+    Raises:
+        ValueError: the scene, the sample rate or the tolerance is invalid.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        sample_rate: float = 50_000.0,
+        tolerance: float = LIVE_TOLERANCE,
+        keep_commands: bool = False,
+    ) -> None:
+        check_scene(scene)
+        check_sample_rate(sample_rate)
+        self.start = scene
+        """Scene at the start of the run."""
+        self.scene = scene
+        """Scene with the present ports."""
+        self._names, self._mesh_names = body_names(scene), mesh_names(scene)
+        self._core = library(scene)
+        self._report = build_report(self._core, self._names, self._mesh_names)
+        self._engine = start(scene, tolerance)
+        self._results = WindowResults(scene, self._core, self._engine.train, self._report)
+        self._ticks = 0
+        first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
+        self.log = [first]
+        """All changes. Applied at the same times, they reproduce the run and its samples."""
+        self._ends = (
+            self._core.WindowEnd(),
+            self._core.WindowEnd(),
+        )  # of the last window, and of the next one
+        self._begin_window()
+        self._forgetting, self._settled = Settling(scene), 0.0
+        self._settling = self._forgetting.rate(scene.operating_point)
+        self._course = course_so_far(self._engine.control, 0.0)
+        linear = scene.drive.interpolation == "linear"
+        self._kept = CommandLog(linear) if keep_commands else None
+        self._given = scene.drive.ports.given
+        self._stepped = False  # since the last window, without sums of the meshes
+        self._shown, self._reached = self._core.PortStates(), self._core.WindowEnd()
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the bodies, in the order of arrays over bodies."""
+        return self._names.names
+
+    @property
+    def meshes(self) -> tuple[str, ...]:
+        """Names of the meshes, in the order of arrays over meshes."""
+        return self._mesh_names.names
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]: the end of the last window."""
+        return self._ticks / TICKS
+
+    @property
+    def operating_point(self) -> OperatingPoint:
+        """Current operating point."""
+        return self.log[-1].point
+
+    @property
+    def tolerance(self) -> float:
+        """Current relative local error tolerance."""
+        return self.log[-1].tolerance
+
+    @property
+    def sample_rate(self) -> float:
+        """Current sample rate of the waveform [Hz]."""
+        return self.log[-1].sample_rate
+
+    @property
+    def ports(self) -> Ports:
+        """What acts on the shafts of input and output."""
+        return self.log[-1].ports
+
+    @property
+    def commands(self) -> Commands:
+        """All commands at the ports so far; with them, `simulate` repeats the run.
+
+        Raises:
+            ValueError: the twin was not made with `keep_commands`.
+        """
+        if self._kept is None:
+            raise ValueError("keep_commands = False: must be True to keep commands")
+        return self._kept.course()
+
+    @property
+    def port_states(self) -> PortStates:
+        """Angles, speeds and torques of the input and the output shaft at the current time.
+
+        Raises:
+            ValueError: the scene is quasi-static.
+        """
+        return self._driven().port_states(self._ticks)
+
+    @property
+    def speed_limits(self) -> tuple[float, float]:
+        """Largest speeds of commands for the input and the output shaft [rad/s].
+
+        Raises:
+            ValueError: the scene is quasi-static.
+        """
+        most = self._driven().port_ranges.speed
+        return float(most[MOTOR]), float(most[LOAD_MACHINE])
+
+    def check_command(self, command: Command, ports: Ports, duration: float) -> None:
+        """Check that ports accept a command from the current time on.
+
+        Args:
+            command: values at the ports.
+            ports: what acts on the shafts.
+            duration: time in which positions are reached [s]; 0: positions are not checked.
+
+        Raises:
+            ValueError: a value is out of range, or is not given at its port.
+        """
+        ranges = self._driven().port_ranges
+        command.check(ports, ranges)
+        if duration:
+            command.check_positions(self.port_states, duration, ranges)
+
+    def set(self, **changes: Any) -> float:
+        """Change fields of the operating point, and ports, at the current time.
+
+        Newly given torques and motions keep their present values until a command changes them. A
+        machine that starts to control the speed begins with the present speed as set-point, and
+        approaches the set-point of the operating point at the slew rate of the drive.
+
+        Args:
+            changes: values in SI by field name; of the ports "machine", "torque" or "motion"
+                (``**{"drive.input.port": "torque"}``).
+
+        Returns:
+            The simulated time from which they apply [s].
+
+        Raises:
+            ValueError: a name is unknown, a value is out of range, or the scene does not allow a
+                port; no field is changed.
+        """
+        tuned, causalities = split_live(changes)
+        point = self.scene.point_with(self.operating_point, tuned)
+        return self._change(point=point, ports=self.ports._replace(**causalities))
+
+    def set_tolerance(self, tolerance: float) -> float:
+        """Change the tolerance at the current time.
+
+        Args:
+            tolerance: relative local error tolerance.
+
+        Returns:
+            The simulated time from which it applies [s].
+
+        Raises:
+            ValueError: the value is out of range; it is not changed.
+        """
+        check_tolerance(tolerance)
+        return self._change(tolerance=tolerance)
+
+    def set_sample_rate(self, sample_rate: float) -> float:
+        """Change the sample rate of the waveform at the current time; the motion is not affected.
+
+        Args:
+            sample_rate: sample rate [Hz]; sample times are integer multiples of its period.
+
+        Returns:
+            The simulated time from which it applies [s].
+
+        Raises:
+            ValueError: the value is out of range; it is not changed.
+        """
+        check_sample_rate(sample_rate)
+        if sample_rate != self.sample_rate:
+            last = self.log[-1]
+            self.log.append(last._replace(time=self.time, sample_rate=float(sample_rate)))
+        return self.time
+
+    def set_ports(self, input: Causality | None = None, output: Causality | None = None) -> float:
+        """Change what acts on the shafts of input and output at the current time, as `set` does.
+
+        Args:
+            input: "machine", "torque" or "motion", see `drive.input.port`; None: no change.
+            output: the same for the output shaft.
+
+        Returns:
+            The simulated time from which they apply [s].
+
+        Raises:
+            ValueError: the scene does not allow this port; nothing is changed.
+        """
+        return self._change(ports=Ports(input or self.ports.input, output or self.ports.output))
+
+    def step(
+        self,
+        dt: float,
+        *,
+        input_torque: float | None = None,
+        output_torque: float | None = None,
+        input_speed: float | None = None,
+        output_speed: float | None = None,
+        input_position: float | None = None,
+        output_position: float | None = None,
+    ) -> PortStates:
+        """Apply torques or motions at the ports, and simulate without waveform or statistics.
+
+        Omitted arguments keep their last values. With `drive.interpolation = hold`, values act from
+        the present time on; with `linear`, they are reached at the end of the step. A position is
+        reached at the end of the step at constant speed, whatever the interpolation. Then the shaft
+        has the speed that is given with the position, or stops. Positive torques act on the shafts
+        in the positive direction, so a brake on a shaft that turns forwards has a negative torque.
+
+        Args:
+            dt: simulated time [s], above 0 and at most 1 s.
+            input_torque: torque on the input shaft [N m]; requires `drive.input.port = torque`.
+            output_torque: torque on the output shaft [N m]; requires `drive.output.port = torque`.
+            input_speed: speed of the input shaft [rad/s]; requires `drive.input.port = motion`.
+            output_speed: speed of the output shaft [rad/s]; requires `drive.output.port = motion`.
+            input_position: angle of the input shaft, as in the returned state [rad]; requires
+                `drive.input.port = motion`.
+            output_position: angle of the output shaft [rad]; requires `drive.output.port = motion`.
+
+        Returns:
+            Angles, speeds and torques of the shafts at the end. It is the same object in every
+            step; `copy()` keeps its values.
+
+        Raises:
+            ValueError: dt or a value is out of range, or a port does not accept a value; nothing
+                has changed.
+            RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
+        """
+        begin, engine = self._ticks, self._engine
+        try:
+            if not 0.0 < dt <= LONGEST_STEP:
+                raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
+            end = begin + (round(dt * TICKS) or 1)
+        except (TypeError, ValueError):
+            check_number("dt", dt, "s")
+            raise
+        command = Command(
+            input_torque, output_torque, input_speed, output_speed, input_position, output_position
+        )
+        if not (
+            isinstance(engine, DrivenEngine)
+            and engine.step(begin, end, command, self._shown, self._reached)
+        ):
+            self._driven().refuse(begin, end, command)
+        if self._kept is not None:
+            self._kept.keep(begin, end, command)
+        self._ticks, self._stepped = end, True
+        return self._shown
+
+    def _driven(self) -> DrivenEngine:
+        """The engine, if its ports can be given."""
+        if not isinstance(self._engine, DrivenEngine):
+            raise SceneError(
+                f"dynamics = {self.scene.dynamics!r}: does not allow commands at ports"
+            )
+        return self._engine
+
+    def _end_steps(self) -> None:
+        """Begin a window after steps, which have no sums of the meshes."""
+        if self._stepped:
+            self._engine.pop_mesh_sums(Fraction(self._ticks, TICKS))
+            self._begin_window()
+            self._stepped = False
+
+    def advance(
+        self,
+        duration: float,
+        *,
+        input_torque: float | None = None,
+        output_torque: float | None = None,
+        input_speed: float | None = None,
+        output_speed: float | None = None,
+        input_position: float | None = None,
+        output_position: float | None = None,
+    ) -> Window:
+        """Simulate one window.
+
+        Args:
+            duration: simulated time [s], above 0 and at most 60 s or 4096 samples, whichever is
+                longer.
+            input_torque: torque on the input shaft [N m], as in `step`.
+            output_torque: torque on the output shaft [N m].
+            input_speed: speed of the input shaft [rad/s].
+            output_speed: speed of the output shaft [rad/s].
+            input_position: angle of the input shaft at the end of the window [rad].
+            output_position: angle of the output shaft at the end of the window [rad].
+
+        Returns:
+            Statistics and waveform of the window.
+
+        Raises:
+            ValueError: the duration or a value is out of range, or a port does not accept a value;
+                nothing has changed.
+            RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
+        """
+        command = Command(
+            input_torque, output_torque, input_speed, output_speed, input_position, output_position
+        )
+        plan = self._plan(duration)
+        self._begin(plan, command)
+        if command != NOTHING:
+            plan = plan._replace(given=command.values)
+        run_alone(self._jobs(plan))
+        return self._close(plan)
+
+    def _begin(self, plan: Plan, command: Command = NOTHING) -> None:
+        """Apply a command in a window that begins now."""
+        self._end_steps()
+        if self._given or command.values:
+            self._apply_command(command, plan.end)
+
+    def _apply_command(self, command: Command, end: int) -> None:
+        """Apply a command from the present time to `end` [ticks]."""
+        self._driven().apply_command(self._ticks, end, command)
+        if self._kept is not None:
+            self._kept.keep(self._ticks, end, command)
+
+    def _jobs(self, plan: Plan) -> WindowJobs:
+        """Jobs of the core for a window."""
+        return self._engine.window(
+            plan.end, plan.first, self.sample_rate, self._report, plan.waves, self._ends[1]
+        )
+
+    def _change(self, **inputs: Any) -> float:
+        """Continue with other inputs, fields of `Change`; returns the present time [s]."""
+        before, change = self.log[-1], self.log[-1]._replace(time=self.time, **inputs)
+        if change[1:] == before[1:]:
+            return self.time
+        if change.ports != before.ports:
+            self._set_ports(change)
+        else:
+            self._end_steps()
+            self._engine.change(change.point, change.tolerance, Fraction(self._ticks, TICKS))
+        self._begin_window()  # a change of backlash is not work of this window
+        self._settling = self._forgetting.rate(change.point)
+        self.log.append(change)
+        return self.time
+
+    def _set_ports(self, change: Change) -> None:
+        """Continue with the ports and the operating point of `change`."""
+        ports = {name: getattr(change.ports, side) for name, side in PORT_FIELDS.items()}
+        scene = self.scene.replace(**ports)
+        self._end_steps()
+        self._driven().set_ports(scene, change.point, Fraction(self._ticks, TICKS))
+        self.scene, self._given = scene, change.ports.given
+
+    def _begin_window(self) -> None:
+        """Begin a window at the present time."""
+        self._engine.begin_window(self._ticks, self._ends[0])
+
+    def _plan(self, duration: float) -> Plan:
+        """Plan a window of `duration` seconds from the present time on."""
+        begin, rate, train = self._ticks, self.sample_rate, self._engine.train
+        end = window_end(begin, duration, rate)
+        first = samples_until(begin, rate) + 1
+        rows = samples_until(end, rate) - first + 1
+        waves = new_waves(rows, len(self.meshes), bearings_of(train), tilts(train))
+        return Plan(begin, end, first, waves, self._engine.repeats)
+
+    def _close(self, plan: Plan) -> Window:
+        """Results of the window that the engine has run through."""
+        begin, end = self._ends
+        self._results.evaluate(begin, end, plan)
+        self._ticks, self._ends = plan.end, (end, begin)
+        course = self._follow((plan.end - plan.begin) / TICKS)
+        if plan.begin == 0:
+            course = course._replace(start_warning=self._engine.start_warning)
+        return self._results.window(plan, self.tolerance, self.sample_rate, course)
+
+    def _follow(self, duration: float) -> Course:
+        """Counters of the last `duration` [s]."""
+        self._settled += duration * self._settling
+        missing, before = unsettled(self._settled, self._settling), self._course
+        self._course = course_so_far(self._engine.control, missing)
+        return self._course.since(before)
+
+    def __repr__(self) -> str:
+        """One line."""
+        how = f"{self.time:g} s", f"tolerance {self.tolerance:g}"
+        return brief(self, self.scene.name, self.scene.dynamics, *how)

@@ -1,0 +1,94 @@
+"""Results of a window, from the records of the core."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+from .._core import Report, Train, WindowEnd
+from ..gearset.kinematics import mesh_frequency
+from ..model.bodies import body_names, machines, mesh_names
+from ..model.clock import TICKS
+from ..scene import Scene
+from .axes.motion import axes_of_waves
+from .counters import Course
+from .window import Waveform, Window, by_name
+from .window_plan import Plan
+
+
+class WindowResults:
+    """Computes the results of windows of a scene.
+
+    Args:
+        scene: the scene.
+        core: module of the compiled core that fits the scene.
+        train: gear train of the scene.
+        report: indices of bodies and meshes in the records.
+    """
+
+    def __init__(self, scene: Scene, core: ModuleType, train: Train, report: Report) -> None:
+        self._core, self._train, self._report = core, train, report
+        self._bodies, self._meshes = body_names(scene).names, mesh_names(scene).names
+        members = [machine.member for machine in machines(scene).values()]
+        self._members = tuple(self._bodies.index(member) for member in members)
+        self._teeth, self._sun = scene.gearset.tooth_numbers, self._bodies.index("sun")
+        self._planets = scene.gearset.planets
+        # Views of the record, which is filled again for every window.
+        record = self._record = core.Figures()
+        bodies, count = len(self._bodies), int(train.machines)
+        self._angle, self._mean_speed = record.angle[:bodies], record.mean_speed[:bodies]
+        self._machine_speed = record.machine_speed[:count]
+        self._machine_torque = record.machine_torque[:count]
+        self._machine_power = record.machine_power[:count]
+        self._statistics = record.statistics[:, : len(self._meshes)]
+
+    def evaluate(self, begin: WindowEnd, end: WindowEnd, plan: Plan) -> None:
+        """Compute means, powers and statistics of a window.
+
+        Args:
+            begin: record of the run at the start of the window.
+            end: record of the run at its end.
+            plan: the window.
+        """
+        duration = (plan.end - plan.begin) / TICKS
+        self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
+
+    def window(self, plan: Plan, tolerance: float, sample_rate: float, course: Course) -> Window:
+        """Assemble the results of the window that was evaluated last.
+
+        Args:
+            plan: the window, with its samples.
+            tolerance: relative local error tolerance.
+            sample_rate: sample rate [Hz].
+            course: counters of the window, which show its accuracy.
+
+        Returns:
+            The results.
+        """
+        mean_speed, record = self._mean_speed.copy(), self._record
+        mesh = by_name(self._statistics.copy())
+        frequency = mesh_frequency(self._teeth, mean_speed[self._sun], mean_speed[-1])
+        return Window(
+            start=plan.begin / TICKS,
+            end=plan.end / TICKS,
+            tolerance=tolerance,
+            sample_rate=sample_rate,
+            repeated=plan.repeated,
+            bodies=self._bodies,
+            meshes=self._meshes,
+            waveform=Waveform(1.0 / sample_rate, *plan.waves[:4]),
+            mesh=mesh,
+            angle=self._angle.copy(),
+            mean_speed=mean_speed,
+            mesh_frequency=frequency,
+            machine_speed=self._machine_speed.copy(),
+            machine_torque=self._machine_torque.copy(),
+            machine_power=self._machine_power.copy(),
+            power_loss=record.power_loss,
+            stored_power=record.stored_power,
+            stored_energy=record.stored_energy,
+            residual_power=record.residual_power,
+            course=course,
+            given=dict(plan.given),
+            axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
+            members=self._members,
+        )

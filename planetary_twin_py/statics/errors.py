@@ -1,0 +1,89 @@
+"""Errors of a scene as displacements of toothings and pins.
+
+An eccentric toothing acts as if its gear were displaced by the same vector. Thicker teeth reduce
+the backlash on both sides of a mesh.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..model.bodies import rigid_ratios
+from ..model.planar_rows import PlanarRows
+from ..model.planet_groups import scene_phases
+from ..scene import Scene
+from ..scene.errors import Offset
+
+
+class Displacements(NamedTuple):
+    """Errors at P angles of the first motor."""
+
+    toothing: np.ndarray
+    """Displacements of the toothings on their gears [m], (P, coordinates)."""
+    pin: np.ndarray
+    """Displacements of the pins on the carrier, radial and tangential [m], (planets, 2)."""
+    axis: np.ndarray
+    """Displacements x, y of the bearings of sun, ring and carrier [m], (P, 3, 2)."""
+    closing: np.ndarray
+    """Reduction of the backlash of each mesh by thicker teeth, on either side [m], (meshes,)."""
+
+
+def displacements(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> Displacements:
+    """Errors of a scene.
+
+    Args:
+        scene: scene with the errors.
+        rows: rows of its gear set.
+        turns: turns of the first motor, (P,); a second motor is at rest.
+
+    Returns:
+        The displacements, in the frame of the carrier.
+    """
+    errors, planets = scene.errors, scene.gearset.planets
+    radial, tangential, thicker = (
+        np.array(values or (0.0,) * planets)
+        for values in (errors.pin_radial, errors.pin_tangential, errors.planet_thickness)
+    )
+    angle = {name: 2.0 * np.pi * float(r[0]) * turns for name, r in rigid_ratios(scene).items()}
+    axis = np.zeros((len(turns), 3, 2))
+    for place, offset in ((1, errors.ring_offset), (2, errors.carrier_offset)):
+        axis[:, place] = _in_carrier_frame(offset, angle["carrier"])
+    cosines = [math.cos(mesh.pressure_angle) for mesh in scene.gearset.geometry.meshes]
+    return Displacements(
+        _toothings(scene, rows, angle),
+        np.column_stack([radial, tangential]),
+        axis,
+        np.concatenate([thicker * cosine / 2.0 for cosine in cosines]),
+    )
+
+
+def _in_carrier_frame(offset: Offset, carrier: np.ndarray) -> np.ndarray:
+    direction = offset.angle - carrier
+    return offset.size * np.column_stack([np.cos(direction), np.sin(direction)])
+
+
+def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> np.ndarray:
+    """Displacements by runout, with the start angles of `dynamics.form_errors`."""
+    runout, errors, teeth = scene.mesh.runout, scene.errors, scene.gearset.tooth_numbers
+    carrier, first = angle["carrier"], scene.gearset.planet_angles[0]
+    sun_phases, ring_phases = scene_phases(scene)
+    displaced = np.zeros((len(carrier), len(rows.coordinates)))
+    # The part of the phase of a ring mesh that is independent of the planet's position.
+    offset = 2.0 * np.pi * float(ring_phases[0]) / teeth.ring
+    for gear, size, start in (
+        ("sun", runout.sun, first + math.pi + errors.sun_runout_phase),
+        ("ring", runout.ring, first + offset + errors.ring_runout_phase),
+    ):
+        direction = angle[gear] - carrier + start
+        displaced[:, rows.place(f"{gear}.x")] = size * np.cos(direction)
+        displaced[:, rows.place(f"{gear}.y")] = size * np.sin(direction)
+    phases = errors.planet_runout_phases or (0.0,) * scene.gearset.planets
+    for i, phase in enumerate(phases):
+        start = math.pi + 2.0 * np.pi * float(sun_phases[i]) / teeth.planet + phase
+        direction = angle["planet"] - carrier + start
+        displaced[:, rows.place(f"planet_{i + 1}.xi")] = runout.planet * np.cos(direction)
+        displaced[:, rows.place(f"planet_{i + 1}.eta")] = runout.planet * np.sin(direction)
+    return displaced
