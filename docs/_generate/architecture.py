@@ -30,9 +30,9 @@ class Box(NamedTuple):
 TALL = 58
 MODEL, RUN, ROS, OUT = "#dbe9f6", "#fde3c8", "#e3d9f2", "#dcefd9"
 SCENE = Box("scene/", "what is simulated: YAML, checked, in SI", 220, 16, 420, MODEL)
-LAWS = Box("gearset/  tooth/  mesh/  core/tribology/", "laws, one per file", 220, 106, 420, MODEL)
+LAWS = Box("gearset/  tooth/  mesh/  core/lubrication/", "laws, one per file", 220, 106, 420, MODEL)
 DYNAMICS = Box(
-    "dynamics/  core/train/  core/mesh/",
+    "dynamics/  core/model/  core/mesh/",
     "bodies and meshes as arrays; forces; contact events; energy",
     220,
     196,

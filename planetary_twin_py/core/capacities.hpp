@@ -7,7 +7,7 @@
 namespace gearbox {
 
 // The core is compiled twice: for fixed axes, and with MOVING_AXES for moving axes (see
-// train/moving_axes.hpp). The arrays of each are as long as it requires.
+// model/moving_axes.hpp). The arrays of each are as long as it requires.
 #ifdef MOVING_AXES
 constexpr bool MOVING = true;
 #else

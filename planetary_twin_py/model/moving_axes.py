@@ -1,6 +1,6 @@
 """Fields of a `Train` whose axes move: rows of meshes over displacements, and bearings.
 
-The rows are those of `planar.rows`, in the order that `core/train/moving_axes.hpp` describes.
+The rows are those of `model.planar_rows`, in the order that `core/model/moving_axes.hpp` describes.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Palmgren 1959, Ball and Roller Bearing Engineering: an element between both raceways yields by
 7.68e-5 Q^0.9/l^0.8 (roller) or 4.36e-4 Q^(2/3)/D^(1/3) (ball), in mm, with its load Q in N, the
-length l of the roller and the diameter D of the ball in mm. `core/train/rolling_bearing.hpp` has
+length l of the roller and the diameter D of the ball in mm. `core/model/rolling_bearing.hpp` has
 the force of all elements together.
 """
 

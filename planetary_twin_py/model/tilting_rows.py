@@ -54,7 +54,7 @@ def leaning_row(mesh: MeshOfKind, side: float, psi: float) -> LeaningRow:
 
     Args:
         mesh: sun with planet, or planet with ring.
-        side: `planar.rows.DRIVE` or `COAST`.
+        side: `model.planar_rows.DRIVE` or `COAST`.
         psi: position of the planet [rad].
 
     Returns:
@@ -78,7 +78,7 @@ def row_of_scene(scene: Scene, side: float, central: str, planet: int) -> Leanin
 
     Args:
         scene: gives gears and planet positions.
-        side: `planar.rows.DRIVE` or `COAST`.
+        side: `model.planar_rows.DRIVE` or `COAST`.
         central: "sun" or "ring".
         planet: counted from 0.
 

@@ -24,7 +24,7 @@ class DrivenRun:
     """Advances a run, applies commands at their times, and adds up the work of the machines.
 
     Args:
-        run: run from `run.start`.
+        run: run from `run.start.start`.
         scene: scene of the run.
         commands: commands over time; None: the values at the ports stay as at the start.
 

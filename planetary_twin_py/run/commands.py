@@ -133,7 +133,7 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
 
     Args:
         scene: the scene.
-        train: from `dynamics.train.build_train`.
+        train: from `model.train.build_train`.
 
     Returns:
         Limits at input and output: those of the drive, and these converted by the gear ratio.

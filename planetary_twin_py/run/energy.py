@@ -11,7 +11,7 @@ class EnergyBooks(NamedTuple):
     """Integrals of the powers up to a time, and the energies stored then."""
 
     ledger: np.ndarray
-    """Integrals [J], (LEDGER,), see core/train/energy.hpp."""
+    """Integrals [J], (LEDGER,), see core/model/energy.hpp."""
     kinetic: float
     """Kinetic energy [J]."""
     elastic: float

@@ -44,7 +44,7 @@ class Limits:
 
     Args:
         scene: the scene.
-        train: from `dynamics.train.build_train`.
+        train: from `model.train.build_train`.
     """
 
     def __init__(self, scene: Scene, train: Train) -> None:

@@ -66,7 +66,7 @@ def _in_carrier_frame(offset: Offset, carrier: np.ndarray) -> np.ndarray:
 
 
 def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> np.ndarray:
-    """Displacements by runout, with the start angles of `dynamics.form_errors`."""
+    """Displacements by runout, with the start angles of `model.form_errors`."""
     runout, errors, teeth = scene.mesh.runout, scene.errors, scene.gearset.tooth_numbers
     carrier, first = angle["carrier"], scene.gearset.planet_angles[0]
     sun_phases, ring_phases = scene_phases(scene)

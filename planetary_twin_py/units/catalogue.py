@@ -249,13 +249,13 @@ COURSE = {
         "periodic",
     ),
 }
-"""Counters of `accuracy.Course`, from which the accuracy of a point is estimated."""
+"""Counters of `run.counters.Course`, from which the accuracy of a point is estimated."""
 STUDY_RESULTS = _study()
 """Columns of the results of a study, in order."""
 STUDIED_OF_AXES = ("displacement_peak", "bearing_force_peak")
 """Those of `BEARING` that a study stores, of planets the largest."""
 ERROR_TURNS = "error_turns"
-"""Column of a study's table, see `planar.error_turns`."""
+"""Column of a study's table, see `statics.error_turns`."""
 AXES_RESULTS = {
     "load_sharing_factor": Quantity(
         "Load sharing factor",

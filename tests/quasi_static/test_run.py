@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from power_flows import ALL_FLOWS, scene_of
 from quasi_static.steady_drive import STEADY
-from test_long_run import HOURS, columns, turns_after
+from run.test_long_run import HOURS, columns, turns_after
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.clock import TICKS

@@ -59,7 +59,7 @@ def test_second_setup_does_nothing():
     [
         ("msgs_spec/msg/GearboxState.msg", {"tools/build_interfaces"}),
         ("ros_ws/src/planetary_twin/setup.py", {"tools/install_nodes"}),
-        ("planetary_twin_py/core/train/train.hpp", {"tools/build_core"}),
+        ("planetary_twin_py/core/model/train.hpp", {"tools/build_core"}),
         ("planetary_twin_py/model/train.py", set()),
         (
             "requirements.lock",

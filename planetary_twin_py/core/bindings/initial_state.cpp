@@ -1,6 +1,6 @@
 // Initial state of a run, for `planetary_twin_py.model.start`.
 
-#include "train/initial_state.hpp"
+#include "model/initial_state.hpp"
 
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"

@@ -22,8 +22,8 @@ NB_MODULE(CORE_MODULE, m) {
     nanobind::module_::import_("atexit").attr("register")(
         nanobind::cpp_function([] { interpreter::hold_threads(); }));
     gearbox::bind_records(m);
-    gearbox::bind_train(m);
-    gearbox::bind_tribology(m);
+    gearbox::bind_model(m);
+    gearbox::bind_lubrication(m);
     gearbox::bind_initial_state(m);
     gearbox::bind_quasi_static(m);
     gearbox::bind_integrators(m);

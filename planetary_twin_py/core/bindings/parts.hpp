@@ -8,23 +8,23 @@
 namespace gearbox {
 
 void bind_mesh_records(nanobind::module_& m);
-void bind_tribology_records(nanobind::module_& m);
-void bind_train_records(nanobind::module_& m);
+void bind_lubrication_records(nanobind::module_& m);
+void bind_model_records(nanobind::module_& m);
 void bind_integrators_records(nanobind::module_& m);
 void bind_quasi_static_records(nanobind::module_& m);
 void bind_run_records(nanobind::module_& m);
 
 inline void bind_records(nanobind::module_& m) {
     bind_mesh_records(m);
-    bind_tribology_records(m);
-    bind_train_records(m);
+    bind_lubrication_records(m);
+    bind_model_records(m);
     bind_integrators_records(m);
     bind_quasi_static_records(m);
     bind_run_records(m);
 }
 
-void bind_train(nanobind::module_& m);
-void bind_tribology(nanobind::module_& m);
+void bind_model(nanobind::module_& m);
+void bind_lubrication(nanobind::module_& m);
 void bind_initial_state(nanobind::module_& m);
 void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);

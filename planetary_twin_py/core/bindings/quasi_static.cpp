@@ -8,6 +8,7 @@
 #include "bindings/parts.hpp"
 #include "bindings/unlocked.hpp"
 #include "mesh/join_flanks.hpp"
+#include "model/weight.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/motion.hpp"
 #include "quasi_static/planet_load.hpp"
@@ -15,7 +16,6 @@
 #include "quasi_static/sampling.hpp"
 #include "quasi_static/second_coupling.hpp"
 #include "quasi_static/totals.hpp"
-#include "train/weight.hpp"
 
 namespace gearbox {
 

@@ -9,13 +9,13 @@
 #include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/vectors.hpp"
+#include "model/tilting.hpp"
 #include "run/figures.hpp"
 #include "run/orbit.hpp"
 #include "run/samples.hpp"
 #include "run/statistics.hpp"
 #include "run/window.hpp"
 #include "run/windows.hpp"
-#include "train/tilting.hpp"
 
 namespace gearbox {
 

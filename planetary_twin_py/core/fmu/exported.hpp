@@ -6,11 +6,11 @@
 #include <cstdint>
 
 #include "integrators/control.hpp"
+#include "model/model.hpp"
 #include "run/limits.hpp"
 #include "run/operating_point.hpp"
 #include "run/ports.hpp"
 #include "run/report.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

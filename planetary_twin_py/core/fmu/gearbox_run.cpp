@@ -8,8 +8,8 @@
 #include "integrators/integrator.hpp"
 #include "integrators/radau.hpp"
 #include "integrators/step_control.hpp"
-#include "train/energy.hpp"
-#include "train/initial_state.hpp"
+#include "model/energy.hpp"
+#include "model/initial_state.hpp"
 
 namespace gearbox {
 

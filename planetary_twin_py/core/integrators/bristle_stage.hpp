@@ -8,8 +8,8 @@
 // so a pair adds f gain (1 + tau/(gamma h))/(1/(gamma h) + decay) to the damping matrix.
 
 #include "integrators/workspace.hpp"
-#include "train/declarations.hpp"
-#include "tribology/tooth_friction.hpp"
+#include "lubrication/tooth_friction.hpp"
+#include "model/declarations.hpp"
 
 namespace gearbox {
 

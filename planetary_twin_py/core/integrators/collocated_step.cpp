@@ -12,7 +12,7 @@
 #include "integrators/work_of_machines.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/mesh_forces.hpp"
-#include "train/equations.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

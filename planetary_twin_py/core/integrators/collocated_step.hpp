@@ -5,7 +5,7 @@
 
 #include "integrators/edges.hpp"
 #include "integrators/integrator_record.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

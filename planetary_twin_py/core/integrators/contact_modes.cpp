@@ -6,7 +6,7 @@
 #include "mesh/cycle.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "train/bearings.hpp"
+#include "model/bearings.hpp"
 #include "vector/symmetric_eigen.hpp"
 
 namespace gearbox {

@@ -8,8 +8,8 @@
 // same states occur in every mesh cycle.
 
 #include "integrators/contact_modes_record.hpp"
-#include "train/model.hpp"
-#include "train/state.hpp"
+#include "model/model.hpp"
+#include "model/state.hpp"
 
 namespace gearbox {
 

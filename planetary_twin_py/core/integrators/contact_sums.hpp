@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "integrators/node.hpp"
+#include "lubrication/tooth_friction.hpp"
 #include "mesh/mesh_forces.hpp"
-#include "train/model.hpp"
-#include "train/step_constants.hpp"
-#include "tribology/tooth_friction.hpp"
+#include "model/model.hpp"
+#include "model/step_constants.hpp"
 #include "vector/math.hpp"
 #include "vector/rows.hpp"
 

@@ -12,7 +12,7 @@ struct alignas(64) Control {
     double speed_per_deflection;        // speed of a body per deflection [1/s]
     double tolerance_x;  // allowed local error of a transmission error in this step [m]
     double tolerance_v;  // and of the speed of a body [m/s]
-    bool creeping;  // the gears creep, so tooth pairs have bristles, see `tribology/bristles.hpp`
+    bool creeping;  // the gears creep, so tooth pairs have bristles, see `lubrication/bristles.hpp`
     bool slow;      // the speed range in which friction reverses limits the errors of speeds
     double next_step;             // [s]
     double step;                  // last accepted step [s]

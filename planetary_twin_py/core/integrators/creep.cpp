@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "integrators/step_control.hpp"
-#include "train/equations.hpp"
-#include "tribology/bristles.hpp"
+#include "lubrication/bristles.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

@@ -3,7 +3,7 @@
 // Integration of the friction of gears that creep, or that vibration brings to rest.
 
 #include "integrators/integrator_record.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

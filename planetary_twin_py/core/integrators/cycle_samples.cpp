@@ -10,8 +10,8 @@
 #include "integrators/interpolant.hpp"
 #include "integrators/periodic.hpp"
 #include "mesh/add_sums.hpp"
-#include "train/set_step_constants.hpp"
-#include "train/tilting.hpp"
+#include "model/set_step_constants.hpp"
+#include "model/tilting.hpp"
 #include "vector/lanes.hpp"
 
 namespace gearbox {

@@ -8,9 +8,9 @@
 // depend on the division of a run into windows.
 
 #include "integrators/integrator_record.hpp"
+#include "model/model.hpp"
 #include "run/clock.hpp"
 #include "run/samples.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

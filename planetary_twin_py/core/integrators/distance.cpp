@@ -6,7 +6,7 @@
 
 #include "integrators/frame.hpp"
 #include "mesh/deflection.hpp"
-#include "train/body_speed.hpp"
+#include "model/body_speed.hpp"
 
 namespace gearbox {
 

@@ -3,8 +3,8 @@
 // Difference of two states of a train at the same place of its period.
 
 #include "integrators/control.hpp"
-#include "train/model.hpp"
-#include "train/state.hpp"
+#include "model/model.hpp"
+#include "model/state.hpp"
 
 namespace gearbox {
 

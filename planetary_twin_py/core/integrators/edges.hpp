@@ -12,7 +12,7 @@
 #include "integrators/step_control.hpp"
 #include "mesh/contact_change.hpp"
 #include "mesh/cycle.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "integrators/integrator_record.hpp"
+#include "model/bearings.hpp"
+#include "model/model.hpp"
 #include "run/clock.hpp"
-#include "train/bearings.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

@@ -4,7 +4,7 @@
 // these ends are fixed, so the modes do not contain their motion.
 
 #include "integrators/integrator_record.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

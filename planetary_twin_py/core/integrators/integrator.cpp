@@ -15,12 +15,12 @@
 #include "integrators/step_sums.hpp"
 #include "integrators/stiff_step.hpp"
 #include "integrators/window_sums.hpp"
+#include "lubrication/tooth_friction.hpp"
 #include "mesh/both_flanks.hpp"
 #include "mesh/contact_change.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/join_flanks.hpp"
-#include "train/set_step_constants.hpp"
-#include "tribology/tooth_friction.hpp"
+#include "model/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -11,9 +11,9 @@
 // method. Where mesh cycles repeat, the last cycle is replayed without computing steps.
 
 #include "integrators/integrator_record.hpp"
+#include "model/model.hpp"
 #include "run/clock.hpp"
 #include "run/samples.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

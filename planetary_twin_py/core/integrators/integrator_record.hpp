@@ -7,9 +7,9 @@
 #include "integrators/propagation_records.hpp"
 #include "integrators/step_sums_record.hpp"
 #include "integrators/workspace.hpp"
-#include "train/evaluation.hpp"
-#include "train/state.hpp"
-#include "train/step_constants.hpp"
+#include "model/evaluation.hpp"
+#include "model/state.hpp"
+#include "model/step_constants.hpp"
 
 namespace gearbox {
 

@@ -6,10 +6,10 @@
 
 #include "integrators/frame.hpp"
 #include "integrators/node_forces.hpp"
+#include "lubrication/bristles.hpp"
+#include "model/drag.hpp"
+#include "model/observe.hpp"
 #include "run/sample_axes.hpp"
-#include "train/drag.hpp"
-#include "train/observe.hpp"
-#include "tribology/bristles.hpp"
 
 namespace gearbox {
 

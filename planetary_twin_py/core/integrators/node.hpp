@@ -1,8 +1,8 @@
 #pragma once
 
 #include "capacities.hpp"
+#include "lubrication/mesh_friction.hpp"
 #include "mesh/meshes_now.hpp"
-#include "tribology/mesh_friction.hpp"
 
 namespace gearbox {
 

@@ -3,9 +3,9 @@
 // Forces on the train at a node of a collocation step.
 
 #include "integrators/propagation.hpp"
+#include "lubrication/mesh_friction.hpp"
 #include "mesh/mesh_forces.hpp"
-#include "train/equations.hpp"
-#include "tribology/mesh_friction.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

@@ -8,10 +8,10 @@
 #include "integrators/frame.hpp"
 #include "integrators/mesh_cycle_start.hpp"
 #include "integrators/neighbour.hpp"
+#include "lubrication/bristles.hpp"
 #include "mesh/add_sums.hpp"
-#include "train/equations.hpp"
-#include "train/set_step_constants.hpp"
-#include "tribology/bristles.hpp"
+#include "model/equations.hpp"
+#include "model/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -10,8 +10,8 @@
 // The duration of the cycle follows from the speed set-point: the speed loop prevents drift.
 
 #include "integrators/integrator_record.hpp"
+#include "model/model.hpp"
 #include "run/clock.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

@@ -6,7 +6,7 @@
 #include "integrators/propagation_records.hpp"
 #include "integrators/sample_table.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "train/state.hpp"
+#include "model/state.hpp"
 
 namespace gearbox {
 

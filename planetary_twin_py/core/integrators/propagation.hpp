@@ -16,8 +16,8 @@
 #include "integrators/given_motion.hpp"
 #include "integrators/integrator_record.hpp"
 #include "integrators/oscillator.hpp"
-#include "train/model.hpp"
-#include "tribology/tooth_friction.hpp"
+#include "lubrication/tooth_friction.hpp"
+#include "model/model.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {

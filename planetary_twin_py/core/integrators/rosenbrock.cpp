@@ -4,15 +4,15 @@
 
 #include "integrators/bristle_stage.hpp"
 #include "integrators/rosenbrock_coefficients.hpp"
+#include "lubrication/tooth_friction.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "train/bearings.hpp"
-#include "train/body_speed.hpp"
-#include "train/drag.hpp"
-#include "train/equations.hpp"
-#include "tribology/tooth_friction.hpp"
+#include "model/bearings.hpp"
+#include "model/body_speed.hpp"
+#include "model/drag.hpp"
+#include "model/equations.hpp"
 #include "vector/cholesky.hpp"
 
 namespace gearbox {

@@ -12,9 +12,9 @@
 // factorisation of M/(gamma h) + C + gamma h K per step.
 
 #include "integrators/workspace.hpp"
-#include "train/model.hpp"
-#include "train/state.hpp"
-#include "train/step_constants.hpp"
+#include "model/model.hpp"
+#include "model/state.hpp"
+#include "model/step_constants.hpp"
 
 namespace gearbox {
 

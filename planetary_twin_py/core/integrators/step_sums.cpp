@@ -10,7 +10,7 @@
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
 #include "mesh/deflection.hpp"
-#include "train/equations.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

@@ -7,7 +7,7 @@
 // rule. A Rosenbrock step is evaluated at its ends by the trapezoidal rule.
 
 #include "integrators/integrator_record.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

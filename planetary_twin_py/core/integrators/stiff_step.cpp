@@ -11,10 +11,10 @@
 #include "integrators/rosenbrock.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/trial_step.hpp"
+#include "lubrication/bristles.hpp"
+#include "lubrication/tooth_friction.hpp"
 #include "mesh/deflection.hpp"
-#include "train/equations.hpp"
-#include "tribology/bristles.hpp"
-#include "tribology/tooth_friction.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

@@ -4,7 +4,7 @@
 // the sweeps of collocation to converge, and damping too strong for its accuracy.
 
 #include "integrators/integrator_record.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

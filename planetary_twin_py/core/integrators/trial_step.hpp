@@ -5,7 +5,7 @@
 #include "integrators/integrator_record.hpp"
 #include "integrators/rosenbrock.hpp"
 #include "integrators/step_control.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

@@ -6,7 +6,7 @@
 // evaluated at equidistant times from dense output by Simpson's rule.
 
 #include "integrators/integrator_record.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

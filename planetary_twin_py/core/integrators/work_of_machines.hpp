@@ -6,8 +6,8 @@
 #include "integrators/given_motion.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
-#include "train/body_speed.hpp"
-#include "train/equations.hpp"
+#include "model/body_speed.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "capacities.hpp"
-#include "train/evaluation.hpp"
+#include "model/evaluation.hpp"
 
 namespace gearbox {
 

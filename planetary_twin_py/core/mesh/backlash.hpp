@@ -11,7 +11,7 @@
 
 #include "mesh/damping.hpp"
 #include "mesh/deflection.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

@@ -7,7 +7,7 @@
 
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
-#include "train/model.hpp"
+#include "model/model.hpp"
 
 namespace gearbox {
 

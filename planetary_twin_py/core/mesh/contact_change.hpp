@@ -3,12 +3,12 @@
 // Changes of state when flanks come into contact or separate, and when tooth pairs enter or leave a
 // mesh.
 
+#include "lubrication/bristles.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "train/model.hpp"
-#include "train/set_step_constants.hpp"
-#include "tribology/bristles.hpp"
+#include "model/model.hpp"
+#include "model/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "capacities.hpp"
-#include "train/state.hpp"
-#include "train/train.hpp"
+#include "model/state.hpp"
+#include "model/train.hpp"
 #include "vector/lanes.hpp"
 
 namespace gearbox {

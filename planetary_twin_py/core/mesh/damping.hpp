@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "capacities.hpp"
-#include "train/step_constants.hpp"
-#include "train/train.hpp"
+#include "model/step_constants.hpp"
+#include "model/train.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

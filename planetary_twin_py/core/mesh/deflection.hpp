@@ -4,8 +4,8 @@
 
 #include "mesh/form_errors.hpp"
 #include "mesh/meshes_now.hpp"
-#include "train/step_constants.hpp"
-#include "train/train.hpp"
+#include "model/step_constants.hpp"
+#include "model/train.hpp"
 
 namespace gearbox {
 

@@ -4,7 +4,7 @@
 
 #include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "train/train.hpp"
+#include "model/train.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

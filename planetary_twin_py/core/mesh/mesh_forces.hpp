@@ -14,8 +14,8 @@
 #include "mesh/deflection.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "train/evaluation.hpp"
-#include "train/model.hpp"
+#include "model/evaluation.hpp"
+#include "model/model.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {

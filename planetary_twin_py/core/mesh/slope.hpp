@@ -9,9 +9,9 @@
 
 #include "capacities.hpp"
 #include "mesh/meshes_now.hpp"
-#include "train/step_constants.hpp"
-#include "train/tilting.hpp"
-#include "train/train.hpp"
+#include "model/step_constants.hpp"
+#include "model/tilting.hpp"
+#include "model/train.hpp"
 
 namespace gearbox {
 

@@ -3,8 +3,8 @@
 // Stiffness of a mesh and of its tooth pairs, from the tables of the train.
 
 #include "capacities.hpp"
-#include "train/step_constants.hpp"
-#include "train/train.hpp"
+#include "model/step_constants.hpp"
+#include "model/train.hpp"
 
 namespace gearbox {
 

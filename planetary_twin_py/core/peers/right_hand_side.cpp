@@ -9,10 +9,10 @@
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/faults.hpp"
-#include "train/body_speed.hpp"
-#include "train/equations.hpp"
-#include "train/observe.hpp"
-#include "train/set_step_constants.hpp"
+#include "model/body_speed.hpp"
+#include "model/equations.hpp"
+#include "model/observe.hpp"
+#include "model/set_step_constants.hpp"
 
 namespace gearbox {
 

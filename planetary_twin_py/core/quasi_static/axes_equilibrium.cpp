@@ -2,7 +2,7 @@
 //
 // All forces are those of the dynamic model, on bodies at rest in the frame that turns with the
 // motors. Springs of flanks and bearings are piecewise smooth and their energy is convex, so
-// Newton's method finds the equilibrium (see planar/statics.py); friction, some per cent of the
+// Newton's method finds the equilibrium (see statics/statics.py); friction, some per cent of the
 // forces, is updated in an outer iteration.
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 #include "mesh/form_errors.hpp"
 #include "mesh/join_flanks.hpp"
 #include "mesh/slope.hpp"
+#include "model/bearings.hpp"
+#include "model/critical_speed.hpp"
+#include "model/equations.hpp"
+#include "model/observe.hpp"
+#include "model/set_step_constants.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/machines.hpp"
-#include "train/bearings.hpp"
-#include "train/critical_speed.hpp"
-#include "train/equations.hpp"
-#include "train/observe.hpp"
-#include "train/set_step_constants.hpp"
 #include "vector/cholesky.hpp"
 
 namespace gearbox {

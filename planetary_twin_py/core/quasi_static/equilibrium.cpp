@@ -8,11 +8,11 @@
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
+#include "model/equations.hpp"
+#include "model/observe.hpp"
 #include "quasi_static/machines.hpp"
 #include "quasi_static/mesh_springs.hpp"
 #include "quasi_static/statics.hpp"
-#include "train/equations.hpp"
-#include "train/observe.hpp"
 
 namespace gearbox {
 

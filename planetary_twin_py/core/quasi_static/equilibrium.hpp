@@ -13,8 +13,8 @@
 #include <iterator>
 
 #include "capacities.hpp"
+#include "model/model.hpp"
 #include "quasi_static/equilibrium_record.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
+#include "model/evaluation.hpp"
+#include "model/state.hpp"
+#include "model/step_constants.hpp"
 #include "quasi_static/springs.hpp"
-#include "train/evaluation.hpp"
-#include "train/state.hpp"
-#include "train/step_constants.hpp"
 
 namespace gearbox {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <numbers>
 
+#include "model/body_speed.hpp"
+#include "model/model.hpp"
 #include "quasi_static/equilibrium_record.hpp"
-#include "train/body_speed.hpp"
-#include "train/model.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

@@ -9,8 +9,8 @@
 #include "mesh/faults.hpp"
 #include "mesh/form_errors.hpp"
 #include "mesh/stiffness.hpp"
+#include "model/set_step_constants.hpp"
 #include "quasi_static/equilibrium.hpp"
-#include "train/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "model/model.hpp"
 #include "quasi_static/equilibrium_record.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

@@ -2,9 +2,9 @@
 
 // Rigid motion: every motor at its set-point, every body by the tooth numbers.
 
+#include "model/model.hpp"
+#include "model/state.hpp"
 #include "run/clock.hpp"
-#include "train/model.hpp"
-#include "train/state.hpp"
 
 namespace gearbox {
 

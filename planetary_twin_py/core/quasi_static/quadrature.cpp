@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "mesh/cycle.hpp"
+#include "model/set_step_constants.hpp"
 #include "quasi_static/motion.hpp"
-#include "train/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "model/body_speed.hpp"
 #include "quasi_static/motion.hpp"
 #include "run/sample_axes.hpp"
-#include "train/body_speed.hpp"
 
 namespace gearbox {
 

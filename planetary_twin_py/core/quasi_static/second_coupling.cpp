@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "mesh/cycle.hpp"
+#include "model/set_step_constants.hpp"
 #include "quasi_static/motion.hpp"
-#include "train/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "model/state.hpp"
 #include "quasi_static/equilibrium.hpp"
-#include "train/state.hpp"
 
 namespace gearbox {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "capacities.hpp"
+#include "model/set_step_constants.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/machines.hpp"
 #include "quasi_static/planet_load.hpp"
-#include "train/set_step_constants.hpp"
 
 namespace gearbox {
 

@@ -6,7 +6,7 @@
 
 #include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
-#include "train/train.hpp"
+#include "model/train.hpp"
 
 namespace gearbox {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "train/state.hpp"
+#include "model/state.hpp"
 
 namespace gearbox {
 

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
+#include "model/train.hpp"
 #include "run/report.hpp"
 #include "run/statistics.hpp"
 #include "run/window.hpp"
-#include "train/train.hpp"
 
 namespace gearbox {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 
 #include "capacities.hpp"
-#include "train/load.hpp"
-#include "train/train.hpp"
+#include "model/load.hpp"
+#include "model/train.hpp"
 
 namespace gearbox {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "train/load.hpp"
-#include "tribology/boundary.hpp"
-#include "tribology/oil.hpp"
+#include "lubrication/boundary.hpp"
+#include "lubrication/oil.hpp"
+#include "model/load.hpp"
 
 namespace gearbox {
 

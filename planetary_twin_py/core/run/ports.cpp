@@ -9,7 +9,7 @@
 #include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/deflection.hpp"
-#include "train/equations.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "integrators/integrator_record.hpp"
+#include "model/model.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
 #include "run/window.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

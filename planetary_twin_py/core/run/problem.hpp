@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "train/evaluation.hpp"
-#include "train/model.hpp"
-#include "train/state.hpp"
-#include "train/step_constants.hpp"
+#include "model/evaluation.hpp"
+#include "model/model.hpp"
+#include "model/state.hpp"
+#include "model/step_constants.hpp"
 
 namespace gearbox {
 

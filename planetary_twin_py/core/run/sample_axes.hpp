@@ -2,9 +2,9 @@
 
 // Quantities of bearings in a row of samples.
 
+#include "model/bearings.hpp"
+#include "model/body_speed.hpp"
 #include "run/samples.hpp"
-#include "train/bearings.hpp"
-#include "train/body_speed.hpp"
 
 namespace gearbox {
 

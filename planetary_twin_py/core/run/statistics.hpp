@@ -30,7 +30,7 @@ struct SumsOfMesh {
 };
 
 struct MeshStatistic {
-    const char* name;  // in `quantities.py`
+    const char* name;  // in `units/catalogue.py`
     double (*value)(const SumsOfMesh&);
 };
 

@@ -10,10 +10,10 @@
 #include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/join_flanks.hpp"
+#include "model/energy.hpp"
 #include "run/orbit.hpp"
 #include "run/part_of_turn.hpp"
 #include "run/samples.hpp"
-#include "train/energy.hpp"
 
 namespace gearbox {
 

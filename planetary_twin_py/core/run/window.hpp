@@ -6,10 +6,10 @@
 
 #include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
+#include "model/model.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
 #include "run/report.hpp"
-#include "train/model.hpp"
 
 namespace gearbox {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "capacities.hpp"
-#include "train/train.hpp"
+#include "model/train.hpp"
 #include "vector/attributes.hpp"
 #include "vector/lanes.hpp"
 

@@ -29,7 +29,7 @@ def tilting_motion(tilting: np.ndarray) -> TiltingMotion | None:
     """Axial motion and tilts from samples.
 
     Args:
-        tilting: `tilting` of `integrators.interpolant.Samples`, (samples, bodies, 6).
+        tilting: `tilting` of `run.samples.Samples`, (samples, bodies, 6).
 
     Returns:
         Motion and loads; None if the axes do not tilt.

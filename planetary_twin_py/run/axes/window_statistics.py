@@ -16,9 +16,9 @@ def axes_statistics(motion: AxesMotion) -> dict[str, np.ndarray]:
         motion: motion of the axes in a run or a window; without samples all values are NaN.
 
     Returns:
-        By the names of `quantities.BEARING`: mean vectors (bodies, 2) and largest magnitudes
-        (bodies,); "orbit", the last sample (3, 2) [m]; by the names of `quantities.FLANKS`, mean
-        forces (meshes,) [N].
+        By the names of `units.catalogue.BEARING`: mean vectors (bodies, 2) and largest magnitudes
+        (bodies,); "orbit", the last sample (3, 2) [m]; by the names of `units.catalogue.FLANKS`,
+        mean forces (meshes,) [N].
     """
     if not len(motion.orbit):
         nothing = np.full((1, *motion.flank_force.shape[1:]), math.nan)

@@ -207,7 +207,7 @@ class QuasiStaticEngine:
         return EnergyBooks(energy, *self._stored(time))
 
     def pop_energy_ledger(self) -> np.ndarray:
-        """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
+        """Integrals of the ledger from the previous call to `reached`, see core/model/energy.hpp.
 
         They restart at zero, so that rounding does not grow with the length of the run.
         """

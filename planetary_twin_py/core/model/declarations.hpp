@@ -1,0 +1,25 @@
+#pragma once
+
+// All functions of train, meshes and tooth contacts.
+
+#include "lubrication/tooth_friction.hpp"
+#include "mesh/add_sums.hpp"
+#include "mesh/backlash.hpp"
+#include "mesh/contact_change.hpp"
+#include "mesh/cycle.hpp"
+#include "mesh/damping.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/faults.hpp"
+#include "mesh/form_errors.hpp"
+#include "mesh/mesh_forces.hpp"
+#include "mesh/pair_loads.hpp"
+#include "mesh/stiffness.hpp"
+#include "model/body_speed.hpp"
+#include "model/drag.hpp"
+#include "model/energy.hpp"
+#include "model/equations.hpp"
+#include "model/observe.hpp"
+#include "model/set_step_constants.hpp"
+#include "vector/cholesky.hpp"
+#include "vector/combine.hpp"
+#include "vector/math.hpp"

@@ -1,0 +1,94 @@
+#pragma once
+
+// Drag outside the tooth contacts: bearings, seals and grease, and churning of oil by members.
+
+#include <cmath>
+
+#include "lubrication/bearing_friction.hpp"
+#include "lubrication/churning.hpp"
+#include "lubrication/tooth_friction.hpp"
+#include "mesh/cycle.hpp"
+#include "model/body_speed.hpp"
+#include "model/evaluation.hpp"
+#include "model/model.hpp"
+
+namespace gearbox {
+
+constexpr double SLOWEST_DRAG_TURN = 1e-2;  // [rad/s] below which drag decreases to zero
+constexpr std::int64_t NO_PLANET = -1;
+
+inline double drag_sense(double speed) {
+    return speed / std::sqrt(speed * speed + SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN);
+}
+
+// Load [N] on the pin of a planet, from its two meshes.
+inline double pin_load(const Train& train, const State& state, const double* normal_force,
+                       std::int64_t planet) {
+    if (planet == NO_PLANET) return 0.0;
+    std::int64_t planets = planets_of(train);
+    double sum = 0.0;
+    for (std::int64_t i = planet; i < train.meshes; i += planets)
+        sum += static_cast<double>(state.side[i]) * normal_force[i];
+    return train.pin_share * std::abs(sum);
+}
+
+// Magnitude [N m] of the drag of joint b at a speed [rad/s] above SLOWEST_DRAG_TURN.
+inline double joint_drag(const Model& model, const State& state, const double* normal_force,
+                         std::int64_t b, double speed) {
+    const Train& train = model.train;
+    double load = pin_load(train, state, normal_force, train.joint_planet[b]);
+    double torque = train.joint_coulomb[b] + train.joint_viscous[b] * std::abs(speed);
+    torque += bearing_torque(train.joint_no_load_factor[b], train.joint_load_factor[b],
+                             model.oil.kinematic, speed, load);
+    return torque * train.body_copies[train.joint_body[b][0]];
+}
+
+// Add the damping of the drag of joints to `matrix`.
+//
+// The motion of a light member within SLOWEST_DRAG_TURN decays in nanoseconds. As in
+// `friction_damping`, the slope is that of the chord to rest where `force` would reverse the
+// rotation within h seconds.
+inline void drag_damping(const Model& model, const State& state, const double* normal_force,
+                         const double* force, double h, Matrix matrix) {
+    const Train& train = model.train;
+    for (std::int64_t b = 0; b < train.joints; ++b) {
+        const std::int64_t* body = train.joint_body[b];
+        double speed =
+            body_speed(train, state, state.v, body[0]) - body_speed(train, state, state.v, body[1]);
+        double row[2] = {train.inverse_radius[body[0]], -train.inverse_radius[body[1]]};
+        double gain = h * (row[0] * force[body[0]] / train.mass[body[0]] +
+                           row[1] * force[body[1]] / train.mass[body[1]]);
+        double square = speed * speed + SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN;
+        double chord = joint_drag(model, state, normal_force, b, speed) / std::sqrt(square);
+        double tangent = chord * SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN / square;
+        double slope = speed * (speed + gain) < 0.0 ? chord : tangent;
+        add_outer(matrix, body, row, 2, slope);
+    }
+}
+
+// Add the drag of joints and discs under the forces of the meshes to `friction_force`, and its
+// power to `power`.
+inline void apply_drag(const Model& model, const State& state, const double* v,
+                       const double* normal_force, double* friction_force, double* power) {
+    const Train& train = model.train;
+    const Oil& oil = model.oil;
+    for (std::int64_t b = 0; b < train.joints; ++b) {
+        std::int64_t inner = train.joint_body[b][0], outer = train.joint_body[b][1];
+        double speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer);
+        double torque = joint_drag(model, state, normal_force, b, speed) * drag_sense(speed);
+        friction_force[inner] -= torque / train.radius[inner];
+        friction_force[outer] += torque / train.radius[outer];
+        power[BEARING] += torque * speed;
+    }
+    for (std::int64_t n = 0; n < train.discs; ++n) {
+        std::int64_t body = train.disc_body[n];
+        double radius = train.disc_radius[n], speed = body_speed(train, state, v, body);
+        double density = train.disc_fill * oil.density;
+        double torque = disc_torque(radius, train.disc_gap / radius, density, oil.kinematic, speed);
+        torque *= drag_sense(speed);
+        friction_force[body] -= torque / train.radius[body];
+        power[CHURNING] += torque * speed;
+    }
+}
+
+}  // namespace gearbox

@@ -1,0 +1,354 @@
+#include "model/initial_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "capacities.hpp"
+#include "lubrication/bristles.hpp"
+#include "lubrication/tooth_friction.hpp"
+#include "mesh/cycle.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/form_errors.hpp"
+#include "mesh/slope.hpp"
+#include "mesh/stiffness.hpp"
+#include "model/bearings.hpp"
+#include "model/critical_speed.hpp"
+#include "model/equations.hpp"
+#include "model/set_step_constants.hpp"
+#include "vector/cholesky.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
+constexpr int CYCLE_POINTS = 64;         // places in the mesh cycle over which friction is averaged
+constexpr int BALANCING_PASSES = 12;     // each reduces the error of friction to some per cent
+// Stiffness of the regularisation of free coordinates, relative to that of a tooth pair.
+constexpr double REGULARISATION = 1e-9;
+constexpr int MOST_PASSES = 200;      // for the contacts of flanks and bearings
+constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as contacts might alternate
+constexpr double AT_REST = 1e-13;     // [m] allowed change of the axes by a pass
+constexpr int SETTLING_PASSES = 3;  // the first finds the wind-up of the couplings, the others the
+                                    // tooth pairs there
+
+// Work space for the equilibrium of a train.
+struct Start {
+    const Model& model;
+    double force;  // mean force of every mesh [N]
+    State& state;
+    StepConstants step;
+    Balance balance;
+};
+
+// Set the tooth pairs of every mesh to those at its place in the cycle.
+void place_pairs(Start& start) {
+    const Train& train = start.model.train;
+    State& state = start.state;
+    double rate = frame_cycle_rate(train, state);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        std::int64_t side = state.side[i];
+        if (side == OPEN) continue;
+        double direction = std::copysign(1.0, static_cast<double>(side) * rate);
+        double cycle = mesh_cycle(train, state, i, side);
+        state.segment[i] = find_segment(train, train.kind[i], cycle, direction);
+    }
+    set_step_constants(start.model, state, start.step);
+}
+
+// Fix the position of a body.
+void fix_body(Balance& balance, std::int64_t body) {
+    for (int j = 0; j < BODIES; ++j) balance.stiffness[body][j] = balance.stiffness[j][body] = 0.0;
+    balance.stiffness[body][body] = 1.0;
+    balance.force[body] = 0.0;
+}
+
+// Stiffness of bearing b in any direction: at least that along its load.
+double stiffest(const Train& train, std::int64_t b, const double* x) {
+    const MovingAxes& axes = train.moving;
+    if (!rolls(axes, b)) return axes.stiffness[b];
+    return std::max(axes.stiffness[b], bearing_law(axes, b, eccentricity(train, b, x)).stiffness);
+}
+
+// Add the stiffness of the bearings, neglecting clearances, which limits the length of steps at the
+// cost of more of them. And a small stiffness to every coordinate: free coordinates, such as those
+// of an axis that floats without load, do not move.
+void add_bearing_stiffness(Start& start) {
+    const Train& train = start.model.train;
+    double (*stiffness)[BODIES] = start.balance.stiffness;
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
+        const double radial = stiffest(train, b, start.state.x);
+        for (const BearingRow& row : rows_of_bearing(train, b))
+            add_outer(stiffness, row.place, row.factor, row.size,
+                      row.radial ? radial : row.stiffness);
+    }
+    double regularisation = REGULARISATION * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
+}
+
+// Move x by the displacement of the springs of meshes and couplings under `balance.force`, with
+// fixed motors.
+void displace_by_forces(Start& start) {
+    const Train& train = start.model.train;
+    Balance& balance = start.balance;
+    std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double k = mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
+        if (MOVING && start.state.side[i] == OPEN) continue;
+        add_outer(balance.stiffness, train.body[i], train.sign[i], entries_of(train),
+                  train.copies[i] * k);
+        if constexpr (MOVING) add_slope_stiffness(train, i, train.copies[i] * k, balance.stiffness);
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
+    if constexpr (MOVING) add_bearing_stiffness(start);
+    for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling[2 * a][0]);
+    const double turning = MOVING ? start.step.rigid[train.moving.frame] : 0.0;
+    if (!displace_above_critical_speed(train, turning, balance.stiffness, balance.force)) {
+        factorise(balance.stiffness, train.bodies);
+        solve(balance.stiffness, train.bodies, balance.force);
+    }
+    for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += balance.force[j];
+}
+
+// Move x to the equilibrium of all bodies with the present tooth pairs.
+//
+// The motors stand still. There are more meshes than bodies: all of them carry the mean force only
+// if all are equally stiff at this angle.
+void balance_mean_forces(Start& start) {
+    const Train& train = start.model.train;
+    const Load& load = start.model.load;
+    const State& state = start.state;
+    double* force = start.balance.force;
+    std::fill(force, force + BODIES, 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
+        double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
+        double normal_force =
+            start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
+        for (int g = 0; g < ENTRIES; ++g)
+            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * normal_force;
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        double coupling_force = load.torque[c] / train.radius[machine];
+        coupling_force -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += coupling_force;
+        force[member] -= coupling_force;
+    }
+    displace_by_forces(start);
+}
+
+// Close the flanks that are compressed at x; whether any contact changes.
+bool touch_flanks(Start& start) {
+    const Train& train = start.model.train;
+    State& state = start.state;
+    bool changes = false;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        auto side = static_cast<double>(only_side(train, i));
+        double error = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
+        double deflection =
+            side * (mesh_motion(train, i, state.x) - error) - start.model.load.offset;
+        std::int64_t found = deflection > 0.0 ? only_side(train, i) : OPEN;
+        changes |= found != state.side[i];
+        state.side[i] = found;
+    }
+    return changes;
+}
+
+// Forces on every body at x, at rest in the frame; into `balance.force`.
+void forces_at_rest(Start& start) {
+    const Train& train = start.model.train;
+    const Load& load = start.model.load;
+    const State& state = start.state;
+    double* force = start.balance.force;
+    std::fill(force, force + BODIES, 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (state.side[i] == OPEN) continue;
+        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
+        double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
+        double normal_force = k * (d - static_cast<double>(state.side[i]) * load.offset);
+        for (int j = 0; j < entries_of(train); ++j)
+            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * normal_force;
+        if constexpr (MOVING)
+            add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
+                             force);
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        double coupling_force = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += load.torque[c] / train.radius[machine] - coupling_force;
+        force[member] += coupling_force;
+    }
+    double power[LEDGER] = {};
+    apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
+    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
+}
+
+// Move x to the equilibrium of unilateral flanks and bearings with clearance under the mean
+// torques: Newton's method, which is exact once the contacts are known (see statics/statics.py).
+void balance_axes(Start& start) {
+    const Train& train = start.model.train;
+    State& state = start.state;
+    for (int pass = 0; pass < MOST_PASSES; ++pass) {
+        place_pairs(start);
+        bool changes = pass > 0 && touch_flanks(start);
+        if (changes) place_pairs(start);
+        forces_at_rest(start);
+        State before = state;
+        displace_by_forces(start);
+        const double share = pass < SHORTENED_PASSES ? 1.0 : 0.5;
+        double moved = 0.0;
+        for (std::int64_t j = 0; j < train.bodies; ++j) {
+            moved = std::max(moved, std::fabs(state.x[j] - before.x[j]));
+            state.x[j] = before.x[j] + share * (state.x[j] - before.x[j]);
+        }
+        if (pass > 0 && !changes && moved < AT_REST) return;
+    }
+}
+
+// Write the largest force on a body at rest at x to `found`: zero in equilibrium.
+void find_unbalanced(Start& start, InitialState& found) {
+    touch_flanks(start);
+    place_pairs(start);
+    forces_at_rest(start);
+    for (std::int64_t j = 0; j < start.model.train.bodies; ++j) {
+        const double force = std::fabs(start.balance.force[j]);
+        if (force <= found.unbalanced) continue;
+        found.unbalanced = force;
+        found.body = j;
+    }
+}
+
+// Choose x so that every mesh and coupling carries its mean load at the present motor angle.
+//
+// The wind-up of the couplings is a considerable part of a mesh cycle, and moves the tooth pairs,
+// on whose stiffness the deflections of the meshes depend.
+void balance_at_angle(Start& start) {
+    if constexpr (MOVING) return balance_axes(start);
+    for (int n = 0; n < SETTLING_PASSES; ++n) {
+        place_pairs(start);
+        balance_mean_forces(start);
+    }
+    place_pairs(start);
+}
+
+// Forces without those of a changing speed; into `balance.evaluation`.
+void forces_at_constant_speed(const Model& model, Start& start) {
+    State& state = start.state;
+    std::fill(start.step.slew, start.step.slew + AXES, 0.0);
+    place_drives(model, state, start.step);
+    forces(model, state, start.step, state.x, state.v, 0.0, state.trim, start.balance.evaluation);
+}
+
+// Torque against the rigid motion of a motor [N m].
+double drag(const Start& start, std::int64_t axis) {
+    const Train& train = start.model.train;
+    double total = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j)
+        total -= train.ratio[axis][j] * start.balance.evaluation.force[j] * train.radius[j];
+    return total;
+}
+
+// Drag of each motor's motion by friction in equilibrium: a mean over a mesh cycle from motor angle
+// zero, at which `state` is left.
+void mean_drag(Start& start, double* drags) {
+    const Train& train = start.model.train;
+    std::fill(drags, drags + AXES, 0.0);
+    for (int point = 0; point < CYCLE_POINTS; ++point) {
+        start.state.fraction[0] = point / (CYCLE_POINTS * std::abs(train.cycles[0]));
+        balance_at_angle(start);
+        forces_at_constant_speed(start.model, start);
+        for (std::int64_t a = 0; a < train.axes; ++a) drags[a] += drag(start, a) / CYCLE_POINTS;
+    }
+    start.state.fraction[0] = 0.0;
+}
+
+// Set the sides of the meshes from the gaps of their flanks: errors of form beyond the deflection
+// separate them.
+void choose_sides(Start& start) {
+    const Train& train = start.model.train;
+    double half = start.model.load.half_backlash;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double side = static_cast<double>(start.state.side[i]);
+        double d = mesh_motion(train, i, start.state.x);
+        double own = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
+        if (side * (d - own) >= half) continue;
+        double other = form_error(train, i, -side, start.step.line_angle, 0.0, 0.0).length;
+        start.state.side[i] = side * (other - d) <= half ? OPEN : -start.state.side[i];
+    }
+    place_pairs(start);
+}
+
+// Move x to the equilibrium of all forces with friction, for gears that creep.
+//
+// The motors stand still. Fills the unbalanced torques along the motion of each.
+void balance_friction(Start& start, double* drags) {
+    forces_at_constant_speed(start.model, start);
+    const double* force = start.balance.evaluation.force;
+    std::copy(force, force + BODIES, start.balance.force);
+    displace_by_forces(start);
+    place_pairs(start);
+    forces_at_constant_speed(start.model, start);
+    for (std::int64_t a = 0; a < start.model.train.axes; ++a) drags[a] = drag(start, a);
+}
+
+// Set the trim of the speed loop so that the machines balance the drag along each rigid motion.
+void trim(const Model& model, const double* drags, State& state) {
+    const Train& train = model.train;
+    double effect[AXES][AXES] = {};  // torque along motion a per trim b
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            for (std::int64_t b = 0; b < train.axes; ++b)
+                effect[a][b] += train.ratio[a][train.coupling[c][0]] * model.load.trim_gain[c][b];
+    if (train.axes == 1 || effect[0][0] == 0.0 || effect[1][1] == 0.0) {
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            if (effect[a][a] != 0.0) state.trim[a] += drags[a] / effect[a][a];
+        return;  // no machine controls the other speeds
+    }
+    double determinant = effect[0][0] * effect[1][1] - effect[0][1] * effect[1][0];
+    state.trim[0] += (drags[0] * effect[1][1] - drags[1] * effect[0][1]) / determinant;
+    state.trim[1] += (drags[1] * effect[0][0] - drags[0] * effect[1][0]) / determinant;
+}
+
+bool is_closed(const Train& train, const State& state) {
+    return std::all_of(state.side, state.side + train.meshes,
+                       [](std::int64_t side) { return side != OPEN; });
+}
+
+}  // namespace
+
+InitialState initial_state(const Model& model, const double* speed, double force) {
+    const Train& train = model.train;
+    InitialState found{};
+    State& state = found.state;
+    std::copy(speed, speed + AXES, state.speed);
+    std::copy(speed, speed + AXES, state.set_speed);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const std::int64_t side = force >= 0.0 ? DRIVE_SIDE : COAST_SIDE,
+                           only = only_side(train, i);
+        state.side[i] = only == OPEN || only == side ? side : OPEN;
+    }
+    auto steady = std::make_unique<Model>(model);
+    steady->load.ripple = 0.0;
+    std::fill(std::begin(steady->load.proportional), std::end(steady->load.proportional), 0.0);
+    auto start = std::unique_ptr<Start>(new Start{*steady, force, state, {}, {}});
+    double drags[AXES];
+    mean_drag(*start, drags);
+    balance_at_angle(*start);
+    if constexpr (MOVING)
+        find_unbalanced(*start, found);
+    else
+        choose_sides(*start);
+    trim(model, drags, state);
+    if (is_closed(train, state) && creeps(train, frame_cycle_rate(train, state))) {
+        for (int n = 0; n < BALANCING_PASSES; ++n) {
+            balance_friction(*start, drags);
+            trim(model, drags, state);
+        }
+    }
+    return found;
+}
+
+}  // namespace gearbox
