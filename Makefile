@@ -75,7 +75,7 @@ soak: setup
 	SOAK_DURATION=$(or $(DURATION),3600) $(BIN)/pytest -q -s -p no:cacheprovider tests/ros/test_soak.py
 
 lint: setup
-	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy
+	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy && $(BIN)/lint-imports --no-logo
 	@$(BIN)/clang-format --dry-run --Werror $(filter %.hpp %.cpp,$(CORE))
 
 bench: setup

@@ -124,7 +124,7 @@ def _readings(
     path: Path, sensors: Sensors
 ) -> tuple[list[Block], np.datetime64 | None, tuple[str, ...]]:
     """Blocks of readings, the date of second 0 of their stamps, and columns that are not used."""
-    from ..recording.tables.suffixes import is_table
+    from ..recording.container.suffixes import is_table
 
     if is_table(path):
         from ..following.measured_tables import read_readings

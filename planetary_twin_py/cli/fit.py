@@ -98,7 +98,7 @@ def fit(  # noqa: PLR0913 - an argument for each option
     need("recording", "mcap", "rosbags")
     if report is not None:
         need("plots", "matplotlib")
-    from ..recording.tables.suffixes import is_table
+    from ..recording.container.suffixes import is_table
 
     console, manoeuvre = console_beside(json_), is_table(file)
     if manoeuvre:

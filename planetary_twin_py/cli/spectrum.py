@@ -109,7 +109,7 @@ class Options:
     @property
     def is_table(self) -> bool:
         """Whether the file is a table of a sensor."""
-        from ..recording.tables.suffixes import is_table
+        from ..recording.container.suffixes import is_table
 
         return is_table(self.file)
 
@@ -172,7 +172,7 @@ def _check(asked: Options) -> None:
         if asked.set_ and asked.scene is None:
             fail("--set: needs --scene")
     elif any(each is not None for each in given):
-        from ..recording.tables.suffixes import TABLES
+        from ..recording.container.suffixes import TABLES
 
         options = "--column, --speed, --sample-rate, --scene and --set are for tables"
         fail(f"{asked.file}: {options}; {TABLES}")
@@ -240,8 +240,8 @@ def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
 
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest settled part at one operating point, or all of it if there is none."""
+    from ..recording.container.suffixes import is_table
     from ..recording.runs.steadiness import steady_span
-    from ..recording.tables.suffixes import is_table
 
     if file.suffix == ".npz" or is_table(file):
         return signal.within(None, None)

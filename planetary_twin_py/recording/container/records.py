@@ -17,12 +17,12 @@ from mcap.records import Channel, DataEnd, Message, Schema
 from mcap.stream_reader import CRCValidationError
 
 from ...text.escaping import one_line
-from ..tables.suffixes import TABLES
 from .damage import Damages
 from .foreign import how_stored
 from .framing import DAMAGED, opened, piece_at
 from .integrity import MAGIC, damaged_summary, end_of_data
 from .missing_files import missing_files
+from .suffixes import TABLES
 from .walk import Lost, Sound, Walk
 
 MOST_TOPICS = 2048

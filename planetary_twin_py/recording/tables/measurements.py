@@ -17,11 +17,11 @@ from pyarrow import parquet
 from ...scene.names import did_you_mean
 from ...text.escaping import one_line
 from ...units.conversion import LARGEST, column_to_si
+from ..container.suffixes import SUFFIXES, TABLES, is_table
 from .csv_file import read_csv
 from .mat_file import MatError, read_mat
 from .parquet_pages import unpacked_size
 from .rounded_stamps import UNEVEN, rounded_grid
-from .suffixes import SUFFIXES, TABLES, is_table
 from .units_file import units_beside
 from .unpacking import check_columns, check_unpacked
 
