@@ -15,11 +15,12 @@ from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording, read_recording
 from ..recording.runs.unwrapping import unwrap
 from ..recording.tables.unpacking import check_unpacked
+from ..units.catalogue import WAVEFORM
 from .segments import full_rate, longest_segment, sample_rate
 
 Array = NDArray[np.float64]
 MEAN = 0.5  # of the rms speed; the mean of a run-up from standstill is 0.87 of it
-QUANTITIES = {"dte": "m", "mesh_force": "N", "friction": "N"}
+QUANTITIES = {name: quantity.si for name, quantity in WAVEFORM.items()}
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ class Options:
         ),
     ] = False
     mesh: Annotated[str, typer.Option(help="Name of the mesh.")] = "sun_planet_1"
-    quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte"
+    quantity: Annotated[str, typer.Option(help="Such as dte or mesh_force.")] = "dte"
     band: Annotated[
         str | None,
         typer.Option(

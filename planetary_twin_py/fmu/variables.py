@@ -14,6 +14,7 @@ from ..model.speed_loop import SpeedLoopCheck
 from ..model.train import build_train
 from ..scene import OperatingPoint, Scene
 from ..scene.drive import Causality
+from ..units.catalogue import WAVEFORM
 
 POINT_FIELDS = (
     "backlash",
@@ -39,7 +40,8 @@ class Variable:
     unit: str = ""
     """SI unit; empty for a dimensionless number."""
     index: int = 0
-    """Index of the port, the mesh or the field of the operating point."""
+    """Index of the port or the field of the operating point; of a mesh: its number and that of the
+    quantity times the number of meshes."""
     causality: Literal["independent", "input", "output", "parameter"] = "output"
     """Causality, as FMI defines it."""
     variability: Literal["continuous", "tunable", "fixed"] = "continuous"
@@ -58,11 +60,6 @@ SHOWN = {
     "angle": ("angle of the {} shaft, which counts whole turns", "rad"),
     "speed": ("speed of the {} shaft", "rad/s"),
     "torque": ("torque on the {} shaft, positive if it acts counter-clockwise", "N m"),
-}
-MESH = {
-    "dte": ("dynamic transmission error along the line of action", "m"),
-    "mesh_force": ("normal force, negative on the coast flanks", "N"),
-    "friction": ("magnitude of boundary plus viscous friction", "N"),
 }
 LOSS = "tooth friction, mean of the last step, bearings and churning at its end"
 GIVEN = {"torque": "torque", "motion": "speed"}
@@ -107,9 +104,13 @@ def _of_ports(scene: Scene, exported: Exported) -> Iterator[Variable]:
 
 
 def _of_meshes(scene: Scene) -> Iterator[Variable]:
-    for place, mesh in enumerate(mesh_names(scene).names):
-        for kind, (text, unit) in MESH.items():
-            yield Variable(f"{mesh}.{kind}", kind, f"{mesh}: {text}", unit, place)
+    meshes = mesh_names(scene).names
+    for place, mesh in enumerate(meshes):
+        for row, (name, quantity) in enumerate(WAVEFORM.items()):
+            yield Variable(
+                f"{mesh}.{name}", "mesh", f"{mesh}: {quantity.text}", quantity.si,
+                row * len(meshes) + place,
+            )  # fmt: skip
 
 
 def _of_point(scene: Scene) -> Iterator[Variable]:

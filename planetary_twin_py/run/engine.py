@@ -51,7 +51,7 @@ from ..model.train import build_train, held_axes
 from ..scene import OperatingPoint, Scene
 from .energy import EnergyBooks
 from .limits import Limits, RunawayError
-from .samples import Samples, Waves, new_samples
+from .samples import Samples, Waves, new_samples, wave_rows
 from .tolerance import check_tolerance
 from .window_jobs import WindowJob, WindowJobs
 
@@ -210,11 +210,11 @@ class Engine:
 
         for stop in self._stops(Fraction(until, TICKS), goal):
             due = min(max(_due(stop, rate, first), done), room)
-            part = _wave_rows(out, done, due)
+            part = wave_rows(out, done, due)
             yield from part_to(instant(stop), part, False)
             self._pass(stop)
             done = due
-        out = _wave_rows(out, done, room)
+        out = wave_rows(out, done, room)
         yield from part_to(goal, out, True)
 
     def _watch(self, outcome: int, end: WindowEnd) -> None:
@@ -369,11 +369,6 @@ class Engine:
 def _due(time: Fraction | float, rate: float, first: int) -> int:
     """Number of samples from number `first` on that lie before `time` [s] or at it."""
     return math.floor(Fraction(time) * Fraction(rate)) + 1 - first
-
-
-def _wave_rows(waves: Waves, begin: int, end: int) -> Waves:
-    """Some of the samples; what is written there is written into them."""
-    return Waves(*(each[begin:end] for each in waves))
 
 
 def _rows(samples: Samples, begin: int, end: int | None) -> Samples:

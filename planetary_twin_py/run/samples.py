@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import AXES, QUANTITIES, Train
+from .._core import AXES, QUANTITIES, WAVEFORM, Train
 
 MEMBERS = 3  # sun, ring, carrier
 SAMPLE_AXES = 4  # components of what a bearing shows in the plane
@@ -31,14 +31,19 @@ class Waves(NamedTuple):
     """Every sample of the meshes that are reported, for `Run.window`."""
 
     time: np.ndarray  # (rows,) [s]
-    dte: np.ndarray  # (rows, meshes) [m]
-    mesh_force: np.ndarray  # (rows, meshes) [N]
-    friction: np.ndarray  # (rows, meshes), magnitude [N]
+    mesh: tuple[np.ndarray, ...]  # of each of `WAVEFORM` (rows, meshes)
     displacement: np.ndarray  # (rows, 2 bearings) of axes that move [m]
     bearing_force: np.ndarray  # (rows, 2 bearings), on the bearing [N]
     orbit: np.ndarray  # (rows, 6) of sun, ring and carrier in the housing [m]
     flank_force: np.ndarray  # (rows, 2 meshes) of drive, then of coast flanks [N]
     tilting: np.ndarray  # (rows, 6 bearings) of axes that tilt, see `Samples`
+
+
+def wave_rows(waves: Waves, begin: int, end: int) -> Waves:
+    """Some of the samples; what is written there is written into them."""
+    time, mesh, *axes = waves
+    part = slice(begin, end)
+    return Waves(time[part], tuple(each[part] for each in mesh), *(each[part] for each in axes))
 
 
 def new_waves(rows: int, meshes: int, bearings: int = 0, tilting: bool = False) -> Waves:
@@ -47,7 +52,8 @@ def new_waves(rows: int, meshes: int, bearings: int = 0, tilting: bool = False) 
     of_tilting = SAMPLE_TILTING * bearings if tilting else 0
     return Waves(
         np.empty(rows),
-        *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes, of_tilting)),
+        tuple(np.empty((rows, meshes)) for _ in WAVEFORM),
+        *(np.empty((rows, columns)) for columns in (*of_axes, of_tilting)),
     )
 
 

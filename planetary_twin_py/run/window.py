@@ -18,20 +18,26 @@ from .counters import Course
 from .result import ROUNDING
 
 
-@dataclass(frozen=True)
-class Waveform:
-    """Every sample of every mesh; sample times are integer multiples of the sample period."""
+@dataclass
+class MeshSamples:
+    """Every sample of every mesh, (samples, meshes) each, by the names of `WAVEFORM`."""
 
-    period: float
-    """Sample period [s]."""
     time: np.ndarray
     """Sample times [s], (samples,)."""
     dte: np.ndarray
-    """Dynamic transmission error along the line of action [m], (samples, meshes)."""
+    """Dynamic transmission error along the line of action [m]."""
     mesh_force: np.ndarray
-    """Normal force, negative on the coast flanks [N], (samples, meshes)."""
+    """Normal force, negative on the coast flanks [N]."""
     friction: np.ndarray
-    """Magnitude of boundary plus viscous friction [N], (samples, meshes)."""
+    """Magnitude of boundary plus viscous friction [N]."""
+
+
+@dataclass(kw_only=True, repr=False)
+class Waveform(MeshSamples):
+    """Samples of a window; sample times are integer multiples of the sample period."""
+
+    period: float
+    """Sample period [s]."""
 
     def __repr__(self) -> str:
         """One line; arrays by their shapes."""

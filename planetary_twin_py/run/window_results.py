@@ -75,7 +75,7 @@ class WindowResults:
             repeated=plan.repeated,
             bodies=self._bodies,
             meshes=self._meshes,
-            waveform=Waveform(1.0 / sample_rate, *plan.waves[:4]),
+            waveform=Waveform(plan.waves.time, *plan.waves.mesh, period=1.0 / sample_rate),
             mesh=mesh,
             angle=self._angle.copy(),
             mean_speed=mean_speed,

@@ -115,8 +115,14 @@ TRAIN_PLOTS = {
 }
 """Fields of GearboxState that share a plot of a recording, by name of the plot."""
 
-WAVEFORM = {"dte": Quantity("DTE", "m"), "mesh_force": Quantity("Mesh force", "N")}
-"""Samples of every mesh: fields of MeshWaveform."""
+WAVEFORM = {
+    "dte": Quantity("DTE", "m", "dynamic transmission error along the line of action"),
+    "mesh_force": Quantity("Mesh force", "N", "normal force, negative on the coast flanks"),
+    "friction": Quantity("Friction", "N", "magnitude of boundary plus viscous friction"),
+}
+"""Samples of every mesh, as in the core: fields of MeshWaveform, attributes of `MeshSamples`."""
+WAVEFORM_VIEWS = ("dte", "mesh_force")
+"""Those that a view of a recording shows."""
 
 MEMBERS = ("sun", "ring", "carrier")
 """Central bodies, by prefix of a field."""

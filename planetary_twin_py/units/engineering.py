@@ -33,7 +33,7 @@ def figure(value: float, unit: str, digits: int = 4) -> str:
     Returns:
         Number and unit, e.g. "-616.3 um"; the number alone if it has no unit, or "-" for NaN.
     """
-    from .conversion import customary
+    from .conversion import customary  # imports NumPy, which completion does not need
 
     if math.isnan(value):
         return "-"

@@ -17,6 +17,7 @@ from ..units.catalogue import (
     SHARING,
     TRAIN_PLOTS,
     WAVEFORM,
+    WAVEFORM_VIEWS,
 )
 from . import orbits as orbit
 from . import phase_portrait, spectra
@@ -283,7 +284,7 @@ def _set_point(name: str, several: bool) -> rrb.TimeSeriesView:
 
 def _difference(compared: str) -> rrb.Horizontal:
     less = f" minus that of {compared}"
-    views = [show(name, DIFFERENCE, less) for name in WAVEFORM for show in (_zoom, _range)]
+    views = [show(name, DIFFERENCE, less) for name in WAVEFORM_VIEWS for show in (_zoom, _range)]
     return _page("Difference", views)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
-from ..recording.runs.waveform import InMemory, Waveform
+from ..recording.runs.waveform import QUANTITIES, InMemory, Waveform
 
 DIFFERENCE = "difference"
 """Parent of the entities of differences."""
@@ -70,7 +70,5 @@ def _subtract(first: Waveform, other: Waveform) -> Waveform:
         time=other.time[rows],
         stamp=other.stamp[rows],
         block=blocks[blocks < len(rows)],
-        dte=other.dte[rows] - first.dte[nearest],
-        mesh_force=other.mesh_force[rows] - first.mesh_force[nearest],
-        friction=other.friction[rows] - first.friction[nearest],
+        **{name: getattr(other, name)[rows] - getattr(first, name)[nearest] for name in QUANTITIES},
     )

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from ..scene import Scene
 from .chart import GRID, Chart, Ticks, grid, labels, send_labels, send_strips
 from .frames import Frames
 from .layer import Layer
@@ -36,17 +37,19 @@ class _Portrait(NamedTuple):
     y: Ticks
 
 
-def log_phase_portrait(layer: Layer, frames: Frames) -> None:
+def log_phase_portrait(layer: Layer, frames: Frames, scene: Scene | None) -> None:
     """Log /phase_portrait, with axes scaled to its size.
 
     Args:
         layer: recording to draw into.
         frames: windows of the DTE.
+        scene: whose law of backlash places the flanks; None: they are not marked.
     """
     point = frames.recording.operating_point
     rows = np.searchsorted(point.time, frames.time, side="right") - 1
-    half = [0.5 * float(point["backlash"][row]) if row >= 0 else math.nan for row in rows]
-    portraits = [_portrait(frames, number, half[number]) for number in range(len(frames.time))]
+    backlash = [float(point["backlash"][row]) if row >= 0 else math.nan for row in rows]
+    meet = [math.nan if scene is None else flanks_meet(scene, each) for each in backlash]
+    portraits = [_portrait(frames, number, meet[number]) for number in range(len(frames.time))]
     index, colour = frames.index, mesh_colours(frames.recording.planets)[0]
     send_strips(
         layer, "phase_portrait/grid", index,
@@ -66,7 +69,18 @@ def log_phase_portrait(layer: Layer, frames: Frames) -> None:
     send_labels(layer, "phase_portrait/marks", index, marks)
 
 
-def _portrait(frames: Frames, number: int, half_backlash: float) -> _Portrait | None:
+def flanks_meet(scene: Scene, backlash: float) -> float:
+    """Magnitude of the transmission error at which flanks meet [m].
+
+    Args:
+        scene: whose law of backlash is used.
+        backlash: of the operating point [m].
+    """
+    meet, _ = scene.mesh.flanks(backlash, scene.gearset.transverse.pressure_angle)
+    return meet
+
+
+def _portrait(frames: Frames, number: int, meet: float) -> _Portrait | None:
     window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:
         return None
@@ -75,7 +89,7 @@ def _portrait(frames: Frames, number: int, half_backlash: float) -> _Portrait | 
     fine = np.linspace(time[0], time[-1], min(FINER * len(time), MOST_POINTS))
     x, y = 1e6 * spline(fine), 1e3 * spline(fine, 1)
     chart = Chart("phase_portrait", WIDTH, HEIGHT, _range(x), _range(y))
-    flanks = [1e6 * side * half_backlash for side in (-1.0, 1.0)]
+    flanks = [1e6 * side * meet for side in (-1.0, 1.0)]
     return _Portrait(
         chart,
         chart.place(x, y),

@@ -176,7 +176,7 @@ def _log_first(
     if windows is None:
         return []
     aliases = log_spectra(layer, windows, scene)
-    log_phase_portrait(layer, windows)
+    log_phase_portrait(layer, windows, scene)
     samples = recording.axes_blocks.samples(-math.inf, math.inf) if drawn else None
     if samples is not None:
         log_orbits(layer, windows, samples)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..recording.runs.reader import Recording
 from ..recording.runs.waveform import Ranges, TimeSpan, Waveform
-from ..units.catalogue import WAVEFORM
+from ..units.catalogue import WAVEFORM, WAVEFORM_VIEWS
 from . import timeline
 from .detail import first_rows
 from .layer import Layer
@@ -56,7 +56,8 @@ def _log_ranges(layer: Layer, recording: Recording, ranges: Ranges, detail: list
     index = timeline.columns(ranges.time[begins], ranges.stamp[begins])
     names = [f"{mesh}_{end}" for mesh in recording.meshes for end in ("min", "max")]
     colours = [colour for colour in mesh_colours(recording.planets) for _ in range(2)]
-    for name, quantity in WAVEFORM.items():
+    for name in WAVEFORM_VIEWS:
+        quantity = WAVEFORM[name]
         ends = (
             np.fmin.reduceat(ranges.lowest[name], begins, axis=0),
             np.fmax.reduceat(ranges.highest[name], begins, axis=0),
@@ -85,6 +86,7 @@ def _log_samples(
     shown = [0, recording.planets]  # sun_planet_1 and planet_ring_1
     names = [recording.meshes[mesh] for mesh in shown]
     colours = [mesh_colours(recording.planets)[mesh] for mesh in shown]
-    for name, quantity in WAVEFORM.items():
+    for name in WAVEFORM_VIEWS:
+        quantity = WAVEFORM[name]
         values = quantity.factor * getattr(waveform, name)[:, shown][part].astype(np.float64)
         log_series(layer, f"waveform/{name}", index, values, names, colours)

@@ -15,7 +15,7 @@ from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.chart import Chart
 from planetary_twin_py.view.colour_map import shade
 from planetary_twin_py.view.frames import MOST, frames
-from planetary_twin_py.view.phase_portrait import log_phase_portrait
+from planetary_twin_py.view.phase_portrait import flanks_meet, log_phase_portrait
 from planetary_twin_py.view.round_numbers import one_digit, round_up, ticks
 from planetary_twin_py.view.show import save
 from planetary_twin_py.view.spectra import HEIGHT, _orders, _spectrum, log_spectra
@@ -119,11 +119,17 @@ def test_long_recordings_have_no_more_windows_than_half_a_minute_and_take_few_se
     stream.save(tmp_path / "a.rrd")
     began = time.process_time()
     log_spectra(stream, windows, load_scene("paper"))
-    log_phase_portrait(stream, windows)
+    log_phase_portrait(stream, windows, load_scene("paper"))
     stream.flush()
     stream.disconnect()
     assert time.process_time() - began < 15.0
     assert (tmp_path / "a.rrd").stat().st_size < 40e6
+
+
+@pytest.mark.parametrize(("law", "share"), [("dead_zone", 0.5), ("regulatory_factor", 1.0)])
+def test_marks_of_the_portrait_are_where_flanks_meet(law, share):
+    scene = load_scene("paper").replace(**{"mesh.backlash": law, "mesh.motion": "line_of_action"})
+    assert flanks_meet(scene, 4e-5) == share * 4e-5
 
 
 def test_a_chart_places_values_by_its_axes_and_clips_at_its_frame():

@@ -16,9 +16,7 @@ void bind_exported(nb::module_& m) {
     kinds["angle"] = ANGLE;
     kinds["speed"] = SPEED;
     kinds["torque"] = TORQUE;
-    kinds["dte"] = MESH_DTE;
-    kinds["mesh_force"] = MESH_LOAD;
-    kinds["friction"] = MESH_FRICTION;
+    kinds["mesh"] = MESH;
     kinds["power_loss"] = POWER_LOST;
     kinds["point"] = POINT;
     m.attr("VARIABLE_KINDS") = kinds;

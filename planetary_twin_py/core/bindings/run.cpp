@@ -23,10 +23,9 @@ using namespace nb::literals;
 
 namespace {
 
-// Arrays of a waveform: time, dte, mesh force, friction; displacement, bearing force, orbit and
-// flank force, which have no columns if the axes are fixed; axial motion and tilts, if the axes
-// tilt.
-using WaveformTuple = std::tuple<Values, Rows, Rows, Rows, Rows, Rows, Rows, Rows, Rows>;
+// Arrays of a waveform: time; those of `WAVEFORM`; displacement, bearing force, orbit and flank
+// force, which have no columns if the axes are fixed; axial motion and tilts, if the axes tilt.
+using WaveformTuple = std::tuple<Values, std::vector<Rows>, Rows, Rows, Rows, Rows, Rows>;
 
 bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
     return values.shape(0) == rows && values.shape(1) == columns;
@@ -34,11 +33,10 @@ bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
 
 Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int64_t first,
                      double rate, const Train& train) {
-    auto& [time, dte, mesh_force, friction, displacement, bearing_force, orbit, flank_force,
-           tilting] = arrays;
+    auto& [time, mesh, displacement, bearing_force, orbit, flank_force, tilting] = arrays;
     std::size_t rows = time.size(), meshes = static_cast<std::size_t>(report.meshes);
-    bool sound = true;
-    for (const Rows* values : {&dte, &mesh_force, &friction}) sound &= fits(*values, rows, meshes);
+    bool sound = mesh.size() == WAVE_QUANTITIES;
+    for (const Rows& values : mesh) sound &= fits(values, rows, meshes);
     if constexpr (MOVING) {
         auto bearings = static_cast<std::size_t>(train.moving.bearings);
         sound &= fits(displacement, rows, 2 * bearings) && fits(bearing_force, rows, 2 * bearings);
@@ -46,15 +44,12 @@ Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int
         sound &= fits(tilting, rows, tilts(train) ? SAMPLE_TILTING * bearings : 0);
     }
     if (!sound) throw nb::value_error("waveform: arrays of a wrong shape");
-    return {static_cast<std::int64_t>(rows),
-            first,
-            rate,
-            time.data(),
-            dte.data(),
-            mesh_force.data(),
-            friction.data(),
-            {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data(),
-             tilting.data()}};
+    Waveform found{static_cast<std::int64_t>(rows), first, rate, time.data(), {}, {}};
+    for (int k = 0; k < WAVE_QUANTITIES; ++k)
+        found.mesh[k] = mesh[static_cast<std::size_t>(k)].data();
+    found.axes = {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data(),
+                  tilting.data()};
+    return found;
 }
 
 // Arguments of `run_window` in Python, in this order.
@@ -137,6 +132,10 @@ void bind_statistics(nb::module_& m) {
 }  // namespace
 
 void bind_run(nb::module_& m) {
+    nb::dict waveform;
+    for (const WaveQuantity& each : WAVEFORM)
+        waveform[each.name] = nb::make_tuple(each.first, each.last);
+    m.attr("WAVEFORM") = waveform;
     m.attr("WITHIN_LIMITS") = static_cast<int>(Outcome::WITHIN_LIMITS);
     m.attr("EXCEEDED") = static_cast<int>(Outcome::EXCEEDED);
     m.attr("NOT_FINITE") = static_cast<int>(Outcome::NOT_FINITE);

@@ -20,8 +20,8 @@ constexpr int DIGEST = 64;       // characters before the record, padded with ze
 constexpr int NODE_CHOICES = 2;  // numbers of collocation points
 
 // Kinds of variables.
-constexpr std::int64_t TIME = 0, ANGLE = 1, SPEED = 2, TORQUE = 3, MESH_DTE = 4, MESH_LOAD = 5,
-                       MESH_FRICTION = 6, POWER_LOST = 7, POINT = 8;
+constexpr std::int64_t TIME = 0, ANGLE = 1, SPEED = 2, TORQUE = 3, MESH = 4, POWER_LOST = 5,
+                       POINT = 6;
 
 // When a variable may be set.
 constexpr std::int64_t NOT_GIVEN = 0, AT_ANY_TIME = 1, BEFORE_THE_END = 2;
@@ -29,7 +29,8 @@ constexpr std::int64_t NOT_GIVEN = 0, AT_ANY_TIME = 1, BEFORE_THE_END = 2;
 // The index of a variable is its value reference.
 struct Variable {
     std::int64_t kind;
-    std::int64_t index;       // of the port, of the reported mesh, or in the operating point
+    std::int64_t index;       // of the port, or in the operating point; of a mesh: its number and
+                              // that of the quantity of `WAVEFORM` times the number of meshes
     std::int64_t given;       // NOT_GIVEN, AT_ANY_TIME or BEFORE_THE_END of the initialisation
     double lowest;            // lower limit of values that may be set
     double highest;           // upper limit of values that may be set

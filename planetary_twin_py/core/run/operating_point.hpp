@@ -51,10 +51,15 @@ inline double start_speed(const PointLaws& laws, const OperatingPoint& point) {
     return laws.starts_elsewhere ? laws.start_speed : point.input_speed;
 }
 
+// Half the backlash along the line of action, as its law counts it [m].
+inline double half_backlash(const PointLaws& laws, const OperatingPoint& point) {
+    return point.backlash * laws.half_backlash_factor;
+}
+
 // Loads at an operating point; given torques and speeds are those of steady running there.
 inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
     Load load = laws.constant;
-    load.half_backlash = point.backlash * laws.half_backlash_factor;
+    load.half_backlash = half_backlash(laws, point);
     load.offset = laws.from_zero ? 0.0 : load.half_backlash;
     const double inner = load.half_backlash - load.offset;
     load.inner_squared = inner * inner;
@@ -101,7 +106,7 @@ inline double elastic_deflection(const PointLaws& laws, const OperatingPoint& po
 
 // The same with half the backlash [m].
 inline double deflection_at(const PointLaws& laws, const OperatingPoint& point) {
-    return elastic_deflection(laws, point) + 0.5 * point.backlash;
+    return elastic_deflection(laws, point) + half_backlash(laws, point);
 }
 
 }  // namespace gearbox

@@ -29,16 +29,15 @@ void put_waveform(const Report& report, const Train& train, const double* mesh,
     for (std::int64_t row = 0; row < out.rows; ++row) {
         const double* shown = mesh + row * WAVES * meshes;
         out.time[row] = static_cast<double>(out.first + row) / out.rate;
-        for (std::int64_t i = 0; i < n; ++i) {
-            const double* at = shown + report.mesh[i];
-            out.dte[row * n + i] = at[DTE * meshes];
-            out.mesh_force[row * n + i] = at[MESH_FORCE * meshes];
-            out.friction[row * n + i] = at[BOUNDARY * meshes] + at[VISCOUS * meshes];
-            if constexpr (!MOVING) continue;
-            const double* other = shown + other_flank(train, report.mesh[i]);
-            out.mesh_force[row * n + i] += other[MESH_FORCE * meshes];
-            out.friction[row * n + i] += other[BOUNDARY * meshes] + other[VISCOUS * meshes];
-        }
+        for (std::int64_t i = 0; i < n; ++i)
+            for (int k = 0; k < WAVE_QUANTITIES; ++k) {
+                auto on = [&](std::int64_t flank) {
+                    return wave_of(WAVEFORM[k],
+                                   [&](int each) { return shown[each * meshes + flank]; });
+                };
+                double& value = out.mesh[k][row * n + i] = on(report.mesh[i]);
+                if (MOVING && WAVEFORM[k].of_flank) value += on(other_flank(train, report.mesh[i]));
+            }
     }
 }
 

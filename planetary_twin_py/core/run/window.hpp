@@ -3,6 +3,7 @@
 // A window of a run: its waveform, and the state of the train at its end.
 
 #include <cstdint>
+#include <iterator>
 
 #include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
@@ -23,16 +24,36 @@ struct AxesWaveform {
     double* tilting;        // (rows, bearings, SAMPLE_TILTING), see Samples; only if axes tilt
 };
 
+// A quantity of the waveform of a mesh: the sum of rows of `observe`.
+struct WaveQuantity {
+    const char* name;  // as in messages and results
+    int first, last;   // rows
+    bool of_flank;     // whether the flanks of a mesh add up; they have the DTE in common
+};
+
+inline constexpr WaveQuantity WAVEFORM[] = {
+    {"dte", DTE, DTE, false},                      // [m]
+    {"mesh_force", MESH_FORCE, MESH_FORCE, true},  // [N]
+    {"friction", BOUNDARY, VISCOUS, true},         // magnitude [N]
+};
+constexpr int WAVE_QUANTITIES = std::size(WAVEFORM);
+
+// Value of a quantity, given `value(row)` of the rows of `observe`.
+template <class Value>
+inline double wave_of(const WaveQuantity& quantity, Value&& value) {
+    double sum = value(quantity.first);
+    for (int row = quantity.first + 1; row <= quantity.last; ++row) sum += value(row);
+    return sum;
+}
+
 // All samples of all reported meshes, in arrays of the caller.
 struct Waveform {
     std::int64_t rows;
-    std::int64_t first;  // number of the first sample
-    double rate;         // [Hz]
-    double* time;        // (rows,) [s]
-    double* dte;         // (rows, meshes) [m]
-    double* mesh_force;  // (rows, meshes) [N]
-    double* friction;    // (rows, meshes), magnitude [N]
-    AxesWaveform axes;   // not requested if the axes are fixed
+    std::int64_t first;             // number of the first sample
+    double rate;                    // [Hz]
+    double* time;                   // (rows,) [s]
+    double* mesh[WAVE_QUANTITIES];  // (rows, meshes) each
+    AxesWaveform axes;              // not requested if the axes are fixed
 };
 
 // State of the train at the end of a window, and the sums up to it.

@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from ...run.window import Window
-from ...units.catalogue import MEMBERS, SIDES, TRAIN
+from ...units.catalogue import MEMBERS, SIDES, TRAIN, WAVEFORM
 
-WAVES = ("dte", "mesh_force", "friction")
 ROOM = 7  # largest number of planets in a message
 TURN = 2.0 * np.pi  # [rad]
 
@@ -53,7 +52,7 @@ def waveform_fields(window: Window) -> dict[str, Any]:
         "sample_period": wave.period,
         "planets": len(window.meshes) // 2,
         "samples": len(wave.time),
-        **{name: getattr(wave, name).T.astype(np.float32).ravel() for name in WAVES},
+        **{name: getattr(wave, name).T.astype(np.float32).ravel() for name in WAVEFORM},
     }
 
 

@@ -12,13 +12,14 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from ...units.catalogue import WAVEFORM
 from .definitions import KINDS, definition_of
 
 _LONGEST = 100_000  # bytes of a definition
 _MOST_FIELDS = 10_000  # of a message, including nested messages and array elements
 _BOUNDED = (Nodetype.ARRAY, Nodetype.SEQUENCE)
 _IN_TIME = ("header", "sequence", "simulated_time", "interval", "planets", "planet_angle")
-_SAMPLES = ("start_time", "sample_period", "samples", "dte", "mesh_force", "friction")
+_SAMPLES = ("start_time", "sample_period", "samples", *WAVEFORM)
 _OF_AXES = ("displacement", "bearing_force", "orbit")
 _NEEDED = frozenset((*_IN_TIME, *_SAMPLES, *_OF_AXES, "data", "name", "position"))
 """Fields without which nothing of a message can be placed; others a recording may lack."""

@@ -13,28 +13,26 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ...run.window import MeshSamples
+from ...units.catalogue import WAVEFORM
 from ..container.records import RecordingError, section_at
 from ..ros2.layout import LayoutError, Layouts
 
-QUANTITIES = ("dte", "mesh_force", "friction")
+QUANTITIES = tuple(WAVEFORM)
 Values = dict[str, NDArray[np.float32]]
 TimeSpan = tuple[float, float]
 """Start and end in simulated time [s]."""
 
 
-@dataclass
-class Waveform:
-    """Every sample of every mesh: `time` [s] and `stamp` [ns] (n,), the rest (n, meshes).
+@dataclass(kw_only=True)
+class Waveform(MeshSamples):
+    """Recorded samples, in single precision, with their `stamp` [ns], (n,).
 
     `block` holds the index of the first sample of each recorded block.
     """
 
-    time: NDArray[np.float64]
     stamp: NDArray[np.int64]
     block: NDArray[np.int64]
-    dte: NDArray[np.float32]
-    mesh_force: NDArray[np.float32]
-    friction: NDArray[np.float32]
 
 
 @dataclass
@@ -42,8 +40,8 @@ class Ranges:
     """Smallest and largest sample of each recorded block, without NaN.
 
     `time` [s] and `stamp` [ns] (blocks,) are those of the first sample, `period` [s] is the sample
-    period; `lowest[name]` and `highest[name]` have the shape (blocks, meshes), for "dte" [m],
-    "mesh_force" [N] and "friction" [N].
+    period; `lowest[name]` and `highest[name]` have the shape (blocks, meshes), for each of
+    `QUANTITIES`.
     """
 
     time: NDArray[np.float64]
@@ -149,7 +147,7 @@ class InMemory:
         rows = np.repeat(touched, counts)
         first = np.concatenate(([0], np.cumsum(counts[touched])))[:-1]
         columns = {name: getattr(wave, name)[rows] for name in QUANTITIES}
-        return Waveform(wave.time[rows], wave.stamp[rows], first, **columns)
+        return Waveform(time=wave.time[rows], stamp=wave.stamp[rows], block=first, **columns)
 
 
 class Blocks:
@@ -238,7 +236,7 @@ def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
         for name in QUANTITIES
     }
     time, stamp = times(arrays)
-    return Waveform(time, stamp, first[:-1], **columns)
+    return Waveform(time=time, stamp=stamp, block=first[:-1], **columns)
 
 
 def times(found: Sequence[NDArray[Any]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

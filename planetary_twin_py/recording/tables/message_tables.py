@@ -11,8 +11,9 @@ import numpy as np
 from ...text.escaping import one_line
 from ...units.catalogue import AXES_WAVEFORM as AXES_SAMPLES
 from ...units.catalogue import COMPONENTS, MEMBERS
+from ...units.catalogue import WAVEFORM as WAVEFORM_QUANTITIES
 from ..container.records import RecordingError
-from ..ros2.fields import ROOM, WAVES
+from ..ros2.fields import ROOM
 from ..ros2.message_units import units_of
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, POINT, STATE, WAVEFORM
 from ..runs.schedule import stamp_of
@@ -134,7 +135,7 @@ def _waves(messages: list[Any]) -> Batch:
     """One row per sample, a column for each mesh."""
     planets = messages[0].planets
     meshes = [f"{kind}_{n + 1}" for kind in ("sun_planet", "planet_ring") for n in range(planets)]
-    return _sampled(messages, dict.fromkeys(WAVES, meshes))
+    return _sampled(messages, dict.fromkeys(WAVEFORM_QUANTITIES, meshes))
 
 
 def _axes_waves(messages: list[Any]) -> Batch:

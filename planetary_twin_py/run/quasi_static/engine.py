@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 
 from ..._core import (
-    BOUNDARY,
     COAST_SIDE,
     DRIVE_SIDE,
-    DTE,
     LEDGER,
     MESH_FORCE,
-    VISCOUS,
+    WAVEFORM,
     Control,
     Load,
     Model,
@@ -144,8 +142,8 @@ class QuasiStaticEngine:
         moving = self.scene.moving_axes
         shown = joined_flanks(samples.mesh, place) if moving else samples.mesh[:, :, place]
         out.time[:] = np.arange(first, first + rows) / rate
-        out.dte[:], out.mesh_force[:] = shown[:, DTE], shown[:, MESH_FORCE]
-        out.friction[:] = shown[:, BOUNDARY] + shown[:, VISCOUS]
+        for values, (first_row, last_row) in zip(out.mesh, WAVEFORM.values(), strict=True):
+            values[:] = shown[:, first_row : last_row + 1].sum(axis=1)
         if moving and rows:
             self._put_axes(samples, place, out)
         self.begin_window(until, end)

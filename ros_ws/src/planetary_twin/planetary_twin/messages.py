@@ -17,10 +17,10 @@ from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Window
-from planetary_twin_py.recording.ros2.fields import MEMBERS, TURN, WAVES, mesh_field
+from planetary_twin_py.recording.ros2.fields import MEMBERS, TURN, mesh_field
 from planetary_twin_py.recording.ros2.point import point_fields
 from planetary_twin_py.run.twin import Change
-from planetary_twin_py.units.catalogue import TRAIN
+from planetary_twin_py.units.catalogue import TRAIN, WAVEFORM
 
 from .whole_turns import WholeTurns
 
@@ -89,14 +89,14 @@ class WaveformMessage:
         message.sequence += 1
         message.start_time = float(wave.time[0])
         message.sample_period = wave.period
-        for view, name in zip(self._views, WAVES, strict=True):
+        for view, name in zip(self._views, WAVEFORM, strict=True):
             view[:] = getattr(wave, name).T
         return message
 
     def _allocate(self, samples: int) -> None:
         self.message.samples = samples
         self._views = []
-        for name in WAVES:
+        for name in WAVEFORM:
             values = array("f", bytes(4 * self._meshes * samples))
             setattr(self.message, name, values)
             # The view shares the memory of the message.
