@@ -8,23 +8,13 @@ from typing import Literal
 
 import numpy as np
 
-from .._core import Exported
+from .._core import POINT_FIELDS, Exported
 from ..model.bodies import LOAD_MACHINE, MOTOR, mesh_names
 from ..model.speed_loop import SpeedLoopCheck
 from ..model.train import build_train
 from ..scene import OperatingPoint, Scene
 from ..scene.drive import Causality
 from ..units.catalogue import WAVEFORM
-
-POINT_FIELDS = (
-    "backlash",
-    "lambda_ratio",
-    "input_speed",
-    "second_input_speed",
-    "input_torque",
-    "torque_ripple",
-)
-"""Fields of the operating point that can be variables of an FMU, by their index in its records."""
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _core
-from .._core import Load, PointLaws, Train
+from .._core import POINT_FIELDS, Load, PointLaws, Train
 from ..scene import OperatingPoint, Scene
 from .bodies import base_radii
 from .speed_loop import bandwidth, speed_loop_gains
@@ -59,11 +59,4 @@ def record_of(point: OperatingPoint) -> _core.OperatingPoint:
     Returns:
         The record, without the temperature, of which the records of an oil are built.
     """
-    return _core.OperatingPoint(
-        backlash=point.backlash,
-        lambda_ratio=point.lambda_ratio,
-        input_speed=point.input_speed,
-        second_input_speed=point.second_input_speed,
-        input_torque=point.input_torque,
-        torque_ripple=point.torque_ripple,
-    )
+    return _core.OperatingPoint(**{name: getattr(point, name) for name in POINT_FIELDS})

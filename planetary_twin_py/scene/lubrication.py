@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
+from .._core import TRACTION_LAWS, WITHOUT_BOUNDARY
 from ..lubrication.viscosity_grade import GRADES, HIGHEST_INDEX, LOWEST_INDEX
 from ..units.conversion import to_si
 from .friction_table import FrictionTable
 from .oil_grade import with_grade
 from .quantity import Section, quantity
+
+if TYPE_CHECKING:
+    TractionLaw = str
+else:
+    TractionLaw = Literal[tuple(sorted(TRACTION_LAWS))]  # the laws that are compiled
 
 MINERAL_INDEX = 95.0  # of mineral gear oils, for which ISO 3448 lists viscosities
 DENSITY = 890.0  # [kg/m^3]
@@ -42,7 +48,7 @@ class Lubrication(Section):
     boundary: Literal["greenwood_tripp", "load_sharing"] = Field(
         "load_sharing", description="law of boundary friction"
     )
-    traction: Literal["eyring", "evans_johnson", "printed", "schlenk", "table"] = Field(
+    traction: TractionLaw = Field(
         "eyring",
         description="law of viscous friction; eyring: shear-thinning film up to its limiting "
         "stress; evans_johnson: plateau under heavy load; printed: (12) of Salagianni et al.; "
@@ -145,7 +151,7 @@ class Lubrication(Section):
     @property
     def includes_boundary_friction(self) -> bool:
         """Whether the law `traction` describes all friction, so that `boundary` is not used."""
-        return self.traction in ("schlenk", "table")
+        return self.traction not in WITHOUT_BOUNDARY
 
     @model_validator(mode="before")
     @classmethod

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from .._core import FIELDS_OF_TRACTION
+from .lubrication import Lubrication
 from .scene import Scene
 
-_UNUSED_WITHOUT_BOUNDARY = (
-    "lubrication.boundary",
-    "lubrication.boundary_coefficient",
-    "lubrication.limiting_stress",
-    "lubrication.shear_stress",
-)
-_WITH_BOUNDARY = ("eyring", "evans_johnson", "printed")  # viscous laws, boundary friction is added
+_OF_BOUNDARY = {"load_sharing": "boundary_coefficient", "greenwood_tripp": "shear_stress"}
+"""Field that a law of boundary friction uses, but film and load sharing do not."""
 
 
 def not_in_use(scene: Scene, name: str) -> str | None:
@@ -31,23 +28,11 @@ def not_in_use(scene: Scene, name: str) -> str | None:
             "the scene computes it (lubrication.lambda_ratio = computed); "
             "set lubrication.lambda_ratio = prescribed to prescribe it"
         )
-    traction = scene.lubrication.traction
-    if scene.lubrication.includes_boundary_friction and plain in _UNUSED_WITHOUT_BOUNDARY:
-        return f"lubrication.traction = {traction} includes boundary friction"
-    boundary = scene.lubrication.boundary
-    if (
-        plain == "lubrication.boundary_coefficient"
-        and traction in _WITH_BOUNDARY
-        and boundary != "load_sharing"
-    ):
-        return (
-            f"lubrication.boundary = {boundary} does not use it; "
-            "set lubrication.boundary = load_sharing to use it"
-        )
+    section, _, field = plain.partition(".")
+    if section == "lubrication" and (reason := _not_in_friction(scene.lubrication, field)):
+        return reason
     if plain == "lubrication.viscosity_index" and scene.lubrication.iso_vg is None:
         return "lubrication.iso_vg is not given; set it to a grade, such as 220"
-    if traction != "table" and plain.startswith("lubrication.friction_table"):
-        return f"lubrication.traction = {traction}; set lubrication.traction = table to use it"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
     beyond_plane = plain.endswith((".axial", ".tilting", ".axial_damping", ".tilting_damping"))
@@ -62,6 +47,31 @@ def not_in_use(scene: Scene, name: str) -> str | None:
     if plain.startswith((f"losses.{held}_bearing", f"losses.{held}_drag")):
         return f"this member is fixed (gearset.held = {held})"
     return None
+
+
+def _not_in_friction(lubrication: Lubrication, field: str) -> str | None:
+    """Why the laws of friction do not use a field of `lubrication`; None if they do."""
+    field, traction, boundary = field.partition(".")[0], lubrication.traction, lubrication.boundary
+    added = not lubrication.includes_boundary_friction
+    if field in FIELDS_OF_TRACTION[traction] or (added and field == _OF_BOUNDARY[boundary]):
+        return None
+    if field == "boundary" or field in _OF_BOUNDARY.values():
+        if not added:
+            return f"lubrication.traction = {traction} includes boundary friction"
+        using = next((law for law, used in _OF_BOUNDARY.items() if used == field), boundary)
+        if using != boundary:
+            return (
+                f"lubrication.boundary = {boundary} does not use it; "
+                f"set lubrication.boundary = {using} to use it"
+            )
+        return None
+    using_it = [law for law, fields in FIELDS_OF_TRACTION.items() if field in fields]
+    if not using_it:
+        return None
+    return (
+        f"lubrication.traction = {traction}; set lubrication.traction = "
+        f"{' or '.join(using_it)} to use it"
+    )
 
 
 def without_effect(scene: Scene, names: Iterable[str]) -> Iterator[str]:

@@ -63,9 +63,20 @@ void bind_laws(nb::module_& m) {
     m.attr("SLOWEST_ROLLING") = SLOWEST_ROLLING;
     m.attr("CREEPING") = CREEPING;
     m.attr("ELASTIC") = ELASTIC;
-    nb::dict laws;
-    FrictionLaws::each_name([&](const char* name, int position) { laws[name] = position; });
+    nb::dict laws, uses;
+    nb::list without_boundary;
+    FrictionLaws::each([&]<class Law>(int position) {
+        nb::list fields;
+        for (const char* field : Law::USES) fields.append(field);
+        for (const char* name : Law::NAMES) {
+            laws[name] = position;
+            uses[name] = nb::tuple(fields);
+            if (!Law::INCLUDES_BOUNDARY) without_boundary.append(name);
+        }
+    });
     m.attr("TRACTION_LAWS") = laws;
+    m.attr("FIELDS_OF_TRACTION") = uses;
+    m.attr("WITHOUT_BOUNDARY") = nb::tuple(without_boundary);
     m.def("log_film_thickness", &log_film_thickness<double>, "law"_a, "log_radius"_a,
           "log_speed_group"_a, "log_material_group"_a, "log_load_group"_a);
     m.def("half_width", &half_width<double>, "load"_a, "radius"_a, "face_width"_a,

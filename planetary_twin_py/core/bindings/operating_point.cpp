@@ -10,6 +10,9 @@ namespace gearbox {
 using namespace nb::literals;
 
 void bind_operating_point(nb::module_& m) {
+    nb::list fields;
+    for (const PointField& field : POINT_FIELDS) fields.append(field.name);
+    m.attr("POINT_FIELDS") = nb::tuple(fields);
     m.attr("LIGHTEST_MESH_LOAD") = LIGHTEST_MESH_LOAD;
     m.def("load_at", &load_at, "laws"_a, "point"_a,
           "Loads at an operating point; given torques and speeds are those of steady running.");

@@ -46,9 +46,7 @@ const char* limiting_field(const Variable& variable) {
 }
 
 double* field(OperatingPoint& point, std::int64_t index) {
-    double* const fields[] = {&point.backlash,           &point.lambda_ratio, &point.input_speed,
-                              &point.second_input_speed, &point.input_torque, &point.torque_ripple};
-    return fields[index];
+    return &(point.*POINT_FIELDS[index].value);
 }
 
 class GearboxInstance : public fmu::Instance {

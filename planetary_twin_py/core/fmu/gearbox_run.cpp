@@ -21,12 +21,6 @@ Instant now(const RunState& run) {
     return instant_of(run.ticks);
 }
 
-bool same(const OperatingPoint& a, const OperatingPoint& b) {
-    return a.backlash == b.backlash && a.lambda_ratio == b.lambda_ratio &&
-           a.input_speed == b.input_speed && a.second_input_speed == b.second_input_speed &&
-           a.input_torque == b.input_torque && a.torque_ripple == b.torque_ripple;
-}
-
 void set_nodes(const Exported& scene, RunState& run) {
     for (int n = 0; n < NODE_CHOICES; ++n) {
         if (!(run.tolerance > scene.least_tolerance[n])) continue;
@@ -130,7 +124,7 @@ void start(const Exported& scene, RunState& run) {
 }
 
 void change_point(const Exported& scene, RunState& run) {
-    if (same(run.wanted, run.point)) return;
+    if (run.wanted == run.point) return;
     if (run.stepped) restart_sums(run);
     cut(run.model, run.integrator, now(run));
     run.integrator.sums.total = {};

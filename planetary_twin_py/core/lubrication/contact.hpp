@@ -1,6 +1,6 @@
 #pragma once
 
-// What the friction laws of a tooth pair are given, and what they return.
+// Inputs and outputs of a friction law of a tooth pair.
 
 #include <concepts>
 
@@ -44,6 +44,8 @@ concept FrictionLaw = requires(const Oil& oil, const Contact<Lanes>& contact) {
     { Law::NAMES[0] } -> std::convertible_to<const char*>;
     // Whether boundary friction is part of it. Otherwise the law of the boundary adds it.
     { Law::INCLUDES_BOUNDARY } -> std::convertible_to<bool>;
+    // Fields of `lubrication` in a scene that it uses, but film and lambda ratio do not.
+    { Law::USES[0] } -> std::convertible_to<const char*>;
     // Whether `friction` accepts floats, and all its intermediate values are in their range.
     { Law::SINGLE_PRECISION } -> std::convertible_to<bool>;
     { Law::friction(oil, contact) } -> std::same_as<Friction<Lanes>>;

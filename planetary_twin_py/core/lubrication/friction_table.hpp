@@ -88,6 +88,7 @@ inline TabulatedFriction<Lanes> tabulated_friction(const FrictionTable& table, L
 struct TableLaw {
     static constexpr const char* NAMES[] = {"table"};
     static constexpr bool INCLUDES_BOUNDARY = true;
+    static constexpr const char* USES[] = {"friction_table"};
     static constexpr bool SINGLE_PRECISION = false;
 
     template <class Real>

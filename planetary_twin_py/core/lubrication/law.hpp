@@ -20,15 +20,11 @@ struct LawList {
         ((k++ == position ? function.template operator()<Law>() : void()), ...);
     }
 
-    // Call `function(name, position)` for each name of each law.
+    // Call `function.operator()<Law>(position)` for each law.
     template <class Function>
-    static void each_name(Function&& function) {
+    static void each(Function&& function) {
         int position = 0;
-        auto names_of = [&](const auto& names) {
-            for (const char* name : names) function(name, position);
-            ++position;
-        };
-        (names_of(Law::NAMES), ...);
+        (function.template operator()<Law>(position++), ...);
     }
 };
 

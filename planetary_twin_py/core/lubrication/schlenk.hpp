@@ -25,6 +25,7 @@ ALWAYS_INLINE Real schlenk_coefficient(double log_factor, Real log_load, Real lo
 struct SchlenkLaw {
     static constexpr const char* NAMES[] = {"schlenk"};
     static constexpr bool INCLUDES_BOUNDARY = true;
+    static constexpr const char* USES[] = {"oil_factor"};
     static constexpr bool SINGLE_PRECISION = true;
 
     template <class Real>

@@ -71,6 +71,9 @@ ALWAYS_INLINE FilmShear<Real> film_shear(const ShearThinning& film, Real load, R
 struct EyringLaw {
     static constexpr const char* NAMES[] = {"eyring"};
     static constexpr bool INCLUDES_BOUNDARY = false;
+    static constexpr const char* USES[] = {
+        "shear_stress",       "limiting_stress", "temperature_viscosity", "oil_conductivity",
+        "solid_conductivity", "solid_density",   "solid_heat_capacity"};
     static constexpr bool SINGLE_PRECISION = false;  // its exponents are beyond the range of floats
 
     template <class Real>

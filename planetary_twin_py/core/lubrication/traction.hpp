@@ -40,6 +40,9 @@ ALWAYS_INLINE Real sliding_sense(Real ratio) {
 struct PlateauLaw {
     static constexpr const char* NAMES[] = {"evans_johnson", "printed"};
     static constexpr bool INCLUDES_BOUNDARY = false;
+    static constexpr const char* USES[] = {"shear_stress",     "temperature_viscosity",
+                                           "oil_conductivity", "solid_conductivity",
+                                           "solid_density",    "solid_heat_capacity"};
     static constexpr bool SINGLE_PRECISION = true;
 
     template <class Real>

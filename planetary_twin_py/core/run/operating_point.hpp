@@ -21,6 +21,22 @@ struct OperatingPoint {
     double second_input_speed;  // [rad/s]
     double input_torque;        // [N m]
     double torque_ripple;       // [N m]
+
+    bool operator==(const OperatingPoint&) const = default;
+};
+
+struct PointField {
+    const char* name;  // as in scenes and messages
+    double OperatingPoint::* value;
+};
+
+inline constexpr PointField POINT_FIELDS[] = {
+    {"backlash", &OperatingPoint::backlash},
+    {"lambda_ratio", &OperatingPoint::lambda_ratio},
+    {"input_speed", &OperatingPoint::input_speed},
+    {"second_input_speed", &OperatingPoint::second_input_speed},
+    {"input_torque", &OperatingPoint::input_torque},
+    {"torque_ripple", &OperatingPoint::torque_ripple},
 };
 
 // Dependence of the values on the operating point in a scene.

@@ -9,14 +9,22 @@
 
 namespace gearbox {
 
+namespace {
+
+void bind_operating_point_record(nb::module_& m) {
+    record<OperatingPoint> point(m, "OperatingPoint");
+    const OperatingPoint place{};
+    for (const PointField& field : POINT_FIELDS) {
+        auto* value = reinterpret_cast<const char*>(&(place.*field.value));
+        point.field<double>(field.name,
+                            static_cast<size_t>(value - reinterpret_cast<const char*>(&place)));
+    }
+}
+
+}  // namespace
+
 void bind_run_records(nb::module_& m) {
-    record<OperatingPoint>(m, "OperatingPoint")
-        .FIELD(OperatingPoint, backlash)
-        .FIELD(OperatingPoint, lambda_ratio)
-        .FIELD(OperatingPoint, input_speed)
-        .FIELD(OperatingPoint, second_input_speed)
-        .FIELD(OperatingPoint, input_torque)
-        .FIELD(OperatingPoint, torque_ripple);
+    bind_operating_point_record(m);
     record<PointLaws>(m, "PointLaws")
         .FIELD(PointLaws, constant)
         .FIELD(PointLaws, half_backlash_factor)
