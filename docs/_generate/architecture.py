@@ -32,7 +32,7 @@ MODEL, RUN, ROS, OUT = "#dbe9f6", "#fde3c8", "#e3d9f2", "#dcefd9"
 SCENE = Box("scene/", "what is simulated: YAML, checked, in SI", 220, 16, 420, MODEL)
 LAWS = Box("gearset/  tooth/  mesh/  core/lubrication/", "laws, one per file", 220, 106, 420, MODEL)
 DYNAMICS = Box(
-    "dynamics/  core/model/  core/mesh/",
+    "model/  core/model/  core/mesh/",
     "bodies and meshes as arrays; forces; contact events; energy",
     220,
     196,
@@ -40,12 +40,12 @@ DYNAMICS = Box(
     MODEL,
 )
 MODAL = Box("modal/", "natural modes", 680, 196, 164, MODEL)
-STATIC = Box("quasi_static/", "rigid motion, equilibrium", 16, 286, 190, RUN)
+STATIC = Box("statics/  core/quasi_static/", "equilibrium", 4, 286, 202, RUN)
 MARCH = Box(
     "core/integrators/", "one step: collocation, rosenbrock; integrator: events", 220, 286, 420, RUN
 )
-TWIN = Box("twin.py", "stepped live", 220, 376, 200, RUN)
-WHOLE = Box("simulation.py  batch.py", "a whole run; many", 440, 376, 200, RUN)
+TWIN = Box("run/", "Twin: stepped live", 220, 376, 200, RUN)
+WHOLE = Box("simulation/", "a whole run; many", 440, 376, 200, RUN)
 NODES = Box("ros_ws/src/planetary_twin", "paces, publishes, records, replays", 16, 476, 260, ROS)
 RECORDS = Box("recording/  view/  robot/", "MCAP in and out; Rerun; URDF", 296, 476, 260, OUT)
 STUDIES = Box("studies/  analysis/  plots/", "sweep, fit, spectra; pictures", 576, 476, 268, OUT)
