@@ -90,6 +90,7 @@ class CheckedBins:
     def remarks(self) -> Iterator[str]:
         """A line for each unit that may be wrong, each later contradiction and dead torque."""
         yield from self._left_out.remarks()
+        yield from self._readings.stops.remarks("not used")
         yield from self._checks.remarks()
         yield from self._dead_torques.remarks()
         yield from self._spacing.remarks(self._period)
@@ -144,7 +145,10 @@ def checked_table(
     train = followed_train(scene)
     bins = CheckedBins(scene, train, sensors, PERIOD)
     judged = [*bins.add(time, columns, "table"), *bins.finish()]
-    kept = ReadingCheck(train, sensors).judge(time, columns, "table")
+    check = ReadingCheck(train, sensors)
+    kept = check.judge(time, columns, "table")
+    for name, rows in check.stopped:
+        kept[name][rows - 1] = np.nan
     slots = np.floor(np.where(np.isfinite(time), time, -1.0) / PERIOD + 1e-9).astype(np.int64)
     for name in ("input_torque", "output_torque"):
         sound = [one.number for one in judged if name in one.means]
