@@ -12,6 +12,7 @@ from ..scene import Scene
 from .bins import Array, Bin, Counters
 from .checks import Checks
 from .dead_torques import DeadTorques
+from .loss_map import loss_map
 from .merging import Merge
 from .power_check import PowerCheck
 from .reading_check import ReadingCheck
@@ -34,14 +35,13 @@ class CheckedBins:
     """
 
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
-        noise = torque_noise(sensors, train)
-        inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        noise, losses = torque_noise(sensors, train), loss_map(scene)
         self._readings = ReadingCheck(train, sensors)
         self._left_out = self._readings.left_out
-        self._power = PowerCheck(train, inertia, noise, period, self._left_out)
+        self._power = PowerCheck(train, losses, sensors, period, self._left_out)
         self._ratio, self._period = train.ratio, period
         self._merge = Merge(period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(train, sensors, period)
+        self._checks = Checks(train, losses, sensors, period)
         self._spacing = Spacing()
         self._dead_torques = DeadTorques(train, period)
         self._unit_remarks = UnitRemarks(scene.operating_point)
