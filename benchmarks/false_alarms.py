@@ -26,7 +26,7 @@ from following.plants import LAWS, paper, played
 from planetary_twin_py.following.balance import BalanceFollower
 from planetary_twin_py.following.cusum import KAPPA, LIMIT, TERM
 
-DUTIES = "steady", "varied", "reversing"
+DUTIES = "steady", "varied", "reversing", "four_quadrant"
 FIRST_SEED = 5000
 DAY = 86_400.0  # [s]
 EXCESS = 1.166  # of a discrete sum over its limit, Siegmund (1985), Sequential Analysis, ch. 10

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.contradictions import CHANNELS, Contradictions, Rows
+from ..following.loss_map import loss_map
 from ..following.plausibility import beyond, ranges_of
 from ..following.reading_check import impossible_text
 from ..following.sensors import Sensors
@@ -39,7 +40,7 @@ class Faults:
         """Channel, value and correction by index of a gearbox whose readings contradict the scene.
         """
         train = followed_train(scene)
-        self._contradictions = Contradictions(train, sensors, period)
+        self._contradictions = Contradictions(train, loss_map(scene), sensors, period)
         self._ranges = ranges_of(train)
         self._point = scene.operating_point
         self._torque = np.zeros(count)  # [N m] largest magnitude while turning

@@ -122,7 +122,7 @@ class Fleet:
         self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
         self._faults = Faults(self.scene, self.sensors, self.period, self.count)
         self._scatter = Scatter(self.count)
-        self._check = FleetCheck(self.train, self.sensors, self.count)
+        self._check = FleetCheck(self.train, self.table, self.sensors, self.count)
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
@@ -166,7 +166,7 @@ class Fleet:
         step = self.period if math.isnan(self._time) else time - self._time
         self._faults.add(time, self._check.without_codes(time, row))
         acceleration = self._acceleration(row["input_speed"], step)
-        self._check.leave_out(time, row, acceleration)
+        self._check.leave_out(time, row, acceleration, self._oil)
         speed = row["input_speed"]
         self._time, self._speed = time, speed
         oil = row["oil_temperature"]

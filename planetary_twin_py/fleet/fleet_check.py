@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.left_out import LeftOut
-from ..following.plausibility import beyond, equals_code, leaps, ranges_of
+from ..following.plausibility import OIL, beyond, equals_code, leaps, ranges_of
 from ..following.power_check import IMPOSSIBLE, balance, wrong_torques
 from ..following.reading_check import CODE, TORQUES, limit_text, nominal_values
 from ..following.repeats import STUCK, Repeats
 from ..following.sensors import Sensors, torque_change
 from ..following.train import FollowedTrain
+from .loss_table import LossTable
 
 Array = NDArray[np.float64]
 
@@ -23,14 +24,17 @@ class FleetCheck:
 
     Args:
         train: gear train of the type.
+        table: table of its losses.
         sensors: accuracy of the sensors.
         count: number of gearboxes.
     """
 
-    def __init__(self, train: FollowedTrain, sensors: Sensors, count: int) -> None:
+    def __init__(
+        self, train: FollowedTrain, table: LossTable, sensors: Sensors, count: int
+    ) -> None:
         self.left_out: dict[int, LeftOut] = {}
         """Readings that are left out, by index of the gearbox."""
-        self._train, self._ranges = train, ranges_of(train)
+        self._train, self._table, self._ranges = train, table, ranges_of(train)
         self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
         nominal = nominal_values(train)
         self._usual = {name: np.full(count, value) for name, value in nominal.items()}
@@ -60,26 +64,35 @@ class FleetCheck:
             self._known[name] |= plain
         return {name: values.copy() for name, values in row.items()}
 
-    def leave_out(self, time: float, row: dict[str, Array], acceleration: Array) -> None:
+    def leave_out(
+        self, time: float, row: dict[str, Array], acceleration: Array, oil: Array
+    ) -> None:
         """Remove readings beyond the limits of the scene, and torques that do not belong together.
 
         Args:
             time: time of the row [s].
             row: readings in SI by channel, (n,) each; changed in place.
             acceleration: of the inputs [rad/s^2], (n,).
+            oil: last temperatures of the oil [K], (n,).
         """
         for name, values in row.items():
             allowed = self._ranges[name]
             self._omit(name, limit_text(name, allowed), beyond(values, allowed), time, row)
         torques = row[TORQUES[0]], row[TORQUES[1]]
-        found = balance(self._train, torques, row["input_speed"], self._inertia * acceleration)
+        speed = row["input_speed"]
+        found = balance(self._train, torques, speed, self._inertia * acceleration)
+        loss = np.full(len(speed), np.nan)
+        if (doubtful := found.doubtful).any():
+            oil = np.where(np.isfinite(row[OIL]), row[OIL], oil)
+            loss[doubtful] = sum(self._table(torques[0][doubtful], speed[doubtful], oil[doubtful]))
+        impossible = found.impossible(loss)
         usual = self._torques[0], self._torques[1]
         for name, wrong in zip(TORQUES, wrong_torques(self._train, torques, usual), strict=True):
-            self._omit(name, IMPOSSIBLE, wrong & found.impossible, time, row)
+            self._omit(name, IMPOSSIBLE, wrong & impossible, time, row)
         stuck = self._repeats.judge(row[TORQUES[0]][None], row[TORQUES[1]][None])
         for name, which in zip(TORQUES, stuck, strict=True):
             self._omit(name, STUCK, which[0], time, row)
-        sound = np.isfinite(found.lost) & ~found.impossible
+        sound = np.isfinite(found.lost) & ~impossible
         self._torques = np.where(sound, torques, self._torques)
 
     def remarks(self, gearbox: int) -> Iterator[str]:

@@ -12,6 +12,7 @@ from ..scene import Scene
 from .bins import Array, Bin, Counters
 from .checks import Checks
 from .dead_torques import DeadTorques
+from .loss_map import loss_map
 from .merging import Merge
 from .power_check import PowerCheck
 from .reading_check import ReadingCheck
@@ -34,14 +35,13 @@ class CheckedBins:
     """
 
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
-        noise = torque_noise(sensors, train)
-        inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        noise, losses = torque_noise(sensors, train), loss_map(scene)
         self._readings = ReadingCheck(train, sensors)
         self._left_out = self._readings.left_out
-        self._power = PowerCheck(train, inertia, noise, period, self._left_out)
+        self._power = PowerCheck(train, losses, sensors, period, self._left_out)
         self._ratio, self._period = train.ratio, period
         self._merge = Merge(period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(train, sensors, period)
+        self._checks = Checks(train, losses, sensors, period)
         self._spacing = Spacing()
         self._dead_torques = DeadTorques(train, period)
         self._unit_remarks = UnitRemarks(scene.operating_point)
@@ -90,6 +90,7 @@ class CheckedBins:
     def remarks(self) -> Iterator[str]:
         """A line for each unit that may be wrong, each later contradiction and dead torque."""
         yield from self._left_out.remarks()
+        yield from self._readings.stops.remarks("not used")
         yield from self._checks.remarks()
         yield from self._dead_torques.remarks()
         yield from self._spacing.remarks(self._period)
@@ -144,7 +145,10 @@ def checked_table(
     train = followed_train(scene)
     bins = CheckedBins(scene, train, sensors, PERIOD)
     judged = [*bins.add(time, columns, "table"), *bins.finish()]
-    kept = ReadingCheck(train, sensors).judge(time, columns, "table")
+    check = ReadingCheck(train, sensors)
+    kept = check.judge(time, columns, "table")
+    for name, rows in check.stopped:
+        kept[name][rows - 1] = np.nan
     slots = np.floor(np.where(np.isfinite(time), time, -1.0) / PERIOD + 1e-9).astype(np.int64)
     for name in ("input_torque", "output_torque"):
         sound = [one.number for one in judged if name in one.means]

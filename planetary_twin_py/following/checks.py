@@ -14,6 +14,7 @@ import numpy as np
 
 from .bins import Bin
 from .contradictions import CHANNELS, LOADED, MOVING, Contradictions, Rows
+from .loss_map import LossMap
 from .sensors import Sensors
 from .train import FollowedTrain
 
@@ -30,11 +31,13 @@ class Checks:
 
     Args:
         train: gear train of the scene.
+        losses: loss torques of the scene.
         sensors: accuracy of the torque sensors.
         length: length of a bin [s].
     """
 
     train: FollowedTrain
+    losses: LossMap
     sensors: Sensors
     length: float
     _rows: list[tuple[float, ...]] = field(default_factory=list)  # time and `CHANNELS`
@@ -43,7 +46,7 @@ class Checks:
     """The first later contradiction of each comparison."""
 
     def __post_init__(self) -> None:
-        self._contradictions = Contradictions(self.train, self.sensors, self.length)
+        self._contradictions = Contradictions(self.train, self.losses, self.sensors, self.length)
         train = self.train
         self._least = (
             MOVING * train.speed, MOVING * train.speed * abs(train.ratio),

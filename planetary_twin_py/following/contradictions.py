@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .estimate import CONFIDENT
+from .loss_map import LossMap
 from .sensors import Sensors, torque_gain, torque_zero
 from .train import FollowedTrain
 
@@ -22,7 +23,7 @@ Array = NDArray[np.float64]
 
 CHANNELS = "input_speed", "output_speed", "input_torque", "output_torque"
 NEAR = 0.02  # relative deviation within which two speed ratios agree
-EFFICIENCY = 0.3, 1.15  # plausible range of a torque ratio over that without loss
+MOST = 0.7  # share of the torque that a gearbox loses at most beside the loss of its scene
 LOADED = 0.2  # share of the torque of the scene below which torques are not compared
 INERTIAL = 0.3  # share of the torque for the acceleration above which torques are not compared
 FEWEST = 5  # rows of which torques are compared: fewer do not show what accelerates the train
@@ -49,11 +50,13 @@ class Contradictions:
 
     Args:
         train: gear train of the scene.
+        losses: loss torques of the scene.
         sensors: accuracy of the torque sensors.
         length: time over which a row is averaged [s].
     """
 
     train: FollowedTrain
+    losses: LossMap
     sensors: Sensors
     length: float
 
@@ -81,8 +84,9 @@ class Contradictions:
                 return found  # whose other comparisons of torques would mislead
         loaded &= input_torque != 0.0
         if loaded.sum() >= FEWEST:
-            ratio = float(np.median(output_torque[loaded] / input_torque[loaded]))
-            found["torques"] = self._torques(ratio)
+            found["torques"] = self._torques(
+                speed[loaded], input_torque[loaded], output_torque[loaded]
+            )
         usable = (np.abs(speed) > MOVING * train.speed) & np.isfinite(input_torque + output_torque)
         if usable.sum() >= FEWEST:
             line = self._loss(speed[usable], input_torque[usable], output_torque[usable])
@@ -152,10 +156,18 @@ class Contradictions:
             f"shafts, and which units? {ASK}"
         )
 
-    def _torques(self, ratio: float) -> str:
-        """Line on a measured torque ratio."""
-        expected, low = -1.0 / self.train.ratio, EFFICIENCY[0]
-        if low <= ratio / expected <= 1.0 / low:
+    def _torques(self, speed: Array, input_torque: Array, output_torque: Array) -> str:
+        """Line on the median of the measured torque ratios."""
+        ratios, expected = output_torque / input_torque, -1.0 / self.train.ratio
+        ratio = float(np.median(ratios))
+        efficiency = ratio / expected
+        kept = 1.0 / efficiency if efficiency > 1.0 else efficiency  # of the larger torque
+        if kept >= 1.0 - MOST:
+            return ""
+        n = int(np.argmin(np.abs(ratios - ratio)))
+        loss = self.losses(float(input_torque[n]), float(speed[n]), self.train.oil_temperature)
+        larger = max(abs(input_torque[n]), abs(output_torque[n] / expected))
+        if kept >= max(1.0 - MOST - (loss.teeth + loss.rest) / larger, 0.0):
             return ""
         return (
             f"output_torque/input_torque = {ratio:.4g}: must be near {expected:.4g} (no loss); "

@@ -95,9 +95,13 @@ class LeftOut:
             places=(last.places[0], new.places[1]), count=last.count + new.count,
         )  # fmt: skip
 
-    def remarks(self) -> Iterator[str]:
-        """A line for each channel and reason."""
+    def remarks(self, treated: str = "left out") -> Iterator[str]:
+        """A line for each channel and reason.
+
+        Args:
+            treated: what was done with these readings.
+        """
         for (channel, reason), spans in self._spans.items():
             named = "; ".join(span.text(channel) for span in spans[:NAMED])
             more = f"; and others, {spans[NAMED].text(channel)}" if len(spans) > NAMED else ""
-            yield f"{channel}: left out, because {reason}: {named}{more}"
+            yield f"{channel}: {treated}, because {reason}: {named}{more}"

@@ -1,7 +1,7 @@
 """Leaves out torques that cannot belong together: the cable of a sensor, or a wild reading.
 
 The torques of both shafts differ by the loss and the inertia. A sensor that drops out, or shows
-another value for a moment, changes this balance by a share of the torque that no loss of gears
+another value for a moment, changes this balance by a share of the torque that no change of the loss
 reaches, or that comes and goes at once. A change of the gearbox stays.
 """
 
@@ -15,17 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bins import Bin, Mean
+from .contradictions import INERTIAL, LOADED, MOST, MOVING
 from .left_out import LeftOut
+from .loss_map import LossMap
+from .plausibility import OIL
+from .sensors import Sensors, torque_noise
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 TORQUES = "input_torque", "output_torque"
-LEAST, MOST = -0.15, 0.7  # share of the torque that is lost
-LOADED = 0.2  # share of the torque of the scene below which torques are not compared
-MOVING = 0.05  # share of the speed of the scene below which the sign of the loss is not clear
-INERTIAL = 0.3  # share of the torque for the acceleration above which torques are not compared
+LEAST = -0.15  # share of the torque that is lost
 NOISY = 6.0  # standard deviations of the balance that are no change
 CHANGE = 0.1  # share of the torque; a balance that changes by more must stay for `WAIT`
 WAIT = 1.0  # [s]
@@ -41,11 +42,22 @@ class Balanced(NamedTuple):
     """Loss torque at the input [N m]; NaN where it is not comparable."""
     size: Array
     """Larger torque of both, at the input [N m]."""
+    dead: Mask
+    """Whether one of them is exactly 0."""
 
     @property
-    def impossible(self) -> Mask:
-        """Where no gearbox loses so much or so little; false where it is not comparable."""
-        return np.asarray((self.lost < LEAST * self.size) | (self.lost > MOST * self.size))
+    def doubtful(self) -> Mask:
+        """Where only a gearbox with large losses loses so much; false where not comparable."""
+        return np.asarray(self.lost > MOST * self.size)
+
+    def impossible(self, loss: Array) -> Mask:
+        """Where no change of the gearbox explains the balance; false where it is not comparable.
+
+        Args:
+            loss: loss torque of the scene at the input where it is `doubtful` [N m], same shape.
+        """
+        large = self.doubtful & (self.dead | (self.lost > loss + MOST * self.size))
+        return np.asarray(large | (self.lost < LEAST * self.size))
 
 
 def balance(
@@ -64,7 +76,8 @@ def balance(
     comparable = (size > LOADED * train.torque) & (np.abs(speed) > MOVING * train.speed)
     comparable &= np.abs(inertial) <= INERTIAL * size
     lost = np.sign(speed) * (torques[0] + driven - inertial)
-    return Balanced(np.where(comparable, lost, np.nan), size)
+    dead = (torques[0] == 0.0) | (torques[1] == 0.0)
+    return Balanced(np.where(comparable, lost, np.nan), size, dead)
 
 
 def wrong_torques(
@@ -97,17 +110,19 @@ class PowerCheck:
 
     Args:
         train: gear train of the scene.
-        inertia: moment of inertia between both torque sensors, at the input [kg m^2].
-        noise: standard deviation of one reading of both torques [N m].
+        losses: loss torques of the scene.
+        sensors: accuracy of the torque sensors, and the inertia between them.
         period: length of a bin [s].
         left_out: what is left out is added.
     """
 
     def __init__(
-        self, train: FollowedTrain, inertia: float, noise: tuple[float, float], period: float,
+        self, train: FollowedTrain, losses: LossMap, sensors: Sensors, period: float,
         left_out: LeftOut,
     ) -> None:  # fmt: skip
-        self._train, self._inertia, self._period = train, inertia, period
+        self._train, self._losses, self._period = train, losses, period
+        self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        self._oil, noise = train.oil_temperature, torque_noise(sensors, train)
         self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
         self._left_out = left_out
         self._level: float | None = None  # share of the torque that is lost
@@ -161,6 +176,7 @@ class PowerCheck:
         """Share of the torque that is lost, whether it is far from usual, and impossible."""
         torques = new.means.get(TORQUES[0]), new.means.get(TORQUES[1])
         speed, acceleration = self._turning(new)
+        self._oil = new.means[OIL].value if OIL in new.means else self._oil
         if torques[0] is None or torques[1] is None:
             return math.nan, False, False
         values = np.array([torques[0].value]), np.array([torques[1].value])
@@ -169,7 +185,10 @@ class PowerCheck:
         lost, size = float(found.lost[0]), float(found.size[0])
         if math.isnan(lost):
             return math.nan, False, False
-        impossible = bool(found.impossible[0])
+        loss = math.nan
+        if found.doubtful[0]:
+            loss = sum(self._losses(torques[0].value, speed, self._oil)[::2])
+        impossible = bool(found.impossible(np.array([loss]))[0])
         sd = math.sqrt(self._noise[0] / torques[0].readings + self._noise[1] / torques[1].readings)
         limit = CHANGE * max(size, self._train.torque) + NOISY * sd
         far = impossible if self._level is None else abs(lost - self._level * size) > limit

@@ -1,6 +1,7 @@
 """Recognises a tachometer that counts pulses twice or misses some: its speed leaps by a factor.
 
-A shaft with inertia turns exactly twice as fast from one reading to the next only by the sensor.
+A shaft with inertia turns exactly twice as fast from one reading to the next only by the sensor. A
+brake may stop it so, but it does not turn as before again from one reading to the next.
 """
 
 from __future__ import annotations
@@ -36,17 +37,23 @@ class Pulses:
         self._factor = 1.0  # by which the sensor counts too many pulses
         self._since = math.nan  # begin of the present level [s]
         self._earlier = SETTLED / LONGER  # [s] for which the level before lasted
+        self._left = 0.0  # speed from which the present level of 0 has been reached [rad/s]
+        self._zeros: list[Array] = []  # stamps and rows of this level, (2, m) each
+        self.stops: list[Array] = []
+        """Stamps [s] and rows of each level of 0 that the last call of `judge` saw end, (2, m)."""
 
-    def judge(self, time: Array, values: Array) -> dict[str, NDArray[np.bool_]]:
+    def judge(self, time: Array, values: Array, rows: Array) -> dict[str, NDArray[np.bool_]]:
         """Find readings with extra or lost pulses.
 
         Args:
             time: stamps [s], (n,).
             values: readings [rad/s], (n,); NaN where one is missing.
+            rows: their numbers in the order of arrival, (n,).
 
         Returns:
             Which readings, (n,), by reason.
         """
+        self.stops = []
         known = np.flatnonzero(np.isfinite(values) & np.isfinite(time))
         begin = len(self._last[0])
         stamps = np.concatenate([self._last[0], time[known]])
@@ -58,6 +65,11 @@ class Pulses:
         for k in [*self._changes(read, begin), len(read)]:
             until = min(k, int(np.searchsorted(stamps, self._since + LONGEST)))
             factors[first : max(until - begin, first)] = self._factor
+            level = known[first : k - begin]
+            if until < k or values[level].any():
+                self._left = 0.0
+            if self._left:
+                self._zeros.append(np.stack([time[level], rows[level]]))
             if k < len(read):
                 before = slice(max(k - BEFORE, 0), k + 1)
                 self._note(stamps[before], read[before])
@@ -83,8 +95,13 @@ class Pulses:
         lasted = now - self._since
         settled = self._factor == 1.0 and lasted >= LONGER * self._earlier
         self._since, self._earlier, self._factor = now, lasted, 1.0
-        steady = len(before) == BEFORE and np.ptp(before) <= STEADY * abs(before[-1])
-        if settled and steady and 0.0 < now - stamps[-2] < CLOSE:
+        close = len(stamps) > 1 and 0.0 < now - stamps[-2] < CLOSE
+        if close and self._left and abs(read[-1] - self._left) <= STEADY * abs(self._left):
+            self.stops.append(np.concatenate(self._zeros, axis=1))
+        steady = close and len(before) == BEFORE and np.ptp(before) <= STEADY * abs(before[-1])
+        self._left = float(before[-1]) if steady and read[-1] == 0.0 else 0.0
+        self._zeros = []
+        if settled and steady:
             for factor in FACTORS:
                 if abs(read[-1] - before[-1] * factor) < NEAR * abs(before[-1] * factor):
                     self._factor = factor

@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 TORQUES = "input_torque", "output_torque"
 CODE = "the value is a code for a missing or saturated reading"
+STOPS = "it leaps to 0 and back between two readings, as no shaft with inertia does"
 SPELLINGS = {
     "speed": "rad/s, rpm, deg/s or Hz", "torque": "N m, N mm, kN m or lbf ft",
 }  # fmt: skip
@@ -96,7 +97,10 @@ class ReadingCheck:
     """
 
     def __init__(self, train: FollowedTrain, sensors: Sensors) -> None:
-        self.left_out = LeftOut()
+        self.left_out, self.stops = LeftOut(), LeftOut()
+        self.stopped: list[tuple[str, NDArray[np.int64]]] = []
+        """Channels and rows with speeds of 0 that the last call of `judge` found wrong, too late to
+        leave them out."""
         self._ranges = ranges_of(train)
         self._scale, self._ratio = sensors.scale, train.ratio
         self._changed = torque_change(sensors, train)
@@ -124,7 +128,7 @@ class ReadingCheck:
         """
         rows = self._rows.get(sender, 0) + np.arange(1.0, len(time) + 1.0)
         self._rows[sender] = self._rows.get(sender, 0) + len(time)
-        kept = {}
+        kept, self.stopped = {}, []
         for name, given in columns.items():
             values = np.array(given, dtype=float)
             values[np.isinf(values)] = math.nan
@@ -133,8 +137,11 @@ class ReadingCheck:
             if name.endswith("speed"):
                 least = MOVING * self._nominal[name]
                 pulses = self._pulses.setdefault((sender, name), Pulses(least))
-                for reason, which in pulses.judge(time, values).items():
+                for reason, which in pulses.judge(time, values, rows).items():
                     self._omit(name, reason, which, (time, values, rows))
+                for stamps, numbers in pulses.stops:
+                    self.stops.add(name, STOPS, stamps, np.zeros(len(stamps)), numbers)
+                    self.stopped.append((name, numbers.astype(np.int64)))
             kept[name] = values
         if set(TORQUES) <= set(kept) and len(time):
             repeats = self._repeats.setdefault(sender, Repeats(self._changed, self._ratio))

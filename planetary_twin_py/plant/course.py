@@ -17,6 +17,7 @@ RAMP = 0.6  # [s] duration of the ramp from one target to the next
 LOAD = 0.27, 1.0  # range of the torques of a varied duty, over that of the scene
 SPEED = 0.7, 1.3  # range of the speeds of a varied duty, over that of the scene
 REVERSED = -0.48, 0.95  # torques of a reversing duty, over that of the scene
+TURNED = 1.0, 1.0, -1.0, -1.0  # speeds of a four-quadrant duty, over that of the scene
 WANDERING = 10.0  # [s] correlation time of random changes of torque and speed
 
 
@@ -106,8 +107,10 @@ def draw_course(
     if duty.kind == "varied":
         torque = _between(knots, chance.uniform(*LOAD, targets))
         speed = _between(knots, chance.uniform(*SPEED, targets))
-    elif duty.kind == "reversing":
+    elif duty.kind != "steady":
         torque = _between(knots, np.resize(REVERSED[::-1], targets))
+    if duty.kind == "four_quadrant":
+        speed = _between(knots, np.resize(TURNED, targets))
     torque = torque * (1.0 + duty.torque_wander * _gauss_markov(len(knots), 0.1, chance))
     speed = speed * (1.0 + duty.speed_wander * _gauss_markov(len(knots), 0.1, chance))
     load = np.ones_like(knots)

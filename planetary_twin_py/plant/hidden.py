@@ -47,10 +47,11 @@ class Change(Section):
 class Duty(Section):
     """Course of torque and speed at the input."""
 
-    kind: Literal["steady", "varied", "reversing"] = Field(
+    kind: Literal["steady", "varied", "reversing", "four_quadrant"] = Field(
         "steady",
         description="steady: the operating point of the scene; varied: another torque and speed "
-        "every 5 s; reversing: the torque changes its sign every 5 s",
+        "every 5 s; reversing: the torque changes its sign every 5 s; four_quadrant: the "
+        "speed also changes its sign, every 10 s",
     )
     torque_wander: float = quantity(
         "", "standard deviation of its random changes over the torque", 0.03, ge=0

@@ -4,11 +4,16 @@ import numpy as np
 import pytest
 from following.plants import paper, played
 
+import planetary_twin_py as pt
+from planetary_twin_py.following.checked_bins import checked_table
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.reading_check import ReadingCheck
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.plant.hidden import Hidden
+from planetary_twin_py.plant.readings import Plant, simulate_readings
 
 TRAIN = followed_train(paper())
 TIME = np.arange(1, 2001) / 100.0
@@ -92,6 +97,44 @@ def test_a_real_change_of_the_speed_is_used(speed):
     assert np.array_equal(kept, speed) and not lines
 
 
+@pytest.mark.parametrize("split", [1, 13])
+def test_a_speed_that_is_zero_between_equal_readings_is_named(split):
+    speed = steady("input_speed")
+    speed[(TIME > 8.0) & (TIME <= 8.5)] = 0.0
+    check = ReadingCheck(TRAIN, Sensors())
+    for time, part in zip(np.array_split(TIME, split), np.array_split(speed, split), strict=True):
+        kept = check.judge(time, {"input_speed": part}, "rig")["input_speed"]
+        assert np.array_equal(kept, part)  # earlier rows have been passed on as standstill
+    (line,) = check.stops.remarks("not used")
+    assert line.startswith("input_speed: not used, because it leaps to 0 and back")
+    assert "0 rad/s from 8.01 to 8.50 s (50 readings, rows 801 to 850)" in line
+
+
+@pytest.mark.parametrize(
+    "factor",
+    [
+        np.clip(np.abs(TIME - 8.0) / 0.1 - 1.0, 0.0, 1.0),  # a fast stop, and a fast start
+        np.where(TIME < 8.0, 1.0, np.clip((TIME - 9.0) / 0.1, 0.0, 1.0)),  # a brake, and a start
+        np.where(np.abs(TIME - 8.0) < 0.5, 1e-3, 1.0),  # not exactly 0
+        np.where(TIME < 8.0, 1.0, np.where(TIME < 9.0, 0.0, 0.8)),  # another speed afterwards
+    ],
+    ids=["ramps", "brake", "slow", "other speed"],
+)
+def test_a_stop_of_the_machine_is_not_taken_for_a_lost_signal(factor):
+    check = ReadingCheck(TRAIN, Sensors())
+    check.judge(TIME, {"input_speed": steady("input_speed") * factor}, "rig")
+    assert not list(check.stops.remarks())
+
+
+def test_rows_of_a_lost_speed_are_not_fitted():
+    _, time, columns = played("steady", {}, 10.0)
+    lost = (time > 5.0) & (time <= 5.5)
+    columns["input_speed"][lost] = 0.0
+    found = checked_table(paper(), Sensors(), time, columns)
+    assert np.array_equal(np.isnan(found.columns["input_speed"]), lost)
+    assert any("rows 501 to 550" in line for line in found.remarks)
+
+
 def paired(input_torque, split):
     check = ReadingCheck(TRAIN, Sensors())
     noise = np.random.default_rng(0).standard_normal(len(TIME))
@@ -118,14 +161,41 @@ def test_a_torque_with_equal_readings_that_follows_the_load_is_used(digital):
     assert not paired(digital, 7)
 
 
+@pytest.mark.parametrize("at", [0.0, 20.0])
+@pytest.mark.parametrize("change", [{"friction": 1.4}, {"drag": 0.036}], ids=["teeth", "drag"])
+def test_growth_of_a_loss_of_half_the_torque_is_followed(change, at):
+    """The scene alone loses 54 % of this torque, and more than 70 % with the drag."""
+    scene = pt.load_scene("compact_actuator").replace(input_torque=0.2)
+    sensors = {"input_torque": {"noise": 3e-4}, "output_torque": {"noise": 2e-3}}
+    hidden = Hidden.model_validate({"sensors": sensors, "changes": [{"at": at, **change}]})
+    plant = Plant(scene, hidden, 40.0)
+    time, columns = simulate_readings(plant)
+    state = followed(time, columns, scene)
+    assert state.counters["implausible"] == 0
+    assert not any("contradict" in line for line in state.remarks)
+    torque, oil = 0.2, scene.operating_point.oil_temperature
+    lost = loss_map(scene)(torque, scene.operating_point.input_speed, oil)
+    true = change.get("friction", 1.0) * lost.teeth + lost.rest + change.get("drag", 0.0)
+    loss = state["loss_torque"]
+    assert loss.status == "ESTIMATED" and loss.low < true < loss.high
+    for dead in (0.0, -columns["output_torque"]):
+        wrong = np.where((time > 10.0) & (time < 15.0), dead, columns["output_torque"])
+        (line,) = (
+            line
+            for line in followed(time, columns | {"output_torque": wrong}, scene).remarks
+            if "left out" in line
+        )
+        assert line.startswith("output_torque: left out") and "from 10.00 to 15.00 s" in line
+
+
 @pytest.fixture(scope="module")
 def varied():
     _, time, columns = played("varied", {}, 40.0)
     return time, columns, followed(time, columns)
 
 
-def followed(time, columns):
-    follower = Follower(paper())
+def followed(time, columns, scene=None):
+    follower = Follower(scene or paper())
     follower.add(Readings(time, columns))
     follower.finish()
     return follower.estimate()

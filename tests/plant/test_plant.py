@@ -33,8 +33,9 @@ def test_steady_readings_are_those_of_the_twin_with_dynamics():
     assert lost == pytest.approx(window.power_loss / window.input_speed, rel=0.02)
 
 
-def test_readings_balance_with_inertia_while_the_speed_changes():
-    plant, time, columns = play({"duty": {"kind": "varied"}}, 20.0)
+@pytest.mark.parametrize(("kind", "quadrants"), [("varied", 1), ("four_quadrant", 4)])
+def test_readings_balance_with_inertia_while_the_speed_changes(kind, quadrants):
+    plant, time, columns = play({"duty": {"kind": kind}}, 20.0)
     train = followed_train(SCENE)
     energy = 0.5 * train.inertia * plant.course.speed_at(time) ** 2
     power = (
@@ -47,6 +48,9 @@ def test_readings_balance_with_inertia_while_the_speed_changes():
     assert np.all(lost[smooth] > 0.0)
     assert np.ptp(stored[smooth]) > 100.0  # [W], far more than is lost
     assert np.max(lost[smooth]) < 0.02 * 63.0 * 1.3 * 105.0
+    held = np.abs(plant.course.acceleration_at(time)) < 10.0
+    signs = np.sign([columns["input_torque"][held], columns["input_speed"][held]])
+    assert np.unique(signs, axis=1).shape[1] == quadrants
 
 
 def test_changes_come_at_their_time():
