@@ -195,32 +195,31 @@ private:
         }
         if (!shown_) show_meshes(*scene_, run_, meshes_);
         shown_ = true;
-        switch (variable.kind) {
-            if (variable.kind == POWER_LOST) return meshes_.power_loss;
-            const std::int64_t meshes = scene_->report.meshes;
-            return wave_of(WAVEFORM[at / meshes],
-                           [&](int row) { return meshes_.mesh[row][at % meshes]; });
-        }
-
-        // An input has the value that was set last, or the present value if none was set.
-        static double shown_at_port(const Variable& variable, double commanded, double acting) {
-            return variable.given != NOT_GIVEN && !std::isnan(commanded) ? commanded : acting;
-        }
-    };
-
-    std::unique_ptr<Exported> read_records(const char* path, ErrorMessage& error) {
-        char digest[DIGEST] = {};
-        auto scene = std::make_unique<Exported>();
-        std::FILE* file = std::fopen(path, "rb");  // streams would ask for a newer C library
-        if (!file || std::fread(digest, DIGEST, 1, file) != 1)
-            error = std::string(path) + ": cannot be read";
-        else if (std::strncmp(digest, SOURCES, DIGEST) != 0)
-            error = std::string(path) + ": was written for another build of the core";
-        else if (std::fread(static_cast<void*>(scene.get()), sizeof(Exported), 1, file) != 1)
-            error = std::string(path) + ": is incomplete";
-        if (file) std::fclose(file);
-        return error.empty() ? std::move(scene) : nullptr;
+        if (variable.kind == POWER_LOST) return meshes_.power_loss;
+        const std::int64_t meshes = scene_->report.meshes;
+        return wave_of(WAVEFORM[at / meshes],
+                       [&](int row) { return meshes_.mesh[row][at % meshes]; });
     }
+
+    // An input has the value that was set last, or the present value if none was set.
+    static double shown_at_port(const Variable& variable, double commanded, double acting) {
+        return variable.given != NOT_GIVEN && !std::isnan(commanded) ? commanded : acting;
+    }
+};
+
+std::unique_ptr<Exported> read_records(const char* path, ErrorMessage& error) {
+    char digest[DIGEST] = {};
+    auto scene = std::make_unique<Exported>();
+    std::FILE* file = std::fopen(path, "rb");  // streams would ask for a newer C library
+    if (!file || std::fread(digest, DIGEST, 1, file) != 1)
+        error = std::string(path) + ": cannot be read";
+    else if (std::strncmp(digest, SOURCES, DIGEST) != 0)
+        error = std::string(path) + ": was written for another build of the core";
+    else if (std::fread(static_cast<void*>(scene.get()), sizeof(Exported), 1, file) != 1)
+        error = std::string(path) + ": is incomplete";
+    if (file) std::fclose(file);
+    return error.empty() ? std::move(scene) : nullptr;
+}
 
 }  // namespace
 
