@@ -7,10 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
-import zstandard
-from hostile import messages_of, of, rewritten, string
+from altered_recording import messages_of, rewritten, string
 from mcap.reader import make_reader
-from mcap.records import Attachment, Message
+from mcap.records import Message
 from mcap.stream_reader import StreamReader
 from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
@@ -93,13 +92,6 @@ def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tm
     assert verify(recovered.file, NAMESPACE).identical
 
 
-def test_messages_that_decompress_beyond_the_size_limit_are_refused(sound, tmp_path):
-    bomb = zstandard.ZstdCompressor().compress(bytes(2**28))
-    file = rewritten(sound, tmp_path / "bomb.mcap", messages_of("gearbox_state", lambda data: bomb))
-    with pytest.raises(RecordingError, match="a message is compressed individually, and cannot"):
-        read_recording(file)
-
-
 def test_the_scene_of_a_bag_without_attachments_is_that_of_the_origin_of_its_run(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP)
     scene, remark = scene_of(read_recording(folder))
@@ -107,22 +99,13 @@ def test_the_scene_of_a_bag_without_attachments_is_that_of_the_origin_of_its_run
     assert scene == read_runs(sound, NAMESPACE, [])[-1].origin.scene
 
 
-def test_an_unreadable_scene_in_an_origin_is_reported(sound, tmp_path):
-    without = rewritten(sound, tmp_path / "a.mcap", of(Attachment, "", name="another"))
-    bad = messages_of("run_origin", lambda data: string("{"))
-    recording = read_recording(rewritten(without, tmp_path / "b.mcap", bad))
-    assert recording.scene_yaml is None
-    assert "run_origin: origin of the run: cannot be read" in recording.remarks[0]
-
-
-@pytest.mark.parametrize("text", ["{", b"\xff", "begins: 1\n"])
-def test_a_bad_message_of_one_origin_leaves_the_other_run_to_verify(sound, tmp_path, text):
+def test_an_unreadable_origin_leaves_other_runs_to_verify(sound, tmp_path):
     first = True
 
     def spoil(data):
         nonlocal first
         first, spoiled = False, first
-        return string(text) if spoiled else data
+        return string("begins: 1\n") if spoiled else data
 
     file = rewritten(sound, tmp_path / "bad.mcap", messages_of("run_origin", spoil))
     verdict = verify(file, NAMESPACE)

@@ -130,10 +130,3 @@ def test_the_files_exist_and_their_counts_add_up_to_the_total(
     counts = [file["message_count"] for file in metadata["files"]]
     topics = [topic["message_count"] for topic in metadata["topics_with_message_count"]]
     assert metadata["message_count"] == sum(counts) == sum(topics) > 0
-
-
-def test_a_check_of_a_field_can_fail(metadata: dict[str, Any]) -> None:
-    assert not FIELDS["duration"]({"nanoseconds": -1})
-    assert not FIELDS["files"]([{"path": "a"}])
-    topic = metadata["topics_with_message_count"][0]["topic_metadata"]
-    assert not TOPIC(topic | {"offered_qos_profiles": [{"history": 1}]})

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from hostile import rewritten
+from altered_recording import rewritten
 from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore

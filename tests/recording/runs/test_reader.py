@@ -2,13 +2,9 @@
 
 import numpy as np
 import pytest
-from mcap.records import Attachment, Channel, DataEnd, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, state, waveform, write_recording
 
-from planetary_twin_py.recording.container.framing import DAMAGED
-from planetary_twin_py.recording.container.integrity import damaged_summary
-from planetary_twin_py.recording.container.records import RecordingError, records_of
+from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.runs.reader import read_recording
 
 DURATION = 0.3
@@ -142,33 +138,6 @@ def test_ranges_are_those_of_the_samples(sound):
         samples = getattr(whole, name)
         assert np.array_equal(ranges.lowest[name], np.fmin.reduceat(samples, whole.block))
         assert np.array_equal(ranges.highest[name], np.fmax.reduceat(samples, whole.block))
-
-
-def test_records_of_a_damaged_file_continue_where_mcap_stops_and_none_is_invented(sound, tmp_path):
-    whole, original = sound.read_bytes(), list(records_of(sound, []))
-    damaged = tmp_path / "damaged.mcap"
-    kinds = (Schema, Channel, Message, Attachment, Metadata)
-    generator = np.random.default_rng(1)
-    for place in [*generator.integers(8, len(whole), 60), *range(8, 60), *range(-60, 0)]:
-        data = bytearray(whole)
-        data[place] ^= 1 << int(generator.integers(8))
-        damaged.write_bytes(data[: int(generator.integers(8, len(whole)))] if place % 3 else data)
-        found = list(records_of(damaged, remarks := []))
-        expected, in_data, sound_end = [], True, not damaged_summary(damaged)
-        with damaged.open("rb") as stream:
-            try:
-                for record in StreamReader(stream, validate_crcs=True).records:
-                    in_data &= not isinstance(record, DataEnd)  # the following records repeat
-                    if in_data and isinstance(record, kinds):
-                        expected.append(record)
-            except DAMAGED:
-                sound_end = False
-        assert all(record in original for record in found)
-        rest = iter(original)
-        assert all(record in rest for record in found if isinstance(record, Message))  # in order
-        if place >= 60:  # the length of the first record precedes
-            assert found[: len(expected)] == expected
-            assert (remarks == []) == sound_end
 
 
 def test_reading_stops_after_the_most_states_and_a_span_selects_others(tmp_path):

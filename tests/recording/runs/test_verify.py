@@ -211,22 +211,6 @@ def test_the_number_of_messages_not_compared_is_reported(tmp_path):
     assert "identical bit for bit in 121 of 122 messages" in output
 
 
-@pytest.mark.exhaustive
-@pytest.mark.slow
-def test_any_bit_flip_in_the_file_is_found(sound, tmp_path):
-    whole = sound.read_bytes()
-    places = np.random.default_rng(1).integers(0, 8 * len(whole), 60).tolist()
-    ends = range(8 * (len(whole) - 40), 8 * len(whole), 13)  # footer and magic
-    for place in (*places, *ends, 3, 90, 300):
-        damaged = bytearray(whole)
-        damaged[place // 8] ^= 1 << place % 8
-        file = tmp_path / "damaged.mcap"
-        file.write_bytes(damaged)
-        code, output = invoke(file)
-        assert code in (1, 2), (place, output)
-        assert "Traceback" not in output
-
-
 def invoke(*arguments):
     answer = CliRunner().invoke(build_app(), ["verify", *map(str, arguments)])
     return answer.exit_code, answer.output
