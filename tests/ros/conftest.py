@@ -24,6 +24,7 @@ _TIMEOUT = 5.0  # [s] for a node to end after a signal
 
 
 Start = Callable[..., Program]
+Play = Callable[..., Program]
 
 
 @pytest.fixture
@@ -38,6 +39,16 @@ def execute(domain: int, tmp_path: Path) -> Iterator[Start]:
     """Start a module with arguments, as users do: for tests of the start itself."""
     with starting(Executed, tmp_path) as run:
         yield run
+
+
+@pytest.fixture
+def play(start: Start) -> Play:
+    """Start `planetary-twin replay` with arguments."""
+
+    def replay(*arguments: str | Path) -> Program:
+        return start("planetary_twin_py.cli", "replay", *map(str, arguments))
+
+    return replay
 
 
 @contextmanager

@@ -115,12 +115,6 @@ def changing(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
     yield from play(tmp_path_factory.mktemp("changing"), ERRORS + CHANGES, 15.0)
 
 
-@pytest.fixture(scope="module")
-def healthy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
-    """A plant that stays as it is."""
-    yield from play(tmp_path_factory.mktemp("healthy"), ERRORS, 12.0)
-
-
 def test_hidden_changes_are_found(changing: Played) -> None:
     events = {event.what: event for event in changing.messages["event"]}
     assert set(events) == {"loss torque stepped", "sun tooth 3 changed"}
@@ -142,22 +136,6 @@ def tooth_friction() -> float:
     scene = pt.load_scene("paper")
     run = pt.simulate(scene, 0.05, settling=0.05)
     return float(run.energy.friction / (run.duration * scene.operating_point.input_speed))
-
-
-@pytest.mark.exhaustive
-def test_a_healthy_gearbox_raises_nothing(healthy: Played) -> None:
-    messages = healthy.messages
-    assert "event" not in messages
-    assert messages["teeth"][-1].changed == [] and not messages["teeth"][-1].learning
-    assert max(messages["teeth"][-1].every_z) < 6.5
-    assert list(messages["baseline"][-1].hunting_periods) == [8]
-    assert messages["baseline"][-1].digest
-    last = messages["estimate"][-1]
-    assert last.friction_level_status == "ESTIMATED"
-    assert agrees(last.friction_level_low, 1.0, last.friction_level_high)
-    for name in ("drag", "torque_zero", "torque_gain", "inertia"):
-        assert getattr(last, f"{name}_status") == "NOT_IDENTIFIABLE"
-        assert getattr(last, f"{name}_remedy") and math.isnan(getattr(last, name))
 
 
 def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing: Played) -> None:

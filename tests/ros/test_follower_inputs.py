@@ -173,29 +173,6 @@ def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].input_torque_status == "ESTIMATED")
 
 
-def test_both_speeds_in_rpm_are_recognised_by_the_positions(rig: Rig, start: Start) -> None:
-    begin(start, rig)
-    for n in range(600):
-        message = rig.reading(n / RATE)
-        angle = 104.72 * n / RATE
-        message.position = [angle % math.tau, RATIO * angle % math.tau]
-        message.velocity = [30 / math.pi * speed for speed in message.velocity]
-        rig.joints.publish(message)
-    rig.reported(
-        "inputs", DiagnosticStatus.ERROR, "if the speed is in rpm, scale input_speed by 0.10472"
-    )
-
-
-def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start) -> None:
-    begin(start, rig)
-    warm = Temperature(temperature=343.15)
-    stamp(warm, BEGIN)
-    rig.oil.publish(warm)
-    rig.send(0.0, 2.0)
-    words = "oil_temperature: left out, because it must be within 200 and 475 K"
-    rig.reported("estimator", DiagnosticStatus.WARN, words)
-
-
 def test_a_follower_outlives_readings_that_no_machine_has(rig: Rig, start: Start) -> None:
     """A spike, a code for a missing reading, a cable, stamps of 0 and positions that stand."""
     begin(start, rig)

@@ -17,7 +17,6 @@ from .reported import figures, listen_to_reports
 # At the lowest sample rate of an overloaded twin, ten seconds of messages have 7 MB.
 WAITING = 5.0  # [MB]
 KEPT = 2.5  # [MB] histories and a longer mesh cycle at a tighter tolerance are kept for reuse
-CHANGES = 1500  # those that arrive within an interval of 10 ms are one for the twin
 Growth = Callable[[], float]
 
 
@@ -53,12 +52,3 @@ def test_memory_of_messages_that_waited_is_returned(
     peer.until(lambda: of_simulation() < KEPT and of_logger() < KEPT)
     peer.until(lambda: status)
     assert not any(status[-1].lost)
-
-
-@pytest.mark.exhaustive
-def test_changes_of_parameters_leave_no_memory(peer: Peer, growths: tuple[Growth, Growth]) -> None:
-    of_simulation, of_logger = growths
-    for n in range(CHANGES):
-        values = {"lambda_ratio": 1.5 + 0.5 * (n % 2), "backlash": 1e-7 * (2 + n % 3)}
-        assert peer.set(f"{TWIN}/simulation", atomically=True, **values).successful
-    peer.until(lambda: of_simulation() < KEPT and of_logger() < KEPT)

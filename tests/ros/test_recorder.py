@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from mcap.reader import make_reader
-from mcap.records import Chunk, Message
-from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.records import Message
 from planetary_twin.recording_report import RECORDING
 from planetary_twin_msgs.msg import RecorderStatus
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -168,32 +167,6 @@ def test_a_kill_loses_of_the_received_messages_those_of_one_flush_period_at_most
     assert safe <= len(numbers) <= ticker.sent
 
 
-def test_a_logger_that_was_stopped_writes_what_waited_in_parts_of_a_flush_period(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    period = 0.05
-    setting = f"flush_period:={period}"
-    logger = Logger(peer, start, "name:=bag", setting, f"topics:=['{TOPIC}']")
-    ticker = Ticker(peer)
-    peer.until(lambda: logger.recorded() > 20)
-    logger.process.send_signal(signal.SIGSTOP)
-    before = ticker.sent
-    peer.until(lambda: ticker.sent > before + 200)  # a second
-    logger.process.send_signal(signal.SIGCONT)
-    peer.until(lambda: logger.recorded() > before + 200)
-    logger.process.terminate()
-    assert logger.process.wait(LONG) == 0
-    (file,) = files_of(tmp_path / "recordings/bag")
-    chunks = 0
-    with file.open("rb") as stream:
-        for record in StreamReader(stream, emit_chunks=True).records:
-            if isinstance(record, Chunk):
-                chunks += 1
-                *times, _ = [m.log_time for m in breakup_chunk(record) if isinstance(m, Message)]
-                assert not times or max(times) - min(times) < period * 1e9
-    assert chunks > 20
-
-
 def test_recordings_start_split_and_end_on_request(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
@@ -263,19 +236,6 @@ def test_a_snapshot_writes_the_last_seconds_and_the_logger_continues(
         assert info[DESCRIPTION].recorded == 1
         assert info[TOPIC].lost == 0
     assert files[0].parent != files[1].parent
-
-
-def test_a_deleted_folder_ends_the_logger_with_one_line(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    logger = Logger(peer, start, "name:=bag", "flush_period:=0.1")
-    Ticker(peer)
-    peer.until(lambda: logger.recorded() > 20)
-    (tmp_path / "recordings/bag").rename(tmp_path / "elsewhere")
-    peer.until(lambda: logger.process.poll() is not None)
-    logger.ends_with("bag_0.mcap: deleted or moved away")
-    assert logger.reports[-1].level == DiagnosticStatus.ERROR
-    assert len(numbers_in(tmp_path / "elsewhere")) > 20
 
 
 def test_a_managed_logger_goes_to_its_error_state_and_recovers(

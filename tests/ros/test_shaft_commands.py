@@ -148,35 +148,6 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
     assert answer.message == "command: must be empty if there are commands"
 
 
-def test_diagnostics_count_commands_that_are_out_of_range_or_have_no_name(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    running(peer, start, tmp_path)
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-    diagnostics = peer.listen(DiagnosticArray, "/diagnostics")
-
-    def counted() -> bool:
-        publisher.publish(command((1e9, 0.0)))
-        publisher.publish(JointState(name=[SUN], effort=[0.1, 0.2]))
-        status = [each for array in diagnostics for each in array.status if "commands" in each.name]
-        keys = {value.key for each in status for value in each.values}
-        return {"ignored: out of range", "ignored: more values than names"} <= keys
-
-    peer.until(counted)
-
-
-def test_commands_by_topic_drive_the_shafts(peer: Peer, start: Start, tmp_path: Path) -> None:
-    joints = running(peer, start, tmp_path)
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-
-    def follows(effort: tuple[float, float]) -> bool:
-        publisher.publish(command(effort))
-        return (torque(joints[-1], SUN), torque(joints[-1], RING)) == pytest.approx(effort)
-
-    peer.until(lambda: follows((66.0, 148.0)))
-    peer.until(lambda: follows((60.0, 146.0)))
-
-
 @pytest.mark.parametrize("silence", ["hold", "zero", "brake"])
 def test_silence_holds_releases_or_brakes(
     peer: Peer, start: Start, tmp_path: Path, silence: str
@@ -199,32 +170,6 @@ def test_silence_holds_releases_or_brakes(
         # The shaft stands; the sun swings about it, since the torque on the ring has gone.
         assert abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0
     peer.until(follows)  # the next command acts again
-
-
-def test_a_node_brakes_a_shaft_that_its_client_left_beyond_the_limit(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    """Also without a command that could be refused: the port itself brakes."""
-    limit = 200.0
-    options = ("command_timeout:=0.3", "command_silence:=brake")
-    joints = running(peer, start, tmp_path, *options, more=f", speed_limit: {limit}")
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
-
-    def is_fast() -> bool:
-        publisher.publish(command((65.0, 0.0)))
-        return speed(joints[-1], SUN) > 1.1 * limit
-
-    peer.until(is_fast)
-    count = len(joints)
-    peer.until(lambda: abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0)
-    speeds = [speed(state, SUN) for state in joints[count:]]
-    braked = [now for now in speeds[int(np.argmax(speeds)) :] if now > 30.0]
-    # The sun swings on the shaft, whose end is braked.
-    slope = np.polyfit(np.arange(len(braked)) * 0.01, braked, 1)[0]
-    assert -slope == pytest.approx(PAPER.drive.speed_control.slew_rate, rel=0.1)
-    faults = [status for each in reports for status in each.status if "s: brake" in status.message]
-    assert {status.level for status in faults} == {DiagnosticStatus.ERROR}
 
 
 def received(
@@ -264,18 +209,6 @@ def test_repeated_and_reordered_commands_have_no_effect() -> None:
     assert torques(commands) == {"input_torque": 7.0, "output_torque": 8.0}
     assert commands.ignored == {"repeated or out of order": 2}
     assert torques(commands) == {}
-
-
-def test_the_report_counts_what_was_ignored_and_names_the_silence() -> None:
-    commands = received(command((1.0, 2.0), 5), command((3.0, 4.0), 5))
-    status = commands.status("/twin")
-    assert (ord(status.level), status.name) == (1, "twin/simulation: commands")
-    assert [(v.key, v.value) for v in status.values] == [("ignored: repeated or out of order", "1")]
-    assert received().status("/twin").message == "no command yet"
-    silent = received(command((1.0, 2.0)), timeout=1e-3)
-    torques(silent)
-    time.sleep(0.01)
-    assert silent.status("/twin").message.endswith("s: hold")
 
 
 def test_a_fault_is_reported_once_with_its_reason() -> None:
@@ -342,18 +275,6 @@ def test_a_shaft_faster_than_the_limit_of_commands_is_reported() -> None:
     assert ord(status.level) == 1
     assert status.message.startswith("speed of the input shaft = ")
     assert "rad/s: exceeds 105 rad/s, from drive.speed_limit; speed of the output" in status.message
-
-
-def test_late_commands_have_no_effect() -> None:
-    now = 10**18
-    commands = received(
-        command((1.0, 2.0), now - 2_000_000_000),
-        command((3.0, 4.0), now),
-        timeout=1.0,
-        now=lambda: now,
-    )
-    assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
-    assert commands.ignored == {"late": 1}
 
 
 @pytest.mark.parametrize(
@@ -524,25 +445,6 @@ def test_a_defect_in_taking_commands_is_a_silence(clock: list[float]) -> None:
     assert commands.given(braked, 0.01) == {}
     assert braked.ports == ("brake", "torque")
     assert "not taken (RuntimeError: the middleware is gone)" in commands.status("/twin").message
-
-
-def test_commands_from_before_a_stall_do_not_end_a_silence(clock: list[float]) -> None:
-    """A node that was stopped finds them in its queue when it continues."""
-    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
-    commands.given(braked, 0.01)
-    clock[0] = 8.0
-    commands.receive(command((65.0, 147.0)), waited=7_900_000_000)
-    assert commands.given(braked, 0.01) == {}
-    assert braked.ports == ("brake", "torque")
-
-
-def test_a_joint_whose_port_takes_something_else_is_counted() -> None:
-    commands = received(JointState(name=[SUN], velocity=[1.0]))
-    assert torques(commands) == {}
-    assert commands.ignored == {f"{SUN}: drive.input.port = torque": 1}
-    both = received(JointState(name=[SUN], effort=[5.0], velocity=[1.0]))
-    assert torques(both) == {"input_torque": 5.0}
-    assert not both.ignored
 
 
 @pytest.mark.parametrize("continuous", [False, True])
