@@ -4,7 +4,7 @@ import math
 
 import pytest
 from planetary_twin_benchmark import costs
-from planetary_twin_benchmark.timing import Speed, affordable
+from planetary_twin_benchmark.timing import affordable
 
 from planetary_twin_py.engine import Engine
 from planetary_twin_py.gearset.phasing import mesh_phases
@@ -50,21 +50,5 @@ def test_every_term_has_its_speed(monkeypatch):
     assert all(0.0 < speed.low <= speed.median <= speed.high for speed in found.values())
 
 
-def test_a_run_is_no_longer_than_it_takes_to_time_it(monkeypatch):
-    monkeypatch.setattr("planetary_twin_benchmark.timing.ROUND", 0.0)
-    assert affordable(load_scene("paper"), 1e-2, 0.001, 1.0) == 0.001
-
-
 def test_a_run_is_never_longer_than_the_longest():
     assert affordable(load_scene("paper"), 1e-2, 0.0001, 0.0003) == 0.0003
-
-
-def test_the_section_of_the_page_shows_what_was_measured():
-    found = [
-        costs.Cost("planets", "2", Speed(3.0, 2.0, 4.0)),
-        costs.Cost("motor speed", "10 rpm", Speed(100.0, 90.0, 110.0)),
-    ]
-    text = costs.cost_markdown(found)
-    assert "| planets | speed | spread |\n| --- | --- | --- |\n| 2 | 3 | 2-4 |" in text
-    assert "| 10 rpm | 100 | 90-110 |" in text
-    assert [table.row_count for table in costs.cost_tables(found)] == [1, 1]

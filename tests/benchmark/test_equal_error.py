@@ -43,7 +43,3 @@ def test_the_page_shows_speeds_and_ratios():
         section = page.split(f"### DTE error at most {error}\n")[1].split("###")[0]
         first, second = section.split("With samples")
         assert f"| case | {bare} |" in first and f"| case | {sampled} |" in second
-
-
-def test_without_peers_there_is_nothing_to_compare():
-    assert equal_error_markdown(ROWS[:2], []) == ""

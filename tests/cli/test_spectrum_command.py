@@ -105,30 +105,6 @@ def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tm
     assert 900.0 <= places.min() < 905.0 and 1595.0 < places.max() <= 1600.0
 
 
-@pytest.mark.exhaustive
-def test_samples_of_simulate_are_analysed_too(tmp_path):
-    npz = tmp_path / "run.npz"
-    run_here("simulate", "paper", "--duration", 0.1, "--out", npz)
-    done = run_here("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
-    assert done.returncode == 0, done.stderr
-    lines = json.loads(done.stdout)["lines"]
-    assert lines[0]["order"] == pytest.approx(30.0, abs=0.3)
-    assert [line["harmonic"] for line in lines] == [round(line["order"] / 30) for line in lines]
-
-
-@pytest.mark.exhaustive
-def test_lines_of_samples_without_a_scene_are_not_named(tmp_path):
-    npz = tmp_path / "run.npz"
-    run_here("simulate", "paper", "--duration", 0.1, "--out", npz)
-    with np.load(npz) as held:
-        np.savez(npz, **{name: held[name] for name in held.files if name != "scene_yaml"})
-    done = run_here("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
-    assert done.returncode == 0, done.stderr
-    line = json.loads(done.stdout)["lines"][0]
-    assert line["order"] == pytest.approx(30.0, abs=0.3)
-    assert line["harmonic"] is None
-
-
 def test_lost_blocks_leave_the_longest_segment_and_are_reported(file):
     recording = read_recording(file)
     wave = recording.waveform

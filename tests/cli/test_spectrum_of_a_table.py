@@ -8,7 +8,6 @@ import pyarrow as pa
 import pytest
 from pyarrow import parquet
 from scipy import io
-from tiers import first
 from typer.testing import CliRunner
 
 from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
@@ -65,10 +64,6 @@ def test_orders_count_the_turns_of_the_sun(table):
     assert sorted(line["order"] for line in found[2:4]) == pytest.approx([29.0, 31.0], abs=0.02)
 
 
-def test_without_a_scene_no_line_is_called_a_mesh_harmonic(table):
-    assert {line["harmonic"] for line in lines(table)} == {None}
-
-
 def test_the_unit_of_the_heading_is_printed(table):
     shown = invoke(table).stdout
     assert "amplitude [m/s^2]" in shown and shown.rstrip().endswith("m/s^2")
@@ -97,14 +92,6 @@ def test_a_sample_rate_that_contradicts_the_time_column_is_reported_with_both_ra
     words = f"--sample-rate = {rate:g} Hz contradicts the column 'time', whose stamps are 25600 Hz"
     assert done.exit_code == 0 and (words in done.stderr) == contradicts
     assert len(done.stderr.splitlines()) == contradicts
-
-
-def test_a_sample_rate_that_hides_a_gap_in_the_stamps_is_reported(tmp_path):
-    file, (time, values) = tmp_path / "vibration.csv", vibration()
-    time[len(time) // 2 :] += 0.5
-    rows = np.column_stack((time, values))
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9f")
-    assert "contradicts the column 'time'" in invoke(file, "--sample-rate", RATE).stderr
 
 
 def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
@@ -284,14 +271,6 @@ def test_lines_at_stamps_that_drift_have_their_amplitudes_with_a_remark(tmp_path
     )
 
 
-def test_missing_samples_and_uneven_times_are_refused(tmp_path):
-    file = tmp_path / "vibration.csv"
-    file.write_text("time,acceleration\n0,1\n1,\n2,3\n")
-    assert "row 2: acceleration: has no value" in invoke(file).stderr
-    file.write_text("time,acceleration\n0,1\n1,2\n2,3\n5,4\n")
-    assert "row 4: time = 5 s" in invoke(file).stderr
-
-
 def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     values[:5], time[-100:] = np.nan, time[-100:] + 3.0
@@ -309,24 +288,6 @@ def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
     assert "planetary-twin" not in invoke(file, *inside, "--sample-rate", RATE).stderr
     nothing = invoke(file, "--from", 7.0).stderr
     assert "from 7 to 4.99996 s: 0 rows; the table runs from 0 to 4.99996 s" in nothing
-
-
-def test_a_table_of_fewer_than_two_rows_is_refused(tmp_path):
-    file = tmp_path / "vibration.csv"
-    for text in ("time,a\n", "time,a\n0,1\n"):
-        file.write_text(text)
-        for rate in ((), ("--sample-rate", 5.0)):
-            said = invoke(file, *rate).stderr
-            assert "rows: must be at least 2" in said and len(said.splitlines()) == 1
-
-
-def test_a_table_without_headings_or_without_a_time_is_refused(tmp_path):
-    file = tmp_path / "vibration.csv"
-    file.write_text("0.0,1e-3\n0.1,2\n0.2,3\n")
-    assert "row 1: must have the headings of the columns" in invoke(file).stderr
-    file.write_text("t [s],a\n0.0,1\n0.1,2\n0.2,3\n")
-    assert "column 'time': missing" in invoke(file, "--column", "a").stderr
-    assert "columns: t, a" in invoke(file, "--column", "a").stderr
 
 
 def test_options_of_tables_are_refused_for_recordings(tmp_path):
@@ -410,8 +371,8 @@ def test_factors_that_explain_as_much_are_all_stated(tmp_path):
     assert "frequency 1.5 times that of" in said and "They fit 0.5 times that of the" in said
 
 
-@pytest.mark.parametrize("strongest", first(1, [3, 1, 2]))
-@pytest.mark.parametrize("turn", first(2, [1.0, 3.0, 1.5, 30.0 / 70.0]))
+@pytest.mark.parametrize("strongest", [3])
+@pytest.mark.parametrize("turn", [1.0, 30.0 / 70.0])
 @pytest.mark.parametrize("others", ["none", "mains", "bearing", "shaft"])
 def test_a_right_speed_gives_no_warning_whatever_else_vibrates(tmp_path, strongest, turn, others):
     time = np.arange(0.0, 1.0, 1.0 / RATE)
@@ -468,18 +429,6 @@ def test_lines_within_the_noise_are_not_named_and_counted(tmp_path):
     done = written(tmp_path / "a.csv", noise)
     assert "12 of these lines have no name: they are less than 5 times as high as" in done.stderr
     assert {line["name"] for line in json.loads(done.stdout)["lines"]} == {""}
-
-
-def test_units_of_a_csv_may_be_in_the_file_beside_it_that_export_writes(tmp_path):
-    file, time = tmp_path / "vibration.csv", np.arange(2000) / 1000.0
-    rows = np.column_stack((1e3 * time, np.sin(200.0 * np.pi * time)))
-    np.savetxt(file, rows, delimiter=",", header="time,acceleration", comments="")
-    write_units(file, {"time": "ms", "acceleration": "m/s^2"})
-    done = invoke(file)
-    assert done.exit_code == 0 and "amplitude [m/s^2]" in done.stdout
-    assert float(done.stdout.split("\n")[1].split()[0]) == pytest.approx(100.0, rel=1e-3)
-    (tmp_path / "vibration.units.json").write_text("[1]")
-    assert "vibration.units.json: must be an object" in invoke(file).stderr
 
 
 @pytest.mark.parametrize("heading", ["n [rpm]", "speed", "input_speed (rad/s)", "f [rev/s]"])
@@ -544,15 +493,6 @@ def test_a_speed_without_orders_is_named_with_its_file_row_time_and_value(tmp_pa
     done = speed_table(tmp_path / "table.csv", change)
     assert done.exit_code != 0 and done.stderr.count("\n") == 1
     assert str(tmp_path / "table.csv") in done.stderr and words in done.stderr
-
-
-def test_a_voltage_in_pulses_is_no_speed(tmp_path):
-    done = speed_table(
-        tmp_path / "t.csv", lambda t: 5.0 * (np.mod(16.0 * t, 1.0) < 0.2), "tach [V]"
-    )
-    assert done.exit_code != 0
-    assert "[V] cannot be converted to rad/s" in done.stderr
-    assert "is it a pulse train?" in done.stderr
 
 
 @pytest.mark.parametrize("factor, words", [(2.0, "2 times"), (0.5, "0.5 times"), (3.0, "3 times")])

@@ -155,11 +155,6 @@ def test_a_stribeck_curve_is_drawn_hollow_where_friction_is_clipped():
     assert hollow(sun) == [pytest.approx((0.01 * SPEEDS[0], 0.03))] and hollow(ring) == []
 
 
-def test_no_point_is_hollow_without_clipping():
-    figure = pt.plot_study(study({"input_speed": SPEEDS[1:]}, CLIPPED))
-    assert hollow(figure.axes[0]) == [] and figure.get_supxlabel() == ""
-
-
 @pytest.mark.parametrize(
     ("given", "reason"),
     [
@@ -181,12 +176,6 @@ def test_an_undrawable_request_is_refused_in_one_line(given, reason):
 def test_a_table_without_results_is_refused():
     table = pa.table({"input_speed": SPEEDS, "pressure": SPEEDS})
     with pytest.raises(ValueError, match="y: no column is a result of a study"):
-        pt.plot_study(table)
-
-
-def test_a_table_of_failures_is_refused():
-    table = study({"input_speed": SPEEDS}, {"efficiency": efficiency}, failed=(0, 1, 2))
-    with pytest.raises(ValueError, match="all points of the table failed"):
         pt.plot_study(table)
 
 

@@ -8,9 +8,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from domains import private_domain
+from planetary_twin import shaft_commands
 from planetary_twin_msgs.msg import OperatingPoint
 from small_disk import mounted
 from std_srvs.srv import Trigger
@@ -49,6 +51,14 @@ def play(start: Start) -> Play:
         return start("planetary_twin_py.cli", "replay", *map(str, arguments))
 
     return replay
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The steady time of commands [s], which a test sets."""
+    now = [0.0]
+    monkeypatch.setattr(shaft_commands, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    return now
 
 
 @contextmanager

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
-from planetary_twin.live import LiveTwin
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
-import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer
 from .test_clocks import Ticking
-from .test_shaft_commands import received
 
 NODE = f"{TWIN}/simulation"
 NO_CLOCK = "use_sim_time: the twin waits for the first message on /clock"
@@ -95,52 +90,3 @@ def test_a_plant_begins_with_the_first_clock(peer: Peer, start: Start) -> None:
     Ticking(peer, 5.0)
     peer.until(lambda: plant.poll() is not None)
     assert measured and measured[0].header.stamp.sec >= 5
-
-
-class Recorded:
-    """What a live twin publishes, whose time passes once `ready` returns True."""
-
-    def __init__(self, ready: Callable[[], bool]) -> None:
-        self.ready = ready
-        self.published: list[str] = []
-
-    def listener(self) -> Any:
-        """The callbacks of the twin."""
-        return SimpleNamespace(
-            ready=self.ready,
-            has_clock=lambda: True,
-            has_room=lambda: True,
-            resumed=lambda twin: None,
-            retuned=lambda *given: None,
-            prepare=lambda window: None,
-            publish=lambda: self.published.append("state"),
-            changed=lambda change: self.published.append(f"{change.point.backlash:g}"),
-        )
-
-
-def live(record: Recorded) -> LiveTwin:
-    twin = pt.Twin(pt.load_scene("paper"))
-    setting = SimpleNamespace(tolerance=twin.tolerance, sample_rate=twin.sample_rate)
-    quality = SimpleNamespace(setting=setting, relearn=lambda: None, observe=lambda *given: None)
-    quality.without_deadline = lambda: quality
-    return LiveTwin(twin, 0.01, 1.0, cast(Any, quality), record.listener(), received())
-
-
-def test_a_step_waits_for_the_recorder_and_publishes_the_operating_point_first() -> None:
-    asked = iter([False, False, False])
-    record = Recorded(lambda: next(asked, True))
-    twin = live(record)
-    twin._pause(True)
-    twin._change({"backlash": 4e-7})
-    twin._steps(0.02, ({},), lambda twin: None)
-    assert record.published == ["2e-07", "4e-07", "state", "state"]
-
-
-def test_a_clock_lost_between_a_change_and_its_interval_withholds_no_operating_point() -> None:
-    """`use_sim_time` is set in another thread than that of the twin."""
-    asked = iter([True])
-    record = Recorded(lambda: next(asked, False))
-    twin = live(record)
-    twin._commands.change({"backlash": 4e-7})
-    assert twin._serve() and twin._run_on()
-    assert record.published == ["2e-07", "4e-07", "state"]

@@ -5,12 +5,9 @@ from __future__ import annotations
 import math
 import signal
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, cast
 
 import numpy as np
 import pytest
-from planetary_twin.live import LiveTwin
 from planetary_twin_msgs.msg import OperatingPoint
 from planetary_twin_msgs.srv import Step
 from rcl_interfaces.srv import GetParameters
@@ -26,9 +23,7 @@ from planetary_twin_py.recording.runs.what_if import resimulate
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer
-from .test_shaft_commands import RING, SUN, clock, received, torque
-
-__all__ = ["clock"]  # a fixture
+from .test_shaft_commands import RING, SUN, received, torque
 
 NODE = f"{TWIN}/simulation"
 INPUT, OUTPUT = "drive.input.port", "drive.output.port"
@@ -159,27 +154,6 @@ def test_ports_that_change_before_the_first_step_are_part_of_the_run(
 
 def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
     return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
-
-
-def test_no_change_is_lost_where_the_log_of_the_twin_is_cut() -> None:
-    """The report of real time keeps only its last entry; a new origin is followed by all."""
-    changed, published = twin(), list[tuple[float, str]]()
-    listener = SimpleNamespace(
-        ready=lambda: True,
-        resumed=lambda twin: None,
-        changed=lambda change: published.append((change.point.backlash, change.ports.input)),
-    )
-    quality = SimpleNamespace(relearn=lambda: None)
-    live = LiveTwin(changed, 0.01, 1.0, cast(Any, quality), cast(Any, listener), received())
-    for values in ({"backlash": 4e-7}, {INPUT: "torque"}):
-        live._change(values)
-        del changed.log[:-1]
-    live._announce()
-    assert published == [(2e-7, "machine"), (4e-7, "machine"), (4e-7, "torque")]
-    changed.advance(0.01)
-    live._change({INPUT: "machine"})
-    live._announce()
-    assert published[3:] == [(4e-7, "machine")]
 
 
 def test_a_command_for_the_port_before_has_no_effect_and_is_counted() -> None:

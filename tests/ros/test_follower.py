@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -210,24 +207,6 @@ def measured(folder: Path) -> Iterator[Arrived]:
             if schema.name in kinds and "/measured/" in channel.topic:
                 found = deserialize_message(message.data, kinds[schema.name])
                 yield Arrived(channel.topic, schema.name, 1e-9 * message.log_time, found)
-
-
-@pytest.mark.exhaustive
-def test_the_command_gives_the_last_word_of_the_node(changing: Played) -> None:
-    out = changing.place / "followed.json"
-    given = ["--from", changing.recording, "--sensors", changing.place / "sensors.yaml"]
-    words = ["follow", "paper", *map(str, given), "--json", str(out)]
-    command = "import sys; from planetary_twin_py.cli import main; sys.exit(main())"
-    subprocess.run([sys.executable, "-c", command, *words], check=True, stdout=subprocess.DEVNULL)
-    figures = json.loads(out.read_text())
-    last = changing.messages["estimate"][-1]
-    assert figures["time"] == pytest.approx(seconds(last.header.stamp), abs=1e-6)
-    for name, one in figures["estimates"].items():
-        assert one["status"] == getattr(last, f"{name}_status")
-        assert one["value"] in (getattr(last, name), None)
-        assert one["sd"] in (getattr(last, f"{name}_sd"), None)
-    assert len(figures["events"]) == 2
-    assert figures["teeth"][0]["z"] == changing.messages["teeth"][-1].z[0]
 
 
 def stamp_of(message: Any) -> float:

@@ -6,9 +6,7 @@ import signal
 import time
 from pathlib import Path
 
-from diagnostic_msgs.msg import DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState
-from std_srvs.srv import SetBool
 
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.schedule import read_runs
@@ -27,28 +25,6 @@ def stall(process: Program) -> None:
     process.send_signal(signal.SIGSTOP)
     time.sleep(STALL)  # the subject of the test
     process.send_signal(signal.SIGCONT)
-
-
-def lag_of(state: GearboxState) -> float:
-    """Time since the stamp of a state that has just been received [s]."""
-    return time.time() - (state.header.stamp.sec + 1e-9 * state.header.stamp.nanosec)
-
-
-def test_stamps_after_a_stall_are_late_and_a_pause_ends_it(peer: Peer, start: Start) -> None:
-    simulation = start("planetary_twin.simulation")
-    states, reports = peer.listen(GearboxState, f"{TWIN}/gearbox_state"), listen_to_reports(peer)
-    peer.until(lambda: len(states) > 50)
-    stall(simulation)
-    peer.until(lambda: float(figures(reports).get("stamp_lag", 0.0)) > STALL - 0.5)
-    reports.clear()
-    peer.until(lambda: any("stamps are late" in each.status[0].message for each in reports))
-    assert reports[-1].status[0].level == DiagnosticStatus.WARN
-    states.clear()
-    assert lag_of(peer.until(lambda: states)[-1]) > 0.5 * STALL
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
-    reports.clear()
-    peer.until(lambda: abs(float(figures(reports).get("stamp_lag", STALL))) < 0.5 * STALL)
 
 
 def test_a_skip_bounds_the_lag_and_is_in_a_recording_that_verifies(

@@ -14,8 +14,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
 from planetary_twin.running.node_settings import node_settings
 from planetary_twin.running.tour import LENGTH, tour_of
@@ -222,24 +220,16 @@ def test_ctrl_c_during_the_start_leaves_nothing_running(
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
-@pytest.mark.parametrize(
-    "node", [pytest.param("simulation", marks=pytest.mark.exhaustive), "logger"]
-)
 def test_the_death_of_a_node_ends_the_run_with_one_line(
-    run: Callable[..., subprocess.Popen[str]], tmp_path: Path, node: str
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     process = run("--duration", "600")
     _line(process, "rpm")
-    victim = next(
-        pid
-        for pid in working_in(tmp_path)
-        if f"planetary_twin.{node}".encode() in Path(f"/proc/{pid}/cmdline").read_bytes()
-    )
-    os.kill(victim, signal.SIGKILL)
+    os.kill(_process_of("logger", tmp_path), signal.SIGKILL)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
-    assert f"{node}: ended by SIGKILL; the recording is in recordings/" in errors
+    assert "logger: ended by SIGKILL; the recording is in recordings/" in errors
     assert working_in(tmp_path) == []
 
 
@@ -312,17 +302,3 @@ def test_a_long_pause_and_a_reset_do_not_fail_a_run(
     assert process.returncode == 0, errors
     assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run after the reset
     assert "efficiency" in output
-
-
-@pytest.mark.exhaustive
-def test_a_run_whose_simulation_is_shut_down_reports_it(
-    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
-) -> None:
-    process = run("--duration", "60", "--no-tour", "--record", "bag")
-    _line(process, "rpm")
-    request = ChangeState.Request(transition=Transition(label="shutdown"))
-    assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", request, 20.0).success
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
-    assert "is finalized after a lifecycle request; the recording is in" in errors
-    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0

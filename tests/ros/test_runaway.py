@@ -78,7 +78,7 @@ def test_an_unstable_speed_loop_ends_the_node_with_one_line(start: Start, scene:
     ("change", "reason"),
     [
         ("input_torque: 300 N m", "refuses to configure: the run stops near 0 s"),
-        pytest.param("torque_ripple: 300 N m", "the recording is in", marks=pytest.mark.exhaustive),
+        ("torque_ripple: 300 N m", "the recording is in"),
     ],
 )
 def test_a_run_that_fails_reports_the_reason_and_the_recording(

@@ -12,7 +12,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from planetary_twin import shaft_commands
 from planetary_twin.shaft_commands import ShaftCommands, fault_of_names, names_given
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
@@ -319,14 +318,6 @@ def test_commands_act_after_the_clock_was_set_back() -> None:
     commands.receive(command((3.0, 4.0), now))
     assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
     assert not commands.ignored
-
-
-@pytest.fixture
-def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """The steady time of commands [s], which a test sets."""
-    now = [0.0]
-    monkeypatch.setattr(shaft_commands, "time", SimpleNamespace(monotonic=lambda: now[0]))
-    return now
 
 
 def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:

@@ -149,21 +149,6 @@ def test_a_cracked_tooth_is_drawn_with_its_smaller_load_in_the_model():
     assert np.array_equal(healthy.load[far], cracked.load[far])
 
 
-def test_load_torque_follows_from_the_contact_forces_on_the_sun():
-    """The contact forces have the moment about the sun's axis of forces on its base circle."""
-    force = np.full(len(SUN_ANGLE), 1000.0)
-    moment = 0.0
-    for mesh in range(3):
-        found = contacts(PAPER, mesh, turned(PAPER), force)
-        lever = (
-            found.point[..., 0] * found.direction[..., 1]
-            - found.point[..., 1] * found.direction[..., 0]
-        )
-        moment += (found.load * lever).sum(axis=1)
-    base = gear_of(PAPER.gearset, 30).base_radius
-    assert np.allclose(moment, 3 * 1000.0 * base)
-
-
 def test_forces_are_samples_of_the_waveform_and_means_where_it_has_a_gap(tmp_path):
     recording = read_recording(write_recording(tmp_path / "a.mcap", 0.05))
     wave = recording.waveform

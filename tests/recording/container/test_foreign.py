@@ -15,7 +15,7 @@ from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 from tiers import first_rows
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 
 from planetary_twin_py.recording.container.foreign import how_stored
 from planetary_twin_py.recording.container.records import RecordingError
@@ -25,11 +25,6 @@ from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.view.show import scene_of
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def stored(source, folder, plugin, mode=None):

@@ -6,7 +6,7 @@ import pytest
 from mcap.reader import make_reader
 from mcap.records import Message
 from mcap.writer import Writer
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 
 from planetary_twin_py.recording.container.log_order import records_in_log_order
 from planetary_twin_py.recording.ros2.playback import Playback
@@ -24,11 +24,6 @@ ORDERS = {
 }
 LATE = 1_200_000_000
 HALF = 1_790_000_000_150_000_000
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def rewritten(file, out, order, chunked=True):

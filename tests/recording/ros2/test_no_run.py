@@ -73,14 +73,11 @@ def whole():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("every", [8, pytest.param(1, marks=pytest.mark.exhaustive)])
-def test_every_command_says_that_there_is_no_run_and_what_to_do(
-    whole, tmp_path, monkeypatch, every
-):
+def test_every_command_says_that_there_is_no_run(whole, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     data, places = whole
     file, tried = tmp_path / "cut.mcap", 0
-    for place in places[::every]:
+    for place in places[::8]:
         file.write_bytes(data[:place])
         if topics_in(data[:place]) >= RUN:
             break
@@ -104,7 +101,7 @@ def test_every_command_says_that_there_is_no_run_and_what_to_do(
             saved.unlink()
         for folder in tmp_path.glob(f"saved_{place}"):
             folder.rmdir()
-    assert tried > 20 / every
+    assert tried > 2
 
 
 def test_a_recording_with_its_run_says_nothing_of_it(whole, tmp_path):

@@ -10,7 +10,7 @@ from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
 from mcap.records import Chunk, Message
 from mcap.stream_reader import breakup_chunk
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
@@ -23,11 +23,6 @@ from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def lost_chunks(file, begin, end):

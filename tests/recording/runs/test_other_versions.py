@@ -8,7 +8,7 @@ from altered_recording import rewritten
 from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.runs.branch import Branch
@@ -20,11 +20,6 @@ from planetary_twin_py.recording.tables.export import Export, export
 
 STATE = "planetary_twin_msgs/msg/GearboxState"
 POINT = "planetary_twin_msgs/msg/OperatingPoint"
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def types_of(definition, kind):

@@ -22,11 +22,6 @@ FOUR = tuple(0.5 * math.pi * n for n in range(4))
 
 
 @pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
-
-
-@pytest.fixture(scope="module")
 def branched(sound, tmp_path_factory):
     """The first run, with another lambda ratio from 50 ms on, before the recorded one at 100 ms."""
     branch = Branch({"lambda_ratio": "1.2"}, 0.045, run=1)

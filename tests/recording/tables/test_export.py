@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from pyarrow import parquet
 from rosbags.highlevel import AnyReader
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
@@ -20,11 +20,6 @@ from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 @pytest.fixture(scope="module")
