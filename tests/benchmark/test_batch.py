@@ -3,12 +3,12 @@
 from planetary_twin_benchmark import batch
 
 
-def test_every_point_is_another_and_lies_in_the_range_of_the_scene():
+def test_points_differ_and_are_within_the_range():
     points = [scene.operating_point for scene in batch.operating_points(40)]
     assert len(set(points)) == 40
 
 
-def test_every_number_of_workers_has_its_rates_and_its_ratio_to_one_worker():
+def test_every_number_of_workers_has_its_rates():
     rows = batch.measure_batch([(0.005, 6)])
     assert [row.workers for row in rows] == list(batch.WORKERS)
     for row in rows:

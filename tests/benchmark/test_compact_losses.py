@@ -30,7 +30,7 @@ def test_the_packaged_scene_has_the_estimates_of_all_steady_runs(losses):
 
 @pytest.mark.exhaustive
 @pytest.mark.slow
-def test_the_twin_with_them_is_the_straight_line_through_the_readings(losses):
+def test_the_twin_is_the_straight_line_through_the_readings(losses):
     points, base, _ = losses.steady()
     straight = np.polyval(np.polyfit(points.torque, points.loss, 1), points.torque)
     assert len(points.loss) == 54

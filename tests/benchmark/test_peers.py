@@ -111,7 +111,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
         for name in INSTALLED
     ],
 )
-def test_the_error_against_the_reference_falls_with_the_tolerance(name, references):
+def test_the_error_falls_with_the_tolerance(name, references):
     errors = [
         dte_error(solved(name, SHORT, tolerance).dte, references["short"][:, DTE])
         for tolerance in (3e-3, 3e-4)
@@ -153,7 +153,7 @@ def test_a_step_beyond_the_limit_of_stability_is_reported():
 
 
 @pytest.mark.parametrize("package", ["sksundae", "CyRK"])
-def test_without_a_package_of_the_peers_the_command_ends_in_one_line(monkeypatch, package):
+def test_a_missing_package_of_peers_ends_in_one_line(monkeypatch, package):
     monkeypatch.setitem(sys.modules, package, None)
     answer = CliRunner().invoke(build_app(), ["bench", "--peers"])
     assert answer.exit_code == 2

@@ -75,7 +75,7 @@ def test_a_wrong_unit_is_named_and_mended(readings, folder):
     assert "ESTIMATED" in cli("follow", "paper", "--from", wrong, "--scale", "output_speed=0.10472")
 
 
-def test_vibration_in_the_table_of_the_readings_is_learned_and_drawn(readings, folder):
+def test_vibration_in_the_table_of_readings_is_learned(readings, folder):
     rows = list(csv.reader(readings.open()))
     both = folder / "both.csv"
     with both.open("w", newline="") as file:
@@ -139,9 +139,7 @@ def test_shuffled_rows_give_the_same_results(readings, folder):
     assert "paper, 0.01 to 30.00 s" in texts[0]
 
 
-def test_a_table_without_the_output_torque_does_not_claim_that_nothing_has_changed(
-    readings, folder
-):
+def test_without_output_torque_no_verdict_is_claimed(readings, folder):
     other = folder / "misnamed.csv"
     other.write_text(readings.read_text().replace("output_torque", "Torque out (Nm)", 1))
     done = run_here("follow", "paper", "--from", other, COLUMNS="200")

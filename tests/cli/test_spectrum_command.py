@@ -41,7 +41,7 @@ def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
     assert "mesh harmonic 1" in done.stderr
 
 
-def test_without_a_time_span_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
+def test_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
     recording, twin = TwinRecording(tmp_path / "bag"), pt.Twin(pt.load_scene("paper"))
     recording.begin(twin, START_NS)
     for _ in range(6):
@@ -91,7 +91,7 @@ def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty,
 
 
 @pytest.mark.exhaustive
-def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tmp_path):
+def test_a_band_has_the_same_lines_as_the_whole(file, tmp_path):
     whole, part = (
         json.loads(run_here("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
         for band in ([], ["--band", "0.9 kHz:1600"])

@@ -46,7 +46,7 @@ def lines(*arguments):
     return json.loads(done.stdout)["lines"]
 
 
-def test_tones_have_their_amplitudes_and_mesh_harmonics_their_numbers(table):
+def test_tones_have_their_amplitudes_and_harmonics(table):
     found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm")[:4]
     expected = ((MESH, 0.8, 1), (2.0 * MESH, 0.3, 2))
     for line, (frequency, amplitude, harmonic) in zip(found, expected, strict=False):
@@ -82,9 +82,7 @@ def test_a_sample_rate_replaces_a_missing_time(tmp_path):
     ("decimals", "rate", "contradicts"),
     [(9, RATE, False), (3, RATE, False), (9, 0.5 * RATE, True), (9, 1.001 * RATE, True)],
 )
-def test_a_sample_rate_that_contradicts_the_time_column_is_reported_with_both_rates(
-    tmp_path, decimals, rate, contradicts
-):
+def test_a_sample_rate_that_contradicts_the_time_is_reported(tmp_path, decimals, rate, contradicts):
     file = tmp_path / "vibration.csv"
     rows = np.column_stack(vibration())
     np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt=f"%.{decimals}f")
@@ -104,7 +102,7 @@ def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
     assert "by --from and --to, or give --sample-rate" in invoke(file).stderr
 
 
-def test_stamps_rounded_to_their_last_digit_give_the_lines_of_even_steps(tmp_path):
+def test_rounded_stamps_give_the_lines_of_even_steps(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     rows = np.column_stack((1e3 * time, values))
     np.savetxt(file, rows, delimiter=",", header="time [ms],a", comments="", fmt=["%.2f", "%.9f"])
@@ -145,14 +143,14 @@ def test_orders_follow_a_measured_speed(run_up):
         assert line["amplitude"] == pytest.approx(0.8, rel=0.01)
 
 
-def test_orders_at_a_speed_that_is_assumed_to_be_constant_come_with_a_remark(run_up):
+def test_orders_at_an_assumed_speed_come_with_a_remark(run_up):
     options = ("--column", "Acceleration", "--order", "--scene", "paper")
     done = invoke(run_up, *options)
     assert "the speed is assumed to be constant, 16.6667 turns" in done.stderr
     assert "assumed" not in invoke(run_up, "--order", "--speed", "Motor speed").stderr
 
 
-def test_lines_over_frequency_that_a_varying_speed_lowers_come_with_a_remark(run_up):
+def test_lines_that_a_varying_speed_lowers_are_remarked(run_up):
     done = invoke(run_up, "--speed", "Motor speed")
     words = r"the speed varies: lines above [3-6]\.\d+ Hz that follow it are more than 1 % too low"
     assert re.search(words, done.stderr)
@@ -160,9 +158,7 @@ def test_lines_over_frequency_that_a_varying_speed_lowers_come_with_a_remark(run
 
 
 @pytest.mark.parametrize("options", [(), ("--scene", "paper")])
-def test_a_speed_that_reverses_defines_no_mesh_frequency_and_comes_with_one_remark(
-    tmp_path, options
-):
+def test_a_speed_that_reverses_has_no_mesh_frequency(tmp_path, options):
     file, time = tmp_path / "reversing.csv", np.arange(0.0, 2.0, 2e-4)
     speed = 50.0 * np.sin(2.0 * np.pi * time)
     rows = np.column_stack((time, np.sin(600.0 * np.pi * time), speed))
@@ -187,7 +183,7 @@ def test_a_measured_speed_without_a_unit_comes_with_a_remark(tmp_path):
         assert said.count("column 'speed' has no unit and is read in rad/s") == remarks
 
 
-def test_lines_whose_amplitudes_the_record_does_not_determine_are_counted(tmp_path):
+def test_lines_with_undetermined_amplitudes_are_counted(tmp_path):
     turns = np.arange(2000) / 2000.0
     for cycles, words in (
         ((1.3, 300.0), "1 of these lines have fewer than 2 cycles in the record"),
@@ -212,7 +208,7 @@ def most_too_low(low, high):
     return max(1.0 - strongest_lines(*amplitude_spectrum(tone, 1.0), 1)[0][1] for tone in tones)
 
 
-def test_the_stated_errors_of_lines_with_few_cycles_are_those_of_tones_of_any_phase(tmp_path):
+def test_stated_errors_of_few_cycles_are_those_of_tones(tmp_path):
     file = tmp_path / "a.csv"
     np.savetxt(file, np.sin(2.0 * np.pi * 1.3 * np.arange(2000) / 2000.0), header="a", comments="")
     shown = invoke(file, "--sample-rate", 1000.0).stdout
@@ -225,7 +221,7 @@ def test_the_stated_errors_of_lines_with_few_cycles_are_those_of_tones_of_any_ph
     assert most_too_low(0.6, 1.0) > 0.42 and most_too_low(2.0, 3.0) < 0.02
 
 
-def test_a_measured_input_speed_is_converted_to_that_of_the_sun_relative_to_the_carrier(tmp_path):
+def test_a_measured_input_speed_becomes_that_of_the_sun(tmp_path):
     file, time = tmp_path / "stage.csv", np.arange(0.0, 60.0, 0.01)
     mesh = 99 * 12.1 / 60.0  # [Hz] the carrier is the input, the ring with 99 teeth is held
     rows = np.column_stack((time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time))
@@ -250,7 +246,7 @@ def test_missing_or_invalid_options_are_refused_in_one_line(table, options, word
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_lines_at_stamps_that_drift_have_their_amplitudes_with_a_remark(tmp_path):
+def test_lines_at_drifting_stamps_have_their_amplitudes(tmp_path):
     file, number = tmp_path / "vibration.csv", np.arange(25_600)
     time = np.cumsum(1.0 + 0.01 * number / len(number)) / RATE
     turns = 15.0 * time + 0.75 * time**2
@@ -353,13 +349,13 @@ def test_a_factor_of_integers_is_found_by_the_sidebands(tmp_path, factor, amplit
 
 
 @pytest.mark.parametrize("factor", [2, 3, 4])
-def test_an_integer_factor_that_nothing_determines_is_said_to_be_possible(tmp_path, factor):
+def test_an_undetermined_integer_factor_is_possible(tmp_path, factor):
     said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
     assert f"are multiples of {factor}: these fit a mesh frequency {factor} times that of" in said
 
 
 @pytest.mark.parametrize("factor", [1 / 3, 0.5, 1.5])
-def test_a_series_of_harmonics_with_that_of_the_scene_is_found_without_sidebands(tmp_path, factor):
+def test_a_series_of_harmonics_is_found_without_sidebands(tmp_path, factor):
     said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
     assert f"mesh frequency {factor:.4g} times that of the scene" in said
     assert "The scene explains 1 of the 3 highest lines." in said
@@ -409,14 +405,14 @@ def test_sidebands_name_the_members_that_separate_them(table):
     assert lines(table)[0]["sidebands"] == []
 
 
-def test_a_short_record_says_which_sidebands_it_does_not_separate_and_what_length_does(tmp_path):
+def test_a_short_record_says_what_length_separates_sidebands(tmp_path):
     shown = written(tmp_path / "a.csv", meshing(30)[: int(0.3 * RATE)]).stderr
     assert "sidebands of the ring are 7.129 Hz apart and not named: they need a" in shown
     assert "resolution of 1.78 Hz, 0.561 s of signal" in shown
     assert "of the ring" not in written(tmp_path / "a.csv", meshing(30)).stderr
 
 
-def test_the_record_that_separates_overlapping_sidebands_is_stated(tmp_path):
+def test_the_length_that_separates_overlaps_is_stated(tmp_path):
     """A turn of the sun, and two of the ring with 70 teeth: 1/30 and 2/70 of the mesh frequency."""
     shown = written(tmp_path / "a.csv", meshing(30)).stderr
     apart = MESH * (1.0 / 30.0 - 2.0 / 70.0)
@@ -433,9 +429,7 @@ def test_lines_within_the_noise_are_not_named_and_counted(tmp_path):
 
 @pytest.mark.parametrize("heading", ["n [rpm]", "speed", "input_speed (rad/s)", "f [rev/s]"])
 @pytest.mark.parametrize(("rise", "varies"), [(0.0, False), (1e-5, False), (0.1, True)])
-def test_a_column_of_a_speed_that_varies_is_stated_with_the_option_that_uses_it(
-    tmp_path, heading, rise, varies
-):
+def test_a_column_of_a_varying_speed_is_suggested(tmp_path, heading, rise, varies):
     time = np.arange(0.0, 1.0, 1.0 / RATE)
     noise = np.random.default_rng(0).standard_normal(len(time))
     speed = 1000.0 * (1.0 + rise * time) + noise
@@ -489,7 +483,7 @@ def speed_table(file, change, heading="speed [rpm]"):
         (lambda t: 5.0 * (np.mod(16.0 * t, 1.0) < 0.5), "is it a pulse train?"),
     ],
 )
-def test_a_speed_without_orders_is_named_with_its_file_row_time_and_value(tmp_path, change, words):
+def test_a_speed_without_orders_is_named_with_its_row(tmp_path, change, words):
     done = speed_table(tmp_path / "table.csv", change)
     assert done.exit_code != 0 and done.stderr.count("\n") == 1
     assert str(tmp_path / "table.csv") in done.stderr and words in done.stderr
@@ -497,9 +491,7 @@ def test_a_speed_without_orders_is_named_with_its_file_row_time_and_value(tmp_pa
 
 @pytest.mark.parametrize("factor, words", [(2.0, "2 times"), (0.5, "0.5 times"), (3.0, "3 times")])
 @pytest.mark.parametrize("rows", [1, 700])
-def test_a_speed_that_jumps_is_named_with_its_time_and_the_teeth_are_not_blamed(
-    tmp_path, factor, words, rows
-):
+def test_a_speed_that_jumps_is_named_with_its_time(tmp_path, factor, words, rows):
     def pieces(time):
         wrong = np.isin(np.arange(len(time)) % 2000, np.arange(1200, 1200 + rows))
         return np.where(wrong, factor, 1.0) * (950.0 + 100.0 * time)

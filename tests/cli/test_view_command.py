@@ -50,7 +50,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
         assert reason in done.stderr
 
 
-def test_a_long_recording_is_shown_in_part_and_the_rest_on_request(tmp_path, monkeypatch):
+def test_a_long_recording_is_shown_in_part(tmp_path, monkeypatch):
     monkeypatch.setattr("planetary_twin_py.cli.view.MOST_STATES", 20)
     long = write_recording(tmp_path / "long.mcap", 0.5)
     arguments = "view", long, "--scene", "paper", "--save"

@@ -35,7 +35,7 @@ def test_site_is_built_without_a_warning(build):
 
 
 @pytest.mark.exhaustive
-def test_pages_load_nothing_from_a_network_and_equations_are_mathml(build):
+def test_pages_load_nothing_from_a_network(build):
     _, site = build
     for page in site.rglob("*.html"):
         loaded = re.findall(r'<(?:script|img|iframe)[^>]*src="(http[^"]*)"', page.read_text())
@@ -51,7 +51,7 @@ def test_reference_names_every_public_object():
     assert sorted(named) == sorted(pt.__all__)
 
 
-def test_pages_of_the_reference_are_those_generated_from_the_code(tmp_path):
+def test_pages_of_the_reference_are_the_generated_ones(tmp_path):
     # In a separate process, because it changes the environment for the nodes that it starts.
     make = [sys.executable, "-m", "_generate", tmp_path]
     subprocess.run(make, cwd=ROOT / "docs", check=True, timeout=600)

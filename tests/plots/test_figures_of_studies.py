@@ -26,7 +26,7 @@ def diagram():
     return bifurcation(PAPER, [300.0, 310.0, 320.0], Dwell(0.02, cycles=3))
 
 
-def test_parts_of_friction_add_up_and_the_film_takes_over_from_the_asperities(curve):
+def test_parts_of_friction_add_up(curve):
     figure = pt.plot_study(curve, kind="stribeck")
     for axes, side in zip(figure.axes, ("sun_planet", "planet_ring"), strict=True):
         assert axes.get_xlabel() == "Lambda ratio [-]" and axes.get_xscale() == "log"

@@ -108,7 +108,7 @@ def _end_of(block: AxesWaveform) -> float:
     return float(block.start_time + (block.samples - 1) * block.sample_period)
 
 
-def test_states_of_axes_have_no_gaps_and_the_stamps_of_the_gearbox(run: Run) -> None:
+def test_states_of_axes_have_the_stamps_of_the_gearbox(run: Run) -> None:
     first = run.states[0].sequence
     numbers = [state.sequence for state in run.states]
     assert numbers == list(range(first, first + len(run.states)))
@@ -143,7 +143,7 @@ def test_blocks_of_axes_follow_one_another(run: Run) -> None:
         assert after.start_time == pytest.approx(follows, abs=1e-9)
 
 
-def test_the_recording_has_what_was_published_and_is_verified_bit_for_bit(run: Run) -> None:
+def test_the_recording_has_what_was_published_and_verifies(run: Run) -> None:
     in_file = counts(run.folder)
     states, blocks = (in_file[f"{TWIN}/{name}"] for name in ("axes_state", "axes_waveform"))
     assert states == blocks == run.states[-1].sequence
@@ -174,7 +174,7 @@ def test_the_monitor_shows_load_sharing_and_bearing_forces(run: Run) -> None:
     assert float(rows["Displacement, peak, sun"]) > 1.0  # [um]
 
 
-def test_a_node_picks_the_dynamics_of_a_scene_that_leaves_them_open_and_reports_it(
+def test_a_node_reports_the_dynamics_that_auto_selects(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     scene = tmp_path / "open.yaml"
@@ -213,7 +213,7 @@ def test_a_node_picks_the_dynamics_of_a_scene_that_leaves_them_open_and_reports_
     assert now is not None and now.message.startswith("input_torque changed since; dynamics =")
 
 
-def test_a_node_with_held_axes_warns_while_the_load_makes_shares_wrong(
+def test_held_axes_warn_while_load_shares_are_wrong(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     scene = tmp_path / "held.yaml"
@@ -237,9 +237,7 @@ def test_a_node_with_held_axes_warns_while_the_load_makes_shares_wrong(
     peer.until(lambda: texts() and "holds all axes" not in texts()[0], 60.0)
 
 
-def test_a_twin_without_vibration_moves_its_axes_and_is_repeated_bit_for_bit(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_quasi_static_axes_move_and_verify(peer: Peer, start: Start, tmp_path: Path) -> None:
     scene = tmp_path / "still.yaml"
     scene.write_text("base: floating_sun\nname: still\ndynamics: quasi_static_planar\n")
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")

@@ -37,9 +37,7 @@ def check_verified(logger: Any, folder: Path) -> None:
     assert verdict.identical, verdict
 
 
-def test_steps_before_the_first_clock_are_refused_and_those_after_it_are_recorded_in_full(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=clockless")
     given = ("-p", "use_sim_time:=true", "-p", "wait_for:=logger")
     start("planetary_twin.simulation", "--ros-args", *given)
@@ -62,9 +60,7 @@ def test_steps_before_the_first_clock_are_refused_and_those_after_it_are_recorde
     check_verified(logger, tmp_path / "recordings/clockless")
 
 
-def test_a_running_twin_that_changes_to_a_clock_without_time_refuses_steps(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_clock_without_time_makes_steps_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=changed")
     start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")

@@ -30,7 +30,7 @@ def test_a_slope_is_found_within_its_error() -> None:
 
 
 @pytest.mark.parametrize("correlation", [0.0, 0.5, 0.9])
-def test_the_error_of_a_slope_is_its_scatter_even_if_deviations_resemble_each_other(
+def test_the_error_of_a_slope_is_its_scatter(
     correlation: float,
 ) -> None:
     time, random, slopes = np.linspace(0.0, 1.0, 500), np.random.default_rng(2), []

@@ -41,7 +41,7 @@ def ports_of(peer: Peer) -> list[str]:
     return [value.string_value for value in answer.values]
 
 
-def test_ports_change_while_the_node_runs_and_the_recording_repeats_it(
+def test_ports_change_while_the_node_runs_and_verify(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Two machines, then torque and motion from outside, then machines again."""
@@ -85,7 +85,7 @@ def test_ports_change_while_the_node_runs_and_the_recording_repeats_it(
     assert verify(made.file.parent, TWIN).identical
 
 
-def test_ports_that_cannot_be_are_refused_in_one_line_and_the_twin_goes_on(
+def test_ports_that_cannot_be_are_refused_in_one_line(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     for values, reason in (
@@ -116,7 +116,7 @@ def test_a_quasi_static_twin_has_no_other_ports(peer: Peer, start: Start, tmp_pa
     assert result.reason == "drive.input.port = 'torque': requires dynamics other than quasi-static"
 
 
-def test_ports_that_change_before_the_first_step_are_part_of_the_run(
+def test_changes_of_ports_before_the_first_step_are_recorded(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
@@ -156,7 +156,7 @@ def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
     return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
 
 
-def test_a_command_for_the_port_before_has_no_effect_and_is_counted() -> None:
+def test_a_command_for_the_port_before_is_counted() -> None:
     """One that the new port takes acts, also if it came just before the change."""
     changed = twin("motion", "torque")
     commands = received(JointState(name=[SUN], velocity=[90.0]))
@@ -181,7 +181,7 @@ def test_no_command_is_missing_at_a_machine(clock: list[float]) -> None:
     assert commands.given(changed, 0.01) == {"input_torque": 0.0}
 
 
-def test_a_brake_ends_when_ports_change_and_begins_again_from_the_new_ones(
+def test_a_brake_begins_again_from_new_ports(
     clock: list[float],
 ) -> None:
     changed = twin("torque", "torque")

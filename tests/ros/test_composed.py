@@ -17,7 +17,7 @@ from .recordings import counts
 STATES = f"{TWIN}/gearbox_state"
 
 
-def test_every_message_is_recorded_until_the_end_by_several_signals(
+def test_every_message_is_recorded_until_signals_end_it(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     twin = start("planetary_twin.composed", "--ros-args", "-p", "name:=bag")

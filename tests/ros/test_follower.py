@@ -147,7 +147,7 @@ def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing: Played) -> 
         assert one in fresh or stamp_of(one) == stamp_of(before)
 
 
-def test_an_estimate_follows_every_tenth_of_a_second_however_busy_the_machine_is(
+def test_an_estimate_follows_every_tenth_of_a_second(
     changing: Played,
 ) -> None:
     stamps = np.array([stamp_of(one) for one in estimates(changing)])

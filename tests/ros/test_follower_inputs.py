@@ -297,7 +297,7 @@ def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> No
     )
 
 
-def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, start: Start) -> None:
+def test_blocks_of_vibration_must_keep_their_channels(rig: Rig, start: Start) -> None:
     vibration = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 100)
     begin(start, rig)
     rig.user.until(lambda: rig.is_matched(vibration))

@@ -27,9 +27,7 @@ def stall(process: Program) -> None:
     process.send_signal(signal.SIGCONT)
 
 
-def test_a_skip_bounds_the_lag_and_is_in_a_recording_that_verifies(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_skip_bounds_the_lag_and_verifies(peer: Peer, start: Start, tmp_path: Path) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=stalled")
     simulation = start(
         "planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger",

@@ -102,7 +102,7 @@ def test_tabs_of_both_layouts_have_the_same_plots(
     assert tabs == in_metres and sum(map(len, tabs.values())) == len(docks) == PLOTS[ending]
 
 
-def test_foxglove_plots_fields_in_their_unit_under_short_names_beside_the_curves(
+def test_foxglove_plots_fields_in_their_unit(
     panels: dict[str, Any],
 ) -> None:
     for panel in plots(panels):
@@ -122,7 +122,7 @@ def test_the_gears_of_foxglove_come_from_the_robot_description(panels: dict[str,
     assert layer["topic"] == "/planetary_twin/robot_description"
 
 
-def test_plotjuggler_plots_fields_scaled_to_the_unit_in_the_title_of_the_plot(
+def test_plotjuggler_plots_fields_in_the_unit_of_the_title(
     docks: list[ElementTree.Element],
 ) -> None:
     for dock in docks:

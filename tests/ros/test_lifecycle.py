@@ -131,9 +131,7 @@ def test_a_logger_configured_again_starts_a_second_recording(
     assert all(counts(folder)[f"{TWIN}/gearbox_state"] > 10 for folder in recordings)
 
 
-def test_a_logger_that_cannot_write_reports_the_reason_and_recovers(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_logger_that_cannot_write_recovers(peer: Peer, start: Start, tmp_path: Path) -> None:
     place = tmp_path / "recordings"
     place.write_text("in the way")
     process = begin(start, "logger", "name:=bag")

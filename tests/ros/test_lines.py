@@ -66,7 +66,7 @@ def test_lines_arrive_if_the_pipe_is_read(peer: Peer, start: Start) -> None:
     assert "tolerance" in errors
 
 
-def test_a_stopped_terminal_delays_neither_the_twin_nor_its_parameters(
+def test_a_stopped_terminal_does_not_delay_the_twin(
     peer: Peer, stalled: subprocess.Popen[bytes]
 ) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")

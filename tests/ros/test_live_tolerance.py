@@ -26,7 +26,7 @@ def simulation(start: Start) -> subprocess.Popen[str]:
     return start("planetary_twin.simulation", "--ros-args", *given)
 
 
-def test_published_waveforms_are_reproduced_bit_for_bit_from_the_reports(
+def test_reports_reproduce_published_waveforms_bit_for_bit(
     peer: Peer, simulation: subprocess.Popen[str]
 ) -> None:
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)

@@ -148,7 +148,7 @@ def test_the_logger_records_all_that_is_published(
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize(("rate", "stall"), [(1.0, 0.05), (0.0, 3.0)])
-def test_another_recorder_receives_all_if_its_queue_is_long_enough(
+def test_another_recorder_with_a_long_queue_receives_all(
     peer: Peer, start: Start, other: Program, rate: float, stall: float
 ) -> None:
     """At real time its queue of 10 limits a stall; above, the twin waits for it."""
@@ -164,9 +164,7 @@ def test_another_recorder_receives_all_if_its_queue_is_long_enough(
 
 
 @pytest.mark.exhaustive
-def test_a_twin_waits_for_its_recorder_and_for_no_other_subscriber(
-    peer: Peer, start: Start, other: Program
-) -> None:
+def test_a_twin_waits_for_its_recorder_only(peer: Peer, start: Start, other: Program) -> None:
     """Another subscriber that stalls delays nothing; the recorder delays simulated time."""
     logger = start("planetary_twin.logger")
     twin = Twin(peer, start, logger, "logger", 0.0, "sample_rate:=1000.0")

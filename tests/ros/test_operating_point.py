@@ -28,7 +28,7 @@ def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoin
     assert points[-1].changed == "lambda_ratio"
 
 
-def test_invalid_values_are_refused_with_the_reason_and_change_nothing(
+def test_invalid_values_are_refused_with_the_reason(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     before = {name: user.get(NODE, name) for name in ("backlash", "lambda_ratio")}
@@ -68,7 +68,7 @@ def test_values_set_atomically_apply_from_one_instant(
     assert point.simulated_time > points[0].simulated_time
 
 
-def test_the_service_answers_with_the_instant_and_the_parameters_follow(
+def test_the_service_answers_with_the_instant_of_the_change(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     service = f"{NODE}/set_operating_point"
@@ -155,9 +155,7 @@ def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given:
     assert given.split(":=")[1] in errors
 
 
-def test_the_default_parameter_file_leaves_values_to_the_scene(
-    peer: Peer, start: Start
-) -> None:
+def test_the_default_parameter_file_leaves_values_to_the_scene(peer: Peer, start: Start) -> None:
     file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"
     given = ("--ros-args", "--params-file", str(file), "-p", "scene:=lightly_loaded")
     start("planetary_twin.simulation", *given)

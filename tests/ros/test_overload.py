@@ -23,7 +23,7 @@ FLOOR = SAMPLE_RATE / 2**HALVINGS
 MOVING_AXES = "{base: floating_sun, operating_point: {input_speed: 1000.0}}"
 
 
-def test_an_overloaded_twin_degrades_in_order_and_its_reports_reproduce_it(
+def test_an_overloaded_twin_degrades_in_order_and_reports_it(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     scene = tmp_path / "moving_axes.yaml"

@@ -128,9 +128,7 @@ def numbers_in(path: Path) -> list[int]:
     return found
 
 
-def test_messages_before_the_start_of_a_recording_are_no_loss_to_warn_of(
-    peer: Peer, start: Start
-) -> None:
+def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> None:
     logger = Logger(peer, start, "name:=bag")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
@@ -147,9 +145,7 @@ def test_messages_before_the_start_of_a_recording_are_no_loss_to_warn_of(
     assert all(report.level == DiagnosticStatus.OK for report in logger.reports)
 
 
-def test_a_kill_loses_of_the_received_messages_those_of_one_flush_period_at_most(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_path: Path) -> None:
     """By stamps, however late the timers of the logger are."""
     period = 0.5
     logger = Logger(peer, start, "name:=bag", f"flush_period:={period}")
@@ -213,9 +209,7 @@ def test_recordings_start_split_and_end_on_request(
     assert counts(second.parent)[DESCRIPTION] == 1
 
 
-def test_a_snapshot_writes_the_last_seconds_and_the_logger_continues(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: Path) -> None:
     logger = Logger(peer, start, "name:=bag", "snapshot_duration:=0.5")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 300)
@@ -260,7 +254,7 @@ def test_a_managed_logger_goes_to_its_error_state_and_recovers(
     assert len(numbers_in(folder)) > 20
 
 
-def test_a_full_disk_ends_the_logger_with_one_line_and_flushed_data_is_readable(
+def test_a_full_disk_ends_the_logger_with_one_line(
     peer: Peer, start: Start, small_disk: Path, count: Count
 ) -> None:
     setting = f"directory:={small_disk}"
@@ -306,9 +300,7 @@ def test_recorded_plus_lost_equals_published_under_overload(
     assert (reported.recorded, reported.lost) == (recorded, lost)
 
 
-def test_a_publisher_with_weaker_qos_than_the_one_before_is_recorded(
-    peer: Peer, start: Start
-) -> None:
+def test_a_later_publisher_with_weaker_qos_is_recorded(peer: Peer, start: Start) -> None:
     logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
 
     def publish_until_received(qos: QoSProfile) -> None:

@@ -160,9 +160,7 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     assert not states
 
 
-def test_a_running_replay_changes_its_rate_and_position_without_a_jump(
-    peer: Peer, play: Play, split: Path
-) -> None:
+def test_a_running_replay_changes_rate_and_position(peer: Peer, play: Play, split: Path) -> None:
     received: list[tuple[float, float]] = []  # recorded and received [s]
     clock = peer.listen(Clock, "/clock", 5000)
     peer.node.create_subscription(
@@ -225,7 +223,7 @@ def _pace(messages: list[tuple[float, float]]) -> float:
     return float(np.polyfit(received, np.unwrap(recorded, period=LENGTH * 0.01 - 1.01), 1)[0])
 
 
-def test_as_fast_as_possible_every_message_reaches_a_reliable_subscriber(
+def test_as_fast_as_possible_reliable_subscribers_receive_all(
     peer: Peer, play: Play, tmp_path: Path
 ) -> None:
     file = _write(tmp_path / "shallow", range(LENGTH), depth=5)

@@ -73,9 +73,7 @@ def in_base(poses: dict[tuple[str, str], Pose], frame: str) -> Pose:
     return Pose(0.0, 1.0)
 
 
-def test_a_late_subscriber_receives_a_description_whose_frames_follow_the_joints(
-    peer: Peer, start: Start
-) -> None:
+def test_frames_of_the_description_follow_the_joints(peer: Peer, start: Start) -> None:
     options = ("frame_id:=gearbox_base", f"frame_prefix:={PREFIX}")
     given = itertools.chain.from_iterable(("-p", option) for option in options)
     start("planetary_twin.simulation", "--ros-args", *given)

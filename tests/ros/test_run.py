@@ -84,7 +84,7 @@ def test_a_run_records_every_message_it_publishes(
 
 
 @pytest.mark.exhaustive
-def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
+def test_parameters_fixed_at_the_start_are_options_of_a_run(
     run: Callable[..., subprocess.Popen[str]],
 ) -> None:
     process = run("--duration", "0.5", "--no-tour", "--param", "publish_rate=200", "--json", "-")
@@ -98,14 +98,14 @@ def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
     assert "--param 'rate_factor=2': must be NAME=VALUE, with NAME of" in " ".join(errors.split())
 
 
-def test_a_mistyped_parameter_of_a_run_is_refused_with_a_similar_one() -> None:
+def test_a_mistyped_parameter_is_refused_with_a_similar_one() -> None:
     reason = "--param 'comand_timeout=1': no such parameter; did you mean command_timeout?"
     with pytest.raises(ValueError) as refusal:
         node_settings(["comand_timeout=1"])
     assert str(refusal.value) == reason
 
 
-def test_a_clock_of_another_node_is_refused_with_the_reason_and_the_way_to_follow_it() -> None:
+def test_a_clock_of_another_node_is_refused_with_advice() -> None:
     for text in ("use_sim_time=true", "use_sim_time=false", "use_sim_time"):
         with pytest.raises(ValueError, match="publishes no /clock") as refusal:
             node_settings([text])
@@ -134,7 +134,7 @@ def test_a_recording_split_during_the_run_is_counted_as_a_whole(
 
 
 @pytest.mark.exhaustive
-def test_losses_while_the_logger_was_stopped_are_reported_and_both_recordings_counted(
+def test_losses_of_a_stopped_logger_are_reported(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -161,7 +161,7 @@ def _process_of(node: str, folder: Path) -> int:
 
 
 @pytest.mark.exhaustive
-def test_a_run_whose_logger_stalls_longer_than_messages_are_kept_fails_and_reports_the_losses(
+def test_a_run_whose_logger_stalls_long_reports_the_losses(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -265,7 +265,7 @@ def test_sigkill_of_the_run_ends_its_nodes(
         ],
     ),
 )
-def test_an_invalid_option_ends_in_one_line_before_any_process_starts(
+def test_an_invalid_option_ends_before_any_process_starts(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, options: list[str], reason: str
 ) -> None:
     process = run(*options)

@@ -100,9 +100,7 @@ def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Pat
 
 
 @pytest.mark.exhaustive
-def test_an_interrupt_leaves_a_finished_recording_and_says_what_was_judged(
-    run: Run, peer: Peer, tmp_path: Path
-) -> None:
+def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path: Path) -> None:
     from planetary_twin_msgs.msg import FollowerEstimate
 
     estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")

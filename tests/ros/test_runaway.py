@@ -32,7 +32,7 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_runaway_pauses_the_twin_with_an_error_and_the_recording_is_complete(
+def test_a_runaway_pauses_the_twin_with_an_error(
     peer: Peer, start: Start, scene: Path, tmp_path: Path
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")

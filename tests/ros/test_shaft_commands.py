@@ -223,7 +223,7 @@ def test_a_fault_is_reported_once_with_its_reason() -> None:
     assert [(each.key, each.value) for each in second.values] == [("ignored: out of range", "1")]
 
 
-def test_a_misspelt_joint_is_named_while_its_shaft_has_no_command() -> None:
+def test_a_misspelt_joint_is_named() -> None:
     commands = received(JointState(name=[SUN, "rin_joint"], effort=[1.0, 2.0]))
     assert torques(commands) == {"input_torque": 1.0}
     status = commands.status("/twin")
@@ -239,7 +239,7 @@ def test_a_misspelt_joint_is_named_while_its_shaft_has_no_command() -> None:
     )
 
 
-def test_only_a_joint_of_the_twin_that_is_named_twice_discards_a_command() -> None:
+def test_a_joint_named_twice_discards_a_command() -> None:
     other = JointState(name=["elbow", SUN, "elbow"], effort=[7.0, 5.0, 8.0])
     assert fault_of_names(other, (SUN, RING)) == ""
     own = JointState(name=[SUN, RING, SUN], effort=[1.0, 2.0, 3.0])
@@ -302,7 +302,7 @@ def test_a_command_that_waited_to_be_taken_is_not_late() -> None:
     assert torques(commands) == {"input_torque": 1.0, "output_torque": 2.0}
 
 
-def test_a_command_far_ahead_of_the_clock_does_not_lock_out_later_ones() -> None:
+def test_a_command_ahead_of_the_clock_leaves_later_ones() -> None:
     now = 10**18
     commands = received(
         command((1.0, 2.0), now + 3600 * 10**9), command((3.0, 4.0), now), now=lambda: now
@@ -389,7 +389,7 @@ def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) ->
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("output", ["torque", "motion", "machine"])
 @pytest.mark.parametrize("input", ["torque", "motion"])
-def test_silence_brakes_a_live_twin_far_beyond_the_limit_of_commands(
+def test_silence_brakes_far_beyond_the_limit_of_commands(
     clock: list[float], input: str, output: str, sign: float
 ) -> None:
     """Interval by interval as a node does, with an error until the shaft is at rest."""
@@ -465,7 +465,7 @@ def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
     assert empty.ignored == {reason: 1}
 
 
-def test_a_command_for_an_unknown_joint_is_reported_with_its_name() -> None:
+def test_a_command_for_an_unknown_joint_is_reported() -> None:
     commands = received(JointState(name=["elbow"], effort=[1.0]))
     text = "of sun_joint or ring_joint (the command names 'elbow')"
     assert text in commands.status("/twin").message

@@ -107,9 +107,7 @@ def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer: Peer, start: St
 
 
 @pytest.mark.exhaustive
-def test_a_signal_during_a_service_call_or_a_transition_ends_the_node(
-    peer: Peer, start: Start
-) -> None:
+def test_a_signal_during_a_call_or_transition_ends_the_node(peer: Peer, start: Start) -> None:
     process = running(peer, start)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     states = peer.listen(GearboxState, STATES)
@@ -128,9 +126,7 @@ def test_a_signal_during_a_service_call_or_a_transition_ends_the_node(
         ended_well(process)
 
 
-def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_complete(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_both_nodes_end_on_one_ctrl_c(peer: Peer, start: Start, tmp_path: Path) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
@@ -143,9 +139,7 @@ def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_complete(
 
 
 @pytest.mark.exhaustive
-def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_each_node_may_be_killed_and_restarted(peer: Peer, start: Start, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, STATES)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start)
@@ -174,7 +168,7 @@ def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
 
 
 @pytest.mark.parametrize("faster", [True, False])
-def test_a_signal_that_is_faster_is_no_failure_and_another_error_of_rcl_is(
+def test_a_faster_signal_is_no_failure_of_rcl(
     monkeypatch: pytest.MonkeyPatch, faster: bool
 ) -> None:
     context = Context()

@@ -64,7 +64,7 @@ def check_recording(folder: Path, reported: dict[str, str], lost: dict[str, int]
 
 
 @pytest.mark.timeout(DURATION + 300.0)
-def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
+def test_a_long_run_neither_grows_nor_loses_nor_is_late(
     peer: Peer, start: Start, tmp_path: Path, record_property
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")

@@ -57,9 +57,7 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
     assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
 
 
-def test_a_recorder_that_has_gone_is_an_error_until_another_one_comes(
-    peer: Peer, start: Start
-) -> None:
+def test_a_recorder_that_has_gone_is_an_error(peer: Peer, start: Start) -> None:
     logger = start("planetary_twin.logger")
     start("planetary_twin.simulation", *WAITING)
     arrays = peer.listen(DiagnosticArray, "/diagnostics")
@@ -117,7 +115,7 @@ def waited(
     return clock.now - 100.0
 
 
-def test_a_subscription_of_an_unknown_node_ends_the_wait_without_a_warning(
+def test_a_subscription_of_an_unknown_node_ends_the_wait(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert waited(monkeypatch, "logger") < 1.0
@@ -125,7 +123,7 @@ def test_a_subscription_of_an_unknown_node_ends_the_wait_without_a_warning(
     assert "has not subscribed" not in capsys.readouterr().out
 
 
-def test_a_busy_logger_that_subscribes_topic_by_topic_is_waited_for(
+def test_a_logger_that_subscribes_slowly_is_waited_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """And one that has subscribed to all is waited for no longer."""

@@ -41,7 +41,7 @@ def read_only(peer: Peer, name: str) -> bool:
     return bool(peer.call(DescribeParameters, service, request).descriptors[0].read_only)
 
 
-def test_a_simulation_uses_parameters_set_before_it_is_configured(peer: Peer, start: Start) -> None:
+def test_a_simulation_uses_parameters_set_when_unconfigured(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation", *UNCONFIGURED)
     assert peer.state(SIMULATION) == "unconfigured"
     assert topics(peer) == set()
@@ -104,7 +104,7 @@ def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Star
     peer.change_state(SIMULATION, "configure")
 
 
-def test_a_logger_records_into_the_folder_set_before_it_is_configured(
+def test_a_logger_uses_the_name_set_when_unconfigured(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     node = f"{TWIN}/logger"

@@ -26,7 +26,7 @@ def _view(*options: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.exhaustive
-def test_a_running_twin_is_drawn_and_its_absence_is_reported_in_one_line(
+def test_a_running_twin_is_drawn_or_said_to_be_absent(
     user: Peer, points: list[OperatingPoint], tmp_path: Path
 ) -> None:
     states = user.listen(GearboxState, f"{TWIN}/gearbox_state")

@@ -37,7 +37,7 @@ def viewers():
 
 @pytest.mark.exhaustive
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver on this machine")
-def test_the_picture_shows_gears_on_the_left_and_follows_the_time_cursor(rrd, tmp_path):
+def test_the_picture_shows_gears_at_the_time_cursor(rrd, tmp_path):
     pictures = []
     for at in (0.05, 0.0513):
         save_screenshot(rrd, tmp_path / "a.png", at)

@@ -40,7 +40,7 @@ def test_the_file_contains_spectrum_order_map_and_phase_portrait(recording, tmp_
         assert entity in printed
 
 
-def test_the_spectrum_at_an_instant_has_the_lines_of_that_instant(recording):
+def test_the_spectrum_has_the_lines_of_its_instant(recording):
     """500 Hz at 1000 rpm; from 0.75 s on 1000 Hz at 2000 rpm."""
     windows = frames(recording)
     for at, mesh in ((0.1, 500.0), (0.9, 1000.0)):
@@ -48,7 +48,7 @@ def test_the_spectrum_at_an_instant_has_the_lines_of_that_instant(recording):
         assert frequency[1 + amplitude[1:].argmax()] == pytest.approx(mesh, abs=5.0)
 
 
-def test_the_order_map_keeps_the_meshing_at_its_order_at_any_speed(recording):
+def test_the_order_map_keeps_the_meshing_at_its_order(recording):
     windows, reach = frames(recording), 8.5 * 30
     for at in (0.1, 0.9):
         levels = _orders(windows, int(np.abs(windows.time - at).argmin()), reach)
@@ -72,7 +72,7 @@ def test_windows_near_a_gap_are_shifted_and_none_spans_it(recording):
             assert np.isfinite(dte).all()
 
 
-def test_windows_of_slow_gears_have_as_many_mesh_cycles_as_samples_allow(recording):
+def test_windows_of_slow_gears_are_longer(recording):
     windows = frames(recording)
     assert windows.lasting(0.2, 64) == 0.2
     recording.state["mesh_frequency"][:] = 100.0

@@ -17,7 +17,7 @@ CHUNKS = 500
 PER_CHUNK = 50.0  # bytes; a chunk index of mcap's list takes 1 kB
 
 
-def test_memory_does_not_grow_with_the_chunks_and_each_is_in_the_index(
+def test_memory_does_not_grow_with_the_chunks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("os.fsync", lambda descriptor: None)

@@ -56,7 +56,7 @@ def stored(source, folder, plugin, mode=None):
         ],
     ),
 )
-def test_the_conversion_that_a_refusal_suggests_makes_a_bag_readable(
+def test_the_suggested_conversion_makes_a_bag_readable(
     sound, tmp_path, monkeypatch, plugin, mode, reason
 ):
     chosen = mode and CompressionMode[mode]
@@ -73,7 +73,7 @@ def test_the_conversion_that_a_refusal_suggests_makes_a_bag_readable(
     assert how_stored(folder) is not None and how_stored(Path("bag_mcap")) is None
 
 
-def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tmp_path):
+def test_a_bag_compressed_by_message_is_readable(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP, CompressionMode.MESSAGE)
     (file,) = folder.glob("*.mcap")
     alone = shutil.copy(file, tmp_path / "alone.mcap")
@@ -87,7 +87,7 @@ def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tm
     assert verify(recovered.file, NAMESPACE).identical
 
 
-def test_the_scene_of_a_bag_without_attachments_is_that_of_the_origin_of_its_run(sound, tmp_path):
+def test_a_bag_without_attachments_has_the_scene_of_its_run(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP)
     scene, remark = scene_of(read_recording(folder))
     assert remark is None

@@ -47,7 +47,7 @@ def rewritten(file, out, order, chunked=True):
 
 @pytest.mark.parametrize("chunked", [True, False])
 @pytest.mark.parametrize("order", ORDERS)
-def test_a_file_in_any_order_is_read_as_in_the_order_of_log_times(sound, tmp_path, order, chunked):
+def test_a_file_is_read_in_the_order_of_log_times(sound, tmp_path, order, chunked):
     file = rewritten(sound, tmp_path / "other.mcap", ORDERS[order], chunked)
     remarks = []
     times = [r.log_time for r in records_in_log_order(file, remarks) if isinstance(r, Message)]

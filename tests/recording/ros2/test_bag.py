@@ -122,7 +122,7 @@ def test_a_name_that_is_not_plain_is_refused(tmp_path: Path, name: str) -> None:
     assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"
 
 
-def test_an_interrupt_while_the_first_file_is_created_leaves_no_folder(
+def test_an_interrupt_of_the_creation_leaves_no_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(file: McapFile) -> None:

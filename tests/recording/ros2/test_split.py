@@ -115,7 +115,7 @@ def test_a_killed_logger_s_last_file_is_read_with_those_before(tmp_path):
 
 
 @pytest.mark.parametrize("written", [0, 5])
-def test_a_file_that_was_just_started_when_its_logger_was_killed_does_no_harm(tmp_path, written):
+def test_a_file_just_started_before_a_kill_does_no_harm(tmp_path, written):
     folder = _split(tmp_path / "bag")
     (folder / "metadata.yaml").unlink()
     last = _files(folder)[-1]
@@ -200,7 +200,7 @@ def test_recorded_messages_that_cannot_be_read_count_as_lost(tmp_path):
         assert (topic.recorded, topic.lost) == (kept, 1000 - kept)
 
 
-def test_a_split_recording_is_verified_shown_and_described_as_a_whole(tmp_path):
+def test_a_split_recording_is_read_as_a_whole(tmp_path):
     split = record(tmp_path / "split", storage=Storage(split_duration=0.1)).parent
     whole = record(tmp_path / "whole").parent
     assert len(_files(split)) > 3
@@ -216,7 +216,7 @@ def test_a_split_recording_is_verified_shown_and_described_as_a_whole(tmp_path):
     assert len(read_recording(_files(split)[2]).operating_point) >= 1
 
 
-def test_a_snapshot_contains_the_last_seconds_and_latched_messages(tmp_path):
+def test_a_snapshot_has_the_last_seconds_and_latched_messages(tmp_path):
     ring = Ring(0.1)
     ring.attach("scene.yaml", b"paper", "application/yaml")
     numbers, settings = (ring.add_topic(t, TopicAccount()) for t in (NUMBERS, SETTINGS))

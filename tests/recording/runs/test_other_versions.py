@@ -82,7 +82,7 @@ def test_a_table_has_no_column_for_a_missing_field(sound, tmp_path):
     assert "power_loss" in heading and "efficiency" not in heading
 
 
-def test_a_parameter_that_did_not_exist_keeps_the_value_of_the_scene(sound, tmp_path):
+def test_a_parameter_that_did_not_exist_has_the_scene_s_value(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", POINT, without("oil_temperature"))
     assert verify(file, NAMESPACE).identical
     assert all("oil_temperature" not in change.values for change in read_info(file).changes)

@@ -45,7 +45,7 @@ def test_waveform_is_one_gapless_grid_with_ros_time_beside_it(sound):
     assert np.allclose(wave.friction[:BLOCK], friction, rtol=1e-6)
 
 
-def test_a_logger_that_never_finished_its_file_loses_only_the_open_chunk(tmp_path):
+def test_an_unfinished_file_lacks_only_the_open_chunk(tmp_path):
     truncated = write_recording(tmp_path / "truncated.mcap", DURATION, finish=False)
     recording = read_recording(truncated)
     assert 20 <= len(recording.state) < 30
@@ -117,7 +117,7 @@ def test_a_file_that_is_no_recording_is_named_in_one_line(tmp_path):
         assert "\n" not in str(caught.value)
 
 
-def test_samples_of_a_time_span_are_those_of_the_blocks_it_overlaps(sound):
+def test_samples_of_a_span_are_those_of_its_blocks(sound):
     recording = read_recording(sound)
     whole = recording.waveform
     part = recording.samples(0.105, 0.12)
@@ -140,7 +140,7 @@ def test_ranges_are_those_of_the_samples(sound):
         assert np.array_equal(ranges.highest[name], np.fmax.reduceat(samples, whole.block))
 
 
-def test_reading_stops_after_the_most_states_and_a_span_selects_others(tmp_path):
+def test_reading_stops_after_the_most_states(tmp_path):
     """Chunks of 64 kB hold four intervals."""
     file = write_recording(tmp_path / "bag_0.mcap", DURATION)
     first = read_recording(file, most=8)

@@ -62,7 +62,7 @@ def test_from_the_branch_on_it_equals_a_twin_with_these_settings(branched):
         assert np.array_equal(recording.per_mesh("dte_rms")[number], window.mesh["dte_rms"], True)
 
 
-def test_settings_are_kept_and_all_other_quantities_change_as_recorded(branched):
+def test_settings_are_kept_and_others_change_as_recorded(branched):
     point = read_recording(branched.file).operating_point
     assert np.array_equal(point.time, [0.0, 0.05, 0.1])
     assert list(point["changed"])[1:] == ["lambda_ratio", "backlash"]
