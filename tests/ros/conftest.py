@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from domains import private_domain
@@ -63,11 +64,17 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 @contextmanager
 def starting(kind: type[Executed | Forked], place: Path) -> Iterator[Start]:
-    """Start modules in a folder; those that still run at the end, also a failed one, are ended."""
+    """
+    Start modules in a folder, with parameters by name.
+
+    Those that still run at the end, also a failed one, are ended.
+    """
     processes: list[Program] = []
 
-    def run(module: str, *arguments: str) -> Program:
-        processes.append(kind(module, *arguments, cwd=place))
+    def run(module: str, *arguments: str, **parameters: Any) -> Program:
+        given = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
+        options = ("--ros-args", *given) if given else ()
+        processes.append(kind(module, *arguments, *options, cwd=place))
         return processes[-1]
 
     try:

@@ -36,7 +36,7 @@ from .recordings import counts, read_all
 from .reported import listen_to_reports, recorded
 
 STATES = 100
-SLOWLY = ("rate_factor:=0.5", "sample_rate:=10000.0", "tolerance:=0.001")
+SLOWLY = {"rate_factor": 0.5, "sample_rate": 10000.0, "tolerance": 0.001}
 
 
 class Run(NamedTuple):
@@ -67,13 +67,9 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
             blocks = user.listen(AxesWaveform, f"{TWIN}/axes_waveform", 1000)
             gearbox = user.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
             status = user.listen(RecorderStatus, f"{TWIN}/logger/status")
-            logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-            given = [
-                part
-                for option in (f"scene:={scene}", f"wait_for:={TWIN}/logger", *SLOWLY)
-                for part in ("-p", option)
-            ]
-            twin = start("planetary_twin.simulation", "--ros-args", *given)
+            logger = start("planetary_twin.logger", name="bag")
+            given = {"scene": scene, "wait_for": f"{TWIN}/logger"} | SLOWLY
+            twin = start("planetary_twin.simulation", **given)
             with Monitor(TWIN) as monitor:
                 user.until(lambda: len(states) >= STATES and monitor.axes is not None, 120.0)
                 user.until(
@@ -182,7 +178,7 @@ def test_a_node_reports_the_dynamics_that_auto_selects(
     reports = listen_to_reports(peer)
     states = peer.listen(AxesState, f"{TWIN}/axes_state", 1000)
     origins = peer.listen(String, f"{TWIN}/run_origin", LATCHED)
-    start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={scene}")
+    start("planetary_twin.simulation", scene=scene)
 
     def report() -> DiagnosticStatus | None:
         found = [
@@ -220,7 +216,7 @@ def test_held_axes_warn_while_load_shares_are_wrong(
     point = "operating_point: {input_torque: 0 N m}"
     scene.write_text(f"base: floating_sun\nname: held\ndynamics: torsional\n{point}\n")
     reports = listen_to_reports(peer)
-    start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={scene}")
+    start("planetary_twin.simulation", scene=scene)
 
     def texts() -> list[str]:
         return [
@@ -240,11 +236,9 @@ def test_held_axes_warn_while_load_shares_are_wrong(
 def test_quasi_static_axes_move_and_verify(peer: Peer, start: Start, tmp_path: Path) -> None:
     scene = tmp_path / "still.yaml"
     scene.write_text("base: floating_sun\nname: still\ndynamics: quasi_static_planar\n")
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    logger = start("planetary_twin.logger", name="bag")
     states = peer.listen(AxesState, f"{TWIN}/axes_state", 1000)
-    options = (f"scene:={scene}", f"wait_for:={TWIN}/logger", *SLOWLY)
-    given = [part for option in options for part in ("-p", option)]
-    start("planetary_twin.simulation", "--ros-args", *given)
+    start("planetary_twin.simulation", scene=scene, wait_for=f"{TWIN}/logger", **SLOWLY)
     peer.until(lambda: len(states) >= 20, 120.0)
     expected = load_sharing(pt.load_scene(scene)).share.mean(axis=0)
     assert np.array(states[-1].load_share[:4]) == pytest.approx(expected, rel=5e-3)

@@ -38,9 +38,8 @@ def check_verified(logger: Any, folder: Path) -> None:
 
 
 def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=clockless")
-    given = ("-p", "use_sim_time:=true", "-p", "wait_for:=logger")
-    start("planetary_twin.simulation", "--ros-args", *given)
+    logger = start("planetary_twin.logger", name="clockless")
+    start("planetary_twin.simulation", use_sim_time="true", wait_for="logger")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     pause(peer)
@@ -61,8 +60,8 @@ def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_
 
 
 def test_a_clock_without_time_makes_steps_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=changed")
-    start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
+    logger = start("planetary_twin.logger", name="changed")
+    start("planetary_twin.simulation", wait_for="logger")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     peer.until(lambda: states and points)
@@ -80,8 +79,7 @@ def test_a_clock_without_time_makes_steps_refused(peer: Peer, start: Start, tmp_
 
 def test_a_plant_begins_with_the_first_clock(peer: Peer, start: Start) -> None:
     measured = peer.listen(JointState, f"{TWIN}/measured/joint_states")
-    given = ("-p", "use_sim_time:=true", "-p", "duration:=0.5")
-    plant = start("planetary_twin.plant", "--ros-args", *given)
+    plant = start("planetary_twin.plant", use_sim_time="true", duration=0.5)
     assert peer.state(f"{TWIN}/plant") == "active"
     Ticking(peer, 5.0)
     peer.until(lambda: plant.poll() is not None)

@@ -45,8 +45,8 @@ def test_ports_change_while_the_node_runs_and_verify(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Two machines, then torque and motion from outside, then machines again."""
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=changed")
-    start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
+    logger = start("planetary_twin.logger", name="changed")
+    start("planetary_twin.simulation", wait_for="logger")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
@@ -109,7 +109,7 @@ def test_ports_that_cannot_be_are_refused_in_one_line(
 def test_a_quasi_static_twin_has_no_other_ports(peer: Peer, start: Start, tmp_path: Path) -> None:
     path = tmp_path / "slow.yaml"
     path.write_text("base: paper\nname: slow\ndynamics: quasi_static\n")
-    start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={path}")
+    start("planetary_twin.simulation", scene=path)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     peer.until(lambda: points)
     result = peer.set(NODE, **{INPUT: "torque"})
@@ -120,10 +120,8 @@ def test_changes_of_ports_before_the_first_step_are_recorded(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=lockstep")
-    options = ("wait_for:=logger", "rate_factor:=0.0", "tolerance:=0.0")
-    given = [part for option in options for part in ("-p", option)]
-    start("planetary_twin.simulation", "--ros-args", *given)
+    logger = start("planetary_twin.logger", name="lockstep")
+    start("planetary_twin.simulation", wait_for="logger", rate_factor=0.0, tolerance=0.0)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     peer.until(lambda: points)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success

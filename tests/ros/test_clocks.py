@@ -58,7 +58,7 @@ def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
 
 
 def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) -> None:
-    start(MODULE, "--ros-args", "-p", "use_sim_time:=true")
+    start(MODULE, use_sim_time="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
@@ -85,7 +85,7 @@ def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) 
 
 
 def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> None:
-    start(MODULE, "--ros-args", "-p", "rate_factor:=0", "-p", "sample_rate:=5000")
+    start(MODULE, rate_factor=0, sample_rate=5000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     peer.until(lambda: states)

@@ -57,8 +57,8 @@ def test_a_client_that_dies_is_noticed_while_the_other_goes_on(
 ) -> None:
     """The motor's speed is given by one client, the torque of the load by another one."""
     path = driven(tmp_path, "motion", "torque")
-    given = (f"scene:={path}", "command_timeout:=2.0", "command_silence:=zero")
-    start("planetary_twin.simulation", "--ros-args", *(p for g in given for p in ("-p", g)))
+    given = {"command_timeout": 2.0, "command_silence": "zero"}
+    start("planetary_twin.simulation", scene=path, **given)
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     diagnostics = peer.listen(DiagnosticArray, "/diagnostics")
     peer.until(lambda: joints)
@@ -94,7 +94,7 @@ def test_a_storm_of_commands_acts(peer: Peer, start: Start, tmp_path: Path) -> N
 def test_several_steps_in_one_call_have_the_bits_of_single_ones(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
+    running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
@@ -132,11 +132,8 @@ def test_positions_by_topic_move_a_shaft_and_are_recorded(
     driven(tmp_path, "torque", "motion")
     still = "operating_point: {input_speed: 0.0, input_torque: 0.0}\n"
     scene.write_text(scene.read_text() + still)
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=moved")
-    given = ("scene:=" + str(scene), "wait_for:=logger")
-    simulation = start(
-        "planetary_twin.simulation", "--ros-args", *(p for g in given for p in ("-p", g))
-    )
+    logger = start("planetary_twin.logger", name="moved")
+    simulation = start("planetary_twin.simulation", scene=scene, wait_for="logger")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     peer.until(lambda: joints)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)

@@ -20,7 +20,7 @@ STATES = f"{TWIN}/gearbox_state"
 def test_every_message_is_recorded_until_signals_end_it(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    twin = start("planetary_twin.composed", "--ros-args", "-p", "name:=bag")
+    twin = start("planetary_twin.composed", name="bag")
     states = peer.listen(GearboxState, STATES, 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     peer.until(lambda: len(states) > 100 and status and STATES in status[-1].topics)

@@ -67,9 +67,8 @@ def test_a_joint_may_start_below_zero() -> None:
 def test_a_node_publishes_them_on_request_and_is_verified(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    asked = ("-p", "continuous_joints:=true", "-p", "wait_for:=logger")
-    twin = start("planetary_twin.simulation", "--ros-args", *asked)
+    logger = start("planetary_twin.logger", name="bag")
+    twin = start("planetary_twin.simulation", continuous_joints="true", wait_for="logger")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(joints) > 60 and len(states) > 60)

@@ -71,9 +71,7 @@ def play(place: Path, hidden: str, duration: float) -> Iterator[Played]:
         with starting(Forked, place) as begin, connected() as user:
 
             def start(node: str, **given: Any) -> Program:
-                words = [f"{name}:={value}" for name, value in given.items()]
-                options = [option for word in words for option in ("-p", word)]
-                return begin(f"planetary_twin.{node}", "--ros-args", *options)
+                return begin(f"planetary_twin.{node}", **given)
 
             plant = start("plant", hidden="hidden.yaml", duration=duration,
                           wait_for="[follower, logger]", autostart=False)  # fmt: skip

@@ -28,11 +28,8 @@ def stall(process: Program) -> None:
 
 
 def test_a_skip_bounds_the_lag_and_verifies(peer: Peer, start: Start, tmp_path: Path) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=stalled")
-    simulation = start(
-        "planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger",
-        "-p", f"max_lag:={LIMIT}",
-    )  # fmt: skip
+    logger = start("planetary_twin.logger", name="stalled")
+    simulation = start("planetary_twin.simulation", wait_for="logger", max_lag=LIMIT)  # fmt: skip
     states, reports = peer.listen(GearboxState, f"{TWIN}/gearbox_state"), listen_to_reports(peer)
     peer.until(lambda: len(states) > 50)
     stall(simulation)

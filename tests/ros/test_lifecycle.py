@@ -75,9 +75,8 @@ class Managed:
         return {item.transition.label for item in answer.available_transitions}
 
 
-def begin(start: Start, name: str, *given: str) -> subprocess.Popen[str]:
-    parameters = [word for parameter in given for word in ("-p", parameter)]
-    return start(f"planetary_twin.{name}", "--ros-args", "-p", "autostart:=false", *parameters)
+def begin(start: Start, node: str, **given: str) -> subprocess.Popen[str]:
+    return start(f"planetary_twin.{node}", autostart="false", **given)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -118,7 +117,7 @@ def test_a_logger_configured_again_starts_a_second_recording(
 ) -> None:
     start("planetary_twin.simulation")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    begin(start, "logger", f"topics:=['{TWIN}/gearbox_state']")
+    begin(start, "logger", topics=f"['{TWIN}/gearbox_state']")
     managed = Managed(peer, "logger")
     for end in ("cleanup", "shutdown"):
         assert managed.change("configure") and managed.change("activate")
@@ -134,7 +133,7 @@ def test_a_logger_configured_again_starts_a_second_recording(
 def test_a_logger_that_cannot_write_recovers(peer: Peer, start: Start, tmp_path: Path) -> None:
     place = tmp_path / "recordings"
     place.write_text("in the way")
-    process = begin(start, "logger", "name:=bag")
+    process = begin(start, "logger", name="bag")
     managed = Managed(peer, "logger")
     assert not managed.change("configure")
     assert managed.state == "unconfigured"

@@ -44,13 +44,11 @@ class Twin:
     """A simulation, the recorder it waits for, and what both report."""
 
     def __init__(
-        self, peer: Peer, start: Start, recorder: Program, name: str, rate: float, *more: str
+        self, peer: Peer, start: Start, recorder: Program, name: str, rate: float, **more: float
     ) -> None:
         self.peer = peer
         self.recorder = recorder
-        parameters = (f"rate_factor:={rate}", f"wait_for:={name}", *more)
-        options = [option for parameter in parameters for option in ("-p", parameter)]
-        self.process = start("planetary_twin.simulation", "--ros-args", *options)
+        self.process = start("planetary_twin.simulation", rate_factor=rate, wait_for=name, **more)
         status = f"{full_name(TWIN, name)}/status"
         self.status: list[RecorderStatus] = peer.listen(RecorderStatus, status, 1)
         self.states: list[GearboxState] = peer.listen(GearboxState, STREAMS[0], 1)
@@ -116,7 +114,7 @@ def test_the_logger_records_all_that_is_published(
     peer: Peer, start: Start, tmp_path, rate: float, stall: float, meanwhile: Go
 ) -> None:
     assert stall < STALL
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    logger = start("planetary_twin.logger", name="bag")
     twin = Twin(peer, start, logger, "logger", rate)
     twin.advance(0.05)
     if meanwhile is step:
@@ -167,7 +165,7 @@ def test_another_recorder_with_a_long_queue_receives_all(
 def test_a_twin_waits_for_its_recorder_only(peer: Peer, start: Start, other: Program) -> None:
     """Another subscriber that stalls delays nothing; the recorder delays simulated time."""
     logger = start("planetary_twin.logger")
-    twin = Twin(peer, start, logger, "logger", 0.0, "sample_rate:=1000.0")
+    twin = Twin(peer, start, logger, "logger", 0.0, sample_rate=1000.0)
     twin.advance(0.5)
     listeners = (other, logger, peer)
     peer.until(lambda: peer.node.count_subscribers(STREAMS[0]) == len(listeners))

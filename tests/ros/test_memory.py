@@ -23,7 +23,7 @@ Growth = Callable[[], float]
 @pytest.fixture
 def simulation(peer: Peer, start: Start) -> Program:
     """A simulation that a logger records."""
-    return start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
+    return start("planetary_twin.simulation", wait_for="logger")
 
 
 @pytest.fixture

@@ -131,9 +131,7 @@ def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ra
 
 
 def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -> None:
-    start(
-        "planetary_twin.simulation", "--ros-args", "-p", "backlash:=3e-7", "-p", "lambda_ratio:=2"
-    )
+    start("planetary_twin.simulation", backlash="3e-7", lambda_ratio=2)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     point = peer.until(lambda: points, 120.0)[0]
     assert (point.backlash, point.lambda_ratio) == (3e-7, 2.0)
@@ -157,8 +155,8 @@ def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given:
 
 def test_the_default_parameter_file_leaves_values_to_the_scene(peer: Peer, start: Start) -> None:
     file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"
-    given = ("--ros-args", "--params-file", str(file), "-p", "scene:=lightly_loaded")
-    start("planetary_twin.simulation", *given)
+    given = ("--ros-args", "--params-file", str(file))
+    start("planetary_twin.simulation", *given, scene="lightly_loaded")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     point = peer.until(lambda: points, 120.0)[0]
     scene = pt.load_scene("lightly_loaded").operating_point

@@ -28,10 +28,8 @@ def test_an_overloaded_twin_degrades_in_order_and_reports_it(
 ) -> None:
     scene = tmp_path / "moving_axes.yaml"
     scene.write_text(MOVING_AXES)
-    options = ("autostart:=false", f"scene:={scene}", "rate_factor:=100", "publish_rate:=10",
-               "tolerance:=0.0")  # fmt: skip
-    arguments = itertools.chain.from_iterable(("-p", option) for option in options)
-    process = start("planetary_twin.simulation", "--ros-args", *arguments)
+    given = {"rate_factor": 100, "publish_rate": 10, "tolerance": 0.0}
+    process = start("planetary_twin.simulation", autostart="false", scene=scene, **given)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)

@@ -116,7 +116,7 @@ def test_a_refusal_names_field_value_and_range(user: Peer, points: list[Operatin
 
 
 def test_a_quantity_without_effect_comes_with_a_remark(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", "--ros-args", "-p", "scene:=wind_turbine_stage")
+    start("planetary_twin.simulation", scene="wind_turbine_stage")
     remark = "lambda_ratio: has no effect: the scene computes it"
     result = peer.set(NODE, lambda_ratio=1.2)
     assert result.successful and result.reason.startswith(remark)

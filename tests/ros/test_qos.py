@@ -61,7 +61,7 @@ class Subscriptions:
 
 
 def test_subscribers_receive_messages_or_the_reason_why_not(peer: Peer, start: Start) -> None:
-    process = start("planetary_twin.simulation", "--ros-args", "-p", "clock:=true")
+    process = start("planetary_twin.simulation", clock="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 10)
     streams = Subscriptions(peer, STREAMS, VOLATILE)

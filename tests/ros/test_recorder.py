@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -58,10 +59,9 @@ def count(domain: int) -> Iterator[Count]:
 class Logger:
     """A logger that records the numbers, and its reports."""
 
-    def __init__(self, peer: Peer, start: Start, *settings: str) -> None:
+    def __init__(self, peer: Peer, start: Start, **settings: Any) -> None:
         self.peer = peer
-        options = [option for setting in settings for option in ("-p", setting)]
-        self.process = start("planetary_twin.logger", "--ros-args", *options)
+        self.process = start("planetary_twin.logger", **settings)
         self.status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
         self._reports = peer.listen(DiagnosticArray, "/diagnostics")
 
@@ -129,7 +129,7 @@ def numbers_in(path: Path) -> list[int]:
 
 
 def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> None:
-    logger = Logger(peer, start, "name:=bag")
+    logger = Logger(peer, start, name="bag")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
     assert logger.ask("stop").success
@@ -148,7 +148,7 @@ def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> No
 def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_path: Path) -> None:
     """By stamps, however late the timers of the logger are."""
     period = 0.5
-    logger = Logger(peer, start, "name:=bag", f"flush_period:={period}")
+    logger = Logger(peer, start, name="bag", flush_period=period)
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 20)
     safe, stamp = logger.recorded(), logger.status[-1].header.stamp
@@ -166,7 +166,7 @@ def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_pat
 def test_recordings_start_split_and_end_on_request(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    logger = Logger(peer, start, "name:=bag", "compression:=lz4")
+    logger = Logger(peer, start, name="bag", compression="lz4")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
     logger.refuses("start", "already recording into")
@@ -210,7 +210,7 @@ def test_recordings_start_split_and_end_on_request(
 
 
 def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: Path) -> None:
-    logger = Logger(peer, start, "name:=bag", "snapshot_duration:=0.5")
+    logger = Logger(peer, start, name="bag", snapshot_duration=0.5)
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 300)
     for service in ("start", "stop", "split"):
@@ -235,7 +235,7 @@ def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: 
 def test_a_managed_logger_goes_to_its_error_state_and_recovers(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    logger = Logger(peer, start, "autostart:=false", "flush_period:=0.1")
+    logger = Logger(peer, start, autostart="false", flush_period=0.1)
     Ticker(peer)
     node = f"{TWIN}/logger"
     logger.refuses("start", "the logger is not active")
@@ -257,8 +257,8 @@ def test_a_managed_logger_goes_to_its_error_state_and_recovers(
 def test_a_full_disk_ends_the_logger_with_one_line(
     peer: Peer, start: Start, small_disk: Path, count: Count
 ) -> None:
-    setting = f"directory:={small_disk}"
-    logger = Logger(peer, start, setting, "compression:=none", "flush_period:=0.05")
+    given = {"compression": "none", "flush_period": 0.05}
+    logger = Logger(peer, start, directory=small_disk, **given)
     count(200.0, 10_000, 10_000, 100)
     peer.until(lambda: logger.process.poll() is not None)
     logger.ends_with("No space left on device; flushed messages are readable")
@@ -272,7 +272,7 @@ def test_recorded_plus_lost_equals_published_under_overload(
     peer: Peer, start: Start, tmp_path: Path, count: Count
 ) -> None:
     """The logger stands still, as on an overloaded machine, until all is sent."""
-    logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
+    logger = Logger(peer, start, name="bag", topics=f"['{TOPIC}']")
     sender = count(4000.0, 20_000, 100, 1)
     assert sender.stdin and sender.stdout
     peer.until(logger.recorded)
@@ -301,7 +301,7 @@ def test_recorded_plus_lost_equals_published_under_overload(
 
 
 def test_a_later_publisher_with_weaker_qos_is_recorded(peer: Peer, start: Start) -> None:
-    logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
+    logger = Logger(peer, start, name="bag", topics=f"['{TOPIC}']")
 
     def publish_until_received(qos: QoSProfile) -> None:
         publisher = peer.node.create_publisher(String, TOPIC, qos)

@@ -25,7 +25,7 @@ TOPICS = {
 @pytest.fixture
 def logger(start: Start) -> subprocess.Popen[str]:
     """A logger that records into recordings/bag."""
-    return start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    return start("planetary_twin.logger", name="bag")
 
 
 def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]:
@@ -63,7 +63,7 @@ def test_an_existing_recording_is_refused_in_one_line(
     start: Start, logger: subprocess.Popen[str], tmp_path: Path, peer: Peer
 ) -> None:
     peer.until(lambda: (tmp_path / "recordings/bag").exists())
-    _refused(start("planetary_twin.logger", "--ros-args", "-p", "name:=bag"), "bag exists")
+    _refused(start("planetary_twin.logger", name="bag"), "bag exists")
 
 
 def _refused(process: subprocess.Popen[str], reason: str) -> None:

@@ -137,8 +137,7 @@ def test_a_live_twin_on_the_same_topics_causes_a_warning(peer: Peer, play: Play,
 
 def test_the_node_runs_without_the_command_and_pauses(peer: Peer, start: Start, bag: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
-    arguments = ("--ros-args", "-p", f"file:={bag}", "-p", "rate_factor:=0.25")
-    process = start("planetary_twin.replay", *arguments)
+    process = start("planetary_twin.replay", file=bag, rate_factor=0.25)
     peer.until(lambda: len(states) > 10)
 
     def change(label: str) -> None:

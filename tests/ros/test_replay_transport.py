@@ -103,10 +103,9 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 5000)
     points = peer.listen(OperatingPoint, "/elsewhere", LATCHED)
     clock = peer.listen(Clock, "/clock", 5000)
-    given = (f"file:={split}", "start_paused:=true", "clock:=100.0")
-    arguments = [word for value in given for word in ("-p", value)]
-    remap = f"{TWIN}/operating_point:=/elsewhere"
-    process = start("planetary_twin.replay", "--ros-args", *arguments, "-r", remap)
+    remap = ("--ros-args", "-r", f"{TWIN}/operating_point:=/elsewhere")
+    given = {"file": split, "start_paused": "true", "clock": 100.0}
+    process = start("planetary_twin.replay", *remap, **given)
     expect(peer, states, 1, 1)
 
     reached = step(peer, 0.5)

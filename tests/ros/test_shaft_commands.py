@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,10 +30,10 @@ PAPER = pt.load_scene("paper")
 SUN, RING = "sun_joint", "ring_joint"
 
 
-def driven(folder: Path, input: str, output: str, more: str = "") -> str:
-    """A scene file with these ports, and `more` fields of the drive."""
+def driven(folder: Path, input: str, output: str) -> str:
+    """A scene file with these ports."""
     path = folder / "driven.yaml"
-    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}{more}}}"
+    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}}}"
     path.write_text(f"base: paper\nname: driven\ndrive: {ports}\n")
     return str(path)
 
@@ -44,13 +45,9 @@ def command(effort: tuple[float, float], stamp: int = 0) -> JointState:
     return message
 
 
-def running(
-    peer: Peer, start: Start, folder: Path, *options: str, more: str = ""
-) -> list[JointState]:
+def running(peer: Peer, start: Start, folder: Path, **given: Any) -> list[JointState]:
     """Joint states of a simulation whose torques are given."""
-    path = driven(folder, "torque", "torque", more)
-    given = [part for option in (f"scene:={path}", *options) for part in ("-p", option)]
-    start("planetary_twin.simulation", "--ros-args", *given)
+    start("planetary_twin.simulation", scene=driven(folder, "torque", "torque"), **given)
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     peer.until(lambda: joints)
     return joints
@@ -77,7 +74,7 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Pause, reset, then commands in and states out, one call a step, at any load."""
-    joints = running(peer, start, tmp_path, "tolerance:=0.0", "compute_share:=0.9")
+    joints = running(peer, start, tmp_path, tolerance=0.0, compute_share=0.9)
     peer.until(lambda: len(joints) > 200)  # the tolerance has been selected by the load
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
@@ -120,7 +117,7 @@ def reports_on_commands(arrays: list[DiagnosticArray]) -> set[str]:
 def test_steps_with_a_command_that_no_port_takes_are_refused(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
+    running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     now = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3)).simulated_time
     for request, reason in (
@@ -151,7 +148,7 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
 def test_silence_holds_releases_or_brakes(
     peer: Peer, start: Start, tmp_path: Path, silence: str
 ) -> None:
-    joints = running(peer, start, tmp_path, "command_timeout:=0.3", f"command_silence:={silence}")
+    joints = running(peer, start, tmp_path, command_timeout=0.3, command_silence=silence)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
 
     def follows() -> bool:
@@ -481,9 +478,9 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Commands at 1 kHz are in the recording as they acted, and a brake in between."""
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=driven")
+    logger = start("planetary_twin.logger", name="driven")
     joints = running(
-        peer, start, tmp_path, "wait_for:=logger", "command_timeout:=0.3", "command_silence:=brake"
+        peer, start, tmp_path, wait_for="logger", command_timeout=0.3, command_silence="brake"
     )
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)

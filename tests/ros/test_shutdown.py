@@ -127,7 +127,7 @@ def test_a_signal_during_a_call_or_transition_ends_the_node(peer: Peer, start: S
 
 
 def test_both_nodes_end_on_one_ctrl_c(peer: Peer, start: Start, tmp_path: Path) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    logger = start("planetary_twin.logger", name="bag")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
     peer.until(lambda: recorded(status, STATES) > 50)
@@ -143,12 +143,12 @@ def test_each_node_may_be_killed_and_restarted(peer: Peer, start: Start, tmp_pat
     states = peer.listen(GearboxState, STATES)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start)
-    first = start("planetary_twin.logger", "--ros-args", "-p", "name:=first")
+    first = start("planetary_twin.logger", name="first")
     peer.until(lambda: recorded(status, STATES) > 50)
     first.kill()
     first.wait(QUICK)
     status.clear()
-    second = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
+    second = start("planetary_twin.logger", name="second")
     peer.until(lambda: recorded(status, STATES) > 50)
     assert [b.sequence - a.sequence for a, b in itertools.pairwise(states)] == [1] * (
         len(states) - 1

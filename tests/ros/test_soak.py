@@ -67,8 +67,8 @@ def check_recording(folder: Path, reported: dict[str, str], lost: dict[str, int]
 def test_a_long_run_neither_grows_nor_loses_nor_is_late(
     peer: Peer, start: Start, tmp_path: Path, record_property
 ) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    process = start("planetary_twin.simulation", "--ros-args", "-p", "autostart:=false")
+    logger = start("planetary_twin.logger", name="bag")
+    process = start("planetary_twin.simulation", autostart="false")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status", 1)
     reports = listen_to_reports(peer)
     peer.change_state(NODE, "configure")

@@ -16,7 +16,6 @@ from .peer import LONG, TWIN, Peer
 from .reported import figures, listen_to_reports
 
 STATES = f"{TWIN}/gearbox_state"
-WAITING = ("--ros-args", "-p", "wait_for:=logger")
 
 
 def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderStatus:
@@ -33,23 +32,23 @@ def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderSt
 
 def test_nodes_that_start_together_record_every_message(peer: Peer, start: Start) -> None:
     start("planetary_twin.logger")
-    start("planetary_twin.simulation", *WAITING)
+    start("planetary_twin.simulation", wait_for="logger")
     status = accounted(peer)
     assert not any(status.lost)
 
 
 def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", *WAITING)
+    start("planetary_twin.simulation", wait_for="logger")
     reports = listen_to_reports(peer)
     peer.until(lambda: figures(reports).get("state") == "waits")
-    start("planetary_twin.logger", "--ros-args", "-p", f"topics:=[{TWIN}/joint_states]")
+    start("planetary_twin.logger", topics=f"[{TWIN}/joint_states]")
     status = accounted(peer, f"{TWIN}/joint_states")
     assert list(status.topics) == [f"{TWIN}/joint_states"]
     assert not any(status.lost)
 
 
 def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) -> None:
-    simulation = start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=nobody")
+    simulation = start("planetary_twin.simulation", wait_for="nobody")
     states = peer.listen(GearboxState, STATES)
     peer.until(lambda: states, TIMEOUT + 60.0)
     simulation.terminate()
@@ -59,7 +58,7 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
 
 def test_a_recorder_that_has_gone_is_an_error(peer: Peer, start: Start) -> None:
     logger = start("planetary_twin.logger")
-    start("planetary_twin.simulation", *WAITING)
+    start("planetary_twin.simulation", wait_for="logger")
     arrays = peer.listen(DiagnosticArray, "/diagnostics")
 
     def recorder() -> tuple[bytes, str]:

@@ -156,9 +156,7 @@ def test_a_reset_starts_again_with_the_parameters_in_force(peer: Peer, received:
 
 def test_the_clock_has_the_time_of_the_messages(peer: Peer, start: Start) -> None:
     # Launch files set `use_sim_time` for all nodes: the source must not wait for itself.
-    options = ("clock:=true", "use_sim_time:=true", "rate_factor:=0.1")
-    given = itertools.chain.from_iterable(("-p", option) for option in options)
-    start("planetary_twin.simulation", "--ros-args", *given)
+    start("planetary_twin.simulation", clock="true", use_sim_time="true", rate_factor=0.1)
     clocks = peer.listen(Clock, "/clock")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     follower = Follower(peer)

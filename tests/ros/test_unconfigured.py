@@ -16,7 +16,6 @@ import planetary_twin_py as pt
 from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
 
-UNCONFIGURED = ("--ros-args", "-p", "autostart:=false")
 OF_ROS = {"/rosout", "/parameter_events"}
 SIMULATION = f"{TWIN}/simulation"
 
@@ -42,7 +41,7 @@ def read_only(peer: Peer, name: str) -> bool:
 
 
 def test_a_simulation_uses_parameters_set_when_unconfigured(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", *UNCONFIGURED)
+    start("planetary_twin.simulation", autostart="false")
     assert peer.state(SIMULATION) == "unconfigured"
     assert topics(peer) == set()
     assert not read_only(peer, "publish_rate") and read_only(peer, "autostart")
@@ -87,7 +86,7 @@ def test_a_simulation_uses_parameters_set_when_unconfigured(peer: Peer, start: S
 
 
 def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", *UNCONFIGURED, "-p", "input_torque:=80")
+    start("planetary_twin.simulation", autostart="false", input_torque=80)
     before = values(peer, "scene", "input_torque", "gearset.teeth.sun")
     for given in (
         {"scene": "no_such_scene"},
@@ -108,7 +107,7 @@ def test_a_logger_uses_the_name_set_when_unconfigured(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     node = f"{TWIN}/logger"
-    start("planetary_twin.logger", *UNCONFIGURED)
+    start("planetary_twin.logger", autostart="false")
     assert peer.state(node) == "unconfigured"
     assert topics(peer) == set()
     assert peer.set(node, name="later").successful
