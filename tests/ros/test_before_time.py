@@ -2,39 +2,24 @@
 
 from __future__ import annotations
 
-import signal
 from pathlib import Path
-from typing import Any
 
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
-
-from planetary_twin_py.recording.runs.verify import verify
+from std_srvs.srv import Trigger
 
 from .conftest import Start
-from .peer import LATCHED, LONG, TWIN, Peer
+from .peer import LATCHED, TWIN, Peer
+from .reported import check_verified
 from .test_clocks import Ticking
 
 NODE = f"{TWIN}/simulation"
 NO_CLOCK = "use_sim_time: the twin waits for the first message on /clock"
 
 
-def pause(peer: Peer) -> None:
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
-
-
 def step(peer: Peer) -> Step.Response:
     return peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05))
-
-
-def check_verified(logger: Any, folder: Path) -> None:
-    """The recording repeats the run bit for bit."""
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=LONG)
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
 
 
 def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
@@ -42,7 +27,7 @@ def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_
     start("planetary_twin.simulation", use_sim_time="true", wait_for="logger")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    pause(peer)
+    peer.pause(NODE)
     assert peer.set(NODE, input_torque=80.0).successful
     for _ in range(2):
         refused = step(peer)
@@ -67,7 +52,7 @@ def test_a_clock_without_time_makes_steps_refused(peer: Peer, start: Start, tmp_
     peer.until(lambda: states and points)
     answer = peer.set(NODE, use_sim_time=True)
     assert answer.successful and answer.reason == NO_CLOCK
-    pause(peer)
+    peer.pause(NODE)
     assert peer.set(NODE, input_torque=80.0).successful
     assert step(peer).message.startswith(NO_CLOCK)
     answer = peer.set(NODE, use_sim_time=False)

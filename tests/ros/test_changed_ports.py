@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import signal
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,7 @@ from planetary_twin_msgs.msg import OperatingPoint
 from planetary_twin_msgs.srv import Step
 from rcl_interfaces.srv import GetParameters
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.branch import Branch
@@ -22,7 +21,8 @@ from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 
 from .conftest import Start
-from .peer import LATCHED, LONG, TWIN, Peer
+from .peer import LATCHED, TWIN, Peer
+from .reported import check_verified
 from .test_shaft_commands import RING, SUN, received, torque
 
 NODE = f"{TWIN}/simulation"
@@ -70,11 +70,7 @@ def test_ports_change_while_the_node_runs_and_verify(
     peer.until(lambda: ports(points[-1]) == ("machine", "machine"))
     count = len(joints)
     peer.until(lambda: len(joints) > count + 20)
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=LONG)
-    folder = tmp_path / "recordings/changed"
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
+    check_verified(logger, folder := tmp_path / "recordings/changed")
     (run,) = read_runs(folder, TWIN, [])
     inputs = [change.values[INPUT] for change in run.changes]
     assert inputs[:2] == ["machine", "torque"] and inputs[-1] == "machine"
@@ -124,7 +120,7 @@ def test_changes_of_ports_before_the_first_step_are_recorded(
     start("planetary_twin.simulation", wait_for="logger", rate_factor=0.0, tolerance=0.0)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     peer.until(lambda: points)
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     assert peer.set(NODE, backlash=4e-7).successful
     assert peer.set(NODE, **{INPUT: "torque"}).successful
@@ -140,11 +136,7 @@ def test_changes_of_ports_before_the_first_step_are_recorded(
     assert peer.set(NODE, **{INPUT: "machine"}).successful
     peer.until(lambda: points[-1].simulated_time > 0.0)
     assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05)).success
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=LONG)
-    folder = tmp_path / "recordings/lockstep"
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
+    check_verified(logger, folder := tmp_path / "recordings/lockstep")
     run = read_runs(folder, TWIN, [])[-1]
     assert run.changes[-1].values[INPUT] == "machine"
     assert "torque" in [change.values[INPUT] for change in run.changes]

@@ -15,7 +15,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.verify import verify
@@ -95,7 +95,7 @@ def test_several_steps_in_one_call_have_the_bits_of_single_ones(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
     efforts = [(63.0 + n, 147.0 - n) for n in range(20)]

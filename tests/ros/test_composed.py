@@ -13,6 +13,7 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
 from .recordings import counts
+from .reported import recorded
 
 STATES = f"{TWIN}/gearbox_state"
 
@@ -26,7 +27,7 @@ def test_every_message_is_recorded_until_signals_end_it(
     peer.until(lambda: len(states) > 100 and status and STATES in status[-1].topics)
     reported = len(status)
     peer.until(lambda: len(status) > reported + 1)
-    received = status[-1].recorded[list(status[-1].topics).index(STATES)]
+    received = recorded(status, STATES)
     assert list(status[-1].lost) == [0] * len(status[-1].topics)
     while twin.poll() is None:  # the file is finished, however many signals the user sends
         twin.send_signal(signal.SIGINT)

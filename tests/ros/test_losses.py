@@ -24,7 +24,7 @@ from .conftest import Program, Start
 from .other_recorder import COUNTS, LATCHED, NAME, TOPICS
 from .peer import TWIN, Peer
 from .recordings import counts
-from .reported import figures, listen_to_reports
+from .reported import figures, listen_to_reports, published
 
 NODE = f"{TWIN}/simulation"
 STREAMS = (f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", f"{TWIN}/joint_states", "/tf")
@@ -80,11 +80,6 @@ class Twin:
         self.peer.change_state(NODE, "deactivate")
         self.peer.until(lambda: figures(self.reports[-1:]).get("state") == "stopped")
         return figures(self.reports[-1:])
-
-
-def published(reported: dict[str, str]) -> dict[str, int]:
-    prefix = "published."
-    return {k.removeprefix(prefix): int(v) for k, v in reported.items() if k.startswith(prefix)}
 
 
 def run_on(twin: Twin) -> None:

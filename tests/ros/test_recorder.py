@@ -28,6 +28,7 @@ from planetary_twin_py.recording.runs.info import read_info
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer
 from .recordings import counts
+from .reported import recorded
 
 COUNTER = Path(__file__).with_name("counter.py")
 TOPIC = f"{TWIN}/numbers"
@@ -71,9 +72,7 @@ class Logger:
         return [status for status in statuses if is_status(status.name, RECORDING)]
 
     def recorded(self, topic: str = TOPIC) -> int:
-        if not self.status or topic not in self.status[-1].topics:
-            return 0
-        return self.status[-1].recorded[list(self.status[-1].topics).index(topic)]
+        return recorded(self.status, topic)
 
     def lost(self) -> int:
         return self.status[-1].lost[list(self.status[-1].topics).index(TOPIC)]

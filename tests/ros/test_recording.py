@@ -12,6 +12,7 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
 from .recordings import counts
+from .reported import recorded
 
 TOPICS = {
     "/diagnostics",
@@ -33,16 +34,7 @@ def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]
     start("planetary_twin.simulation")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    topic = f"{TWIN}/gearbox_state"
-    peer.until(
-        lambda: (
-            states
-            and status
-            and topic in status[-1].topics
-            and status[-1].recorded[list(status[-1].topics).index(topic)] >= messages
-        ),
-        120.0,
-    )
+    peer.until(lambda: states and recorded(status, f"{TWIN}/gearbox_state") >= messages)
     return states
 
 

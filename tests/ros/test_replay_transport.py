@@ -17,7 +17,6 @@ from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool
 
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
@@ -70,12 +69,6 @@ def _write(place: Path, steps: range, depth: int = DEPTH) -> Path:
 def _topic(name: str, kind: str, qos: QoSProfile) -> Topic:
     kind = f"planetary_twin_msgs/msg/{kind}"
     return Topic(f"{TWIN}/{name}", kind, "", message_definition(kind), [to_words(qos)])
-
-
-def pause(peer: Peer, paused: bool) -> str:
-    answer = peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused))
-    assert answer.success, answer.message
-    return answer.message
 
 
 def step(peer: Peer, duration: float) -> Step.Response:
@@ -144,14 +137,14 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     refused = step(peer, 10.5)
     assert "duration = 10.5 s: must be above 0 and at most 10" in refused.message
     assert not peer.set(NODE, rate_factor=0.001).successful
-    assert pause(peer, True) == "paused from 4 s"
+    assert peer.pause(NODE) == "paused from 4 s"
 
     # To the end, where it waits until it is resumed.
     assert seek(peer, 19.9).success
     assert step(peer, 1.0).simulated_time == pytest.approx(19.99)
     expect(peer, states, 1991, 2000)
     assert process.poll() is None
-    pause(peer, False)
+    peer.pause(NODE, False)
     peer.until(lambda: process.poll() is not None)
     output, errors = process.communicate()
     assert process.returncode == 0, errors
@@ -186,10 +179,10 @@ def test_a_running_replay_changes_rate_and_position(peer: Peer, play: Play, spli
     assert np.sum(steps <= 0) <= len(recorded) // (LENGTH - 100)  # where the loop starts again
 
     # A pause keeps the position; a seek changes it, also between passes of the loop.
-    held = float(pause(peer, True).split()[-2])
+    held = float(peer.pause(NODE).split()[-2])
     peer.until(lambda: held - 0.0101 <= received[-1][0] <= held + 1e-9)
     count = len(received)
-    pause(peer, False)
+    peer.pause(NODE, False)
     peer.until(lambda: len(received) > count)
     assert received[count][0] == pytest.approx(received[count - 1][0] + 0.01)
     count = len(received)

@@ -19,7 +19,7 @@ from planetary_twin.running.node_settings import node_settings
 from planetary_twin.running.tour import LENGTH, tour_of
 from planetary_twin.telemetry import STALL
 from planetary_twin_msgs.msg import GearboxState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 from tiers import first_rows
 
 from planetary_twin_py.scene import load_scene, parse_scene
@@ -293,10 +293,10 @@ def test_a_long_pause_and_a_reset_do_not_fail_a_run(
 ) -> None:
     process = run("--duration", "3", "--no-tour", "--record", "bag")
     _line(process, "rpm")
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
+    peer.pause(f"{TWIN}/simulation")
     _line(process, "paused")
     time.sleep(12.0)  # the subject of the test
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
+    peer.pause(f"{TWIN}/simulation", False)
     assert peer.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
     output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors

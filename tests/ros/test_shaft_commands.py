@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import signal
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -16,14 +15,14 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin.shaft_commands import ShaftCommands, fault_of_names, names_given
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.schedule import read_runs
-from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
 from .peer import TWIN, Peer
+from .reported import check_verified
 
 NODE = f"{TWIN}/simulation"
 PAPER = pt.load_scene("paper")
@@ -76,7 +75,7 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(
     """Pause, reset, then commands in and states out, one call a step, at any load."""
     joints = running(peer, start, tmp_path, tolerance=0.0, compute_share=0.9)
     peer.until(lambda: len(joints) > 200)  # the tolerance has been selected by the load
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
     rng, begin, calls = np.random.default_rng(3), time.monotonic(), 300
@@ -118,7 +117,7 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    peer.pause(NODE)
     now = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3)).simulated_time
     for request, reason in (
         (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),
@@ -494,12 +493,7 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     for n in range(100):
         publisher.publish(command((20.0 + 0.1 * n, 40.0)))
         time.sleep(1e-3)
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=20.0)
-    assert logger.returncode == 0
-    folder = tmp_path / "recordings/driven"
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
+    check_verified(logger, folder := tmp_path / "recordings/driven")
     (run,) = read_runs(folder, TWIN, [])
     assert len(run.given) > 20
     ports = [change.values["drive.input.port"] for change in run.changes]

@@ -19,7 +19,7 @@ from rosbags.rosbag2 import Reader
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .reported import figures, listen_to_reports
+from .reported import figures, listen_to_reports, published
 
 DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
 SETTLING = 120.0  # [s] after which everything that is loaded or allocated once has been
@@ -29,11 +29,6 @@ PERIOD = 10  # [s] of the parameter
 # 0.3 kB per entry, and the steps of a repeated mesh cycle: a tighter tolerance needs more of them.
 GROWTH = 1.0
 SLOPE = 1.0  # [MB/h]
-
-
-def published(reported: dict[str, str]) -> dict[str, int]:
-    prefix = "published."
-    return {k.removeprefix(prefix): int(v) for k, v in reported.items() if k.startswith(prefix)}
 
 
 def accounted(status: RecorderStatus) -> dict[str, int]:

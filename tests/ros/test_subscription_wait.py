@@ -13,7 +13,7 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .reported import figures, listen_to_reports
+from .reported import figures, listen_to_reports, recorded
 
 STATES = f"{TWIN}/gearbox_state"
 
@@ -21,12 +21,7 @@ STATES = f"{TWIN}/gearbox_state"
 def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderStatus:
     """The first status of the logger that counts that many messages."""
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-
-    def enough() -> bool:
-        topics = list(status[-1].topics) if status else []
-        return topic in topics and status[-1].recorded[topics.index(topic)] >= messages
-
-    peer.until(enough)
+    peer.until(lambda: recorded(status, topic) >= messages)
     return status[-1]
 
 
