@@ -1,21 +1,14 @@
 """Estimates of the COMPAct rig's losses against plain regression, and the scene that has them."""
 
-import importlib
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import planetary_twin_py as pt
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-
 
 @pytest.fixture
-def losses(monkeypatch):
-    """The module, from a folder that is not installed."""
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    return importlib.import_module("measured.compact_losses")
+def losses(measured):
+    return measured("compact_losses")
 
 
 @pytest.mark.exhaustive

@@ -1,18 +1,11 @@
 """Figures computed from the readings of the COMPAct rig against those that its authors state."""
 
-import importlib
-from pathlib import Path
-
 import pytest
-
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
 @pytest.fixture
-def rig(monkeypatch):
-    """The module, from a folder that is not installed."""
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    return importlib.import_module("measured.compact_readings")
+def rig(measured):
+    return measured("compact_readings")
 
 
 @pytest.mark.exhaustive

@@ -24,6 +24,12 @@ def invoke(*arguments):
     return CliRunner().invoke(build_app(), ["spectrum", *map(str, arguments)])
 
 
+def save(file, heading, *columns, fmt="%.9g"):
+    """Write a table in CSV."""
+    rows = np.column_stack(columns)
+    np.savetxt(file, rows, delimiter=",", header=heading, comments="", fmt=fmt)
+
+
 def vibration():
     """Two seconds with two mesh harmonics and a pair of sidebands."""
     time = np.arange(0.0, 2.0, 1.0 / RATE)
@@ -35,8 +41,7 @@ def vibration():
 @pytest.fixture(scope="module")
 def table(tmp_path_factory):
     file = tmp_path_factory.mktemp("measured") / "vibration.csv"
-    columns = np.column_stack(vibration())
-    np.savetxt(file, columns, delimiter=",", header=f"time [s],{NAME}", comments="", fmt="%.9f")
+    save(file, f"time [s],{NAME}", *vibration())
     return file
 
 
@@ -72,7 +77,7 @@ def test_the_unit_of_the_heading_is_printed(table):
 
 def test_a_sample_rate_replaces_a_missing_time(tmp_path):
     file = tmp_path / "vibration.csv"
-    np.savetxt(file, vibration()[1], header="acceleration", comments="")
+    save(file, "acceleration", vibration()[1])
     assert lines(file, "--sample-rate", RATE)[0]["frequency_hz"] == pytest.approx(MESH, abs=0.05)
     done = invoke(file)
     assert done.exit_code == 2 and "missing" in done.stderr and "give --sample-rate" in done.stderr
@@ -84,8 +89,7 @@ def test_a_sample_rate_replaces_a_missing_time(tmp_path):
 )
 def test_a_sample_rate_that_contradicts_the_time_is_reported(tmp_path, decimals, rate, contradicts):
     file = tmp_path / "vibration.csv"
-    rows = np.column_stack(vibration())
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt=f"%.{decimals}f")
+    save(file, "time,a", *vibration(), fmt=f"%.{decimals}f")
     done = invoke(file, "--sample-rate", rate)
     words = f"--sample-rate = {rate:g} Hz contradicts the column 'time', whose stamps are 25600 Hz"
     assert done.exit_code == 0 and (words in done.stderr) == contradicts
@@ -95,8 +99,7 @@ def test_a_sample_rate_that_contradicts_the_time_is_reported(tmp_path, decimals,
 def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     time[1001::500] = time[1000::500][: len(time[1001::500])]
-    rows = np.column_stack((time, values))
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9g")
+    save(file, "time,a", time, values)
     said = invoke(file, "--sample-rate", RATE).stderr
     assert "whose stamp in row 1002 is not later than the one before" in said
     assert "by --from and --to, or give --sample-rate" in invoke(file).stderr
@@ -104,8 +107,7 @@ def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
 
 def test_rounded_stamps_give_the_lines_of_even_steps(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
-    rows = np.column_stack((1e3 * time, values))
-    np.savetxt(file, rows, delimiter=",", header="time [ms],a", comments="", fmt=["%.2f", "%.9f"])
+    save(file, "time [ms],a", 1e3 * time, values, fmt=["%.2f", "%.9f"])
     assert "rounded to 1e-05 s: equal steps that fit them are used, 25600 Hz" in invoke(file).stderr
     first, second = lines(file)[:2]
     assert first["frequency_hz"] == pytest.approx(MESH, abs=0.05)
@@ -130,9 +132,14 @@ def run_up(tmp_path_factory):
     time = np.arange(0.0, 2.0, 1.0 / RATE)
     turns = 15.0 * time + 0.75 * time**2
     rpm = 60.0 * (15.0 + 1.5 * time)
-    rows = np.column_stack((time, 0.8 * np.sin(2.0 * np.pi * 30.0 * turns), rpm))
-    header = "Time (s),Acceleration (m/s2),Motor speed (rpm)"
-    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.12g")
+    save(
+        file,
+        "Time (s),Acceleration (m/s2),Motor speed (rpm)",
+        time,
+        0.8 * np.sin(2.0 * np.pi * 30.0 * turns),
+        rpm,
+        fmt="%.12g",
+    )
     return file
 
 
@@ -161,9 +168,7 @@ def test_lines_that_a_varying_speed_lowers_are_remarked(run_up):
 def test_a_speed_that_reverses_has_no_mesh_frequency(tmp_path, options):
     file, time = tmp_path / "reversing.csv", np.arange(0.0, 2.0, 2e-4)
     speed = 50.0 * np.sin(2.0 * np.pi * time)
-    rows = np.column_stack((time, np.sin(600.0 * np.pi * time), speed))
-    header = "time [s],a [m/s^2],speed [rad/s]"
-    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    save(file, "time [s],a [m/s^2],speed [rad/s]", time, np.sin(600.0 * np.pi * time), speed)
     done = invoke(file, "--speed", "speed", *options)
     (remark,) = done.stderr.splitlines()
     assert "times its rms, 35.4 rad/s: there is no mesh frequency" in remark
@@ -176,9 +181,9 @@ def test_a_speed_that_reverses_has_no_mesh_frequency(tmp_path, options):
 
 def test_a_measured_speed_without_a_unit_comes_with_a_remark(tmp_path):
     file, time = tmp_path / "a.csv", np.arange(0.0, 1.0, 1e-3)
-    rows = np.column_stack((time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time))
+    columns = time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time
     for heading, remarks in (("speed", 1), ("speed [rpm]", 0)):
-        np.savetxt(file, rows, delimiter=",", header=f"time,a,{heading}", comments="")
+        save(file, f"time,a,{heading}", *columns)
         said = invoke(file, "--order", "--speed", "speed").stderr
         assert said.count("column 'speed' has no unit and is read in rad/s") == remarks
 
@@ -192,7 +197,7 @@ def test_lines_with_undetermined_amplitudes_are_counted(tmp_path):
     ):
         tones = sum(np.sin(2.0 * np.pi * count * turns) for count in cycles)
         file = tmp_path / "a.csv"
-        np.savetxt(file, tones, header="a", comments="")
+        save(file, "a", tones)
         shown = invoke(file, "--sample-rate", 1000.0).stdout
         assert words in shown and (words or "of these lines" not in shown)
 
@@ -210,7 +215,7 @@ def most_too_low(low, high):
 
 def test_stated_errors_of_few_cycles_are_those_of_tones(tmp_path):
     file = tmp_path / "a.csv"
-    np.savetxt(file, np.sin(2.0 * np.pi * 1.3 * np.arange(2000) / 2000.0), header="a", comments="")
+    save(file, "a", np.sin(2.0 * np.pi * 1.3 * np.arange(2000) / 2000.0))
     shown = invoke(file, "--sample-rate", 1000.0).stdout
     stated = re.search(
         r"up to (\d+) % too low from 1.5 cycles, (\d+) % from one, more below", shown
@@ -224,8 +229,7 @@ def test_stated_errors_of_few_cycles_are_those_of_tones(tmp_path):
 def test_a_measured_input_speed_becomes_that_of_the_sun(tmp_path):
     file, time = tmp_path / "stage.csv", np.arange(0.0, 60.0, 0.01)
     mesh = 99 * 12.1 / 60.0  # [Hz] the carrier is the input, the ring with 99 teeth is held
-    rows = np.column_stack((time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time))
-    np.savetxt(file, rows, delimiter=",", header="time,a,rotor [rpm]", comments="", fmt="%.9g")
+    save(file, "time,a,rotor [rpm]", time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time)
     line = lines(file, "--order", "--speed", "rotor", "--scene", "wind_turbine_stage")[0]
     assert line["order"] == pytest.approx(21.0, abs=0.01) and line["harmonic"] == 1
 
@@ -252,9 +256,7 @@ def test_lines_at_drifting_stamps_have_their_amplitudes(tmp_path):
     turns = 15.0 * time + 0.75 * time**2
     values = 0.8 * np.sin(2.0 * np.pi * 30.0 * turns)
     tones = 0.8 * np.sin(2.0 * np.pi * 500.0 * time) + 0.5 * np.sin(2e4 * np.pi * time)
-    rows = np.column_stack((time, tones, values, 15.0 + 1.5 * time))
-    header = "time,a,of_orders,shaft [rev/s]"
-    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    save(file, "time,a,of_orders,shaft [rev/s]", time, tones, values, 15.0 + 1.5 * time)
     found = lines(file, "--column", "a")[:2]
     assert [line["frequency_hz"] for line in found] == pytest.approx([500.0, 1e4], rel=1e-5)
     assert [line["amplitude"] for line in found] == pytest.approx([0.8, 0.5], rel=0.01)
@@ -271,8 +273,7 @@ def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     values[:5], time[-100:] = np.nan, time[-100:] + 3.0
     time[3] = np.nan
-    rows = np.column_stack((time, values))
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9f")
+    save(file, "time,a", time, values, fmt="%.9f")
     inside = ("--from", 0.5, "--to", 1.5)
     done = invoke(file, *inside, "--json", "-")
     assert done.exit_code == 0 and "planetary-twin: " not in done.stderr
@@ -308,8 +309,7 @@ def test_the_unit_of_a_parquet_column_may_be_in_its_metadata(tmp_path):
 
 def written(file, samples, heading="time [s],a [m/s^2]", unit=1.0):
     time = unit * np.arange(len(samples)) / RATE
-    rows = np.column_stack((time, samples))
-    np.savetxt(file, rows, delimiter=",", header=heading, comments="", fmt="%.9g")
+    save(file, heading, time, samples)
     return invoke(file, "--scene", "paper", "--set", "input_speed=998 rpm", "--json", "-")
 
 
@@ -435,8 +435,7 @@ def test_a_column_of_a_varying_speed_is_suggested(tmp_path, heading, rise, varie
     speed = 1000.0 * (1.0 + rise * time) + noise
     tone = np.sin(2.0 * np.pi * 500.0 * (time + 0.5 * rise * time**2))
     file = tmp_path / "a.csv"
-    rows = np.column_stack((time, tone, speed))
-    np.savetxt(file, rows, delimiter=",", header=f"time [s],a [g],{heading}", comments="")
+    save(file, f"time [s],a [g],{heading}", time, tone, speed)
     said = invoke(file, "--column", "a").stderr
     name = heading.split()[0]
     assert (f"the column '{heading}' varies from " in said) == varies
@@ -446,8 +445,7 @@ def test_a_column_of_a_varying_speed_is_suggested(tmp_path, heading, rise, varie
 def test_a_column_without_a_unit_of_rotation_is_no_speed(tmp_path):
     time = np.arange(0.0, 1.0, 1.0 / RATE)
     file = tmp_path / "a.csv"
-    rows = np.column_stack((time, np.sin(3000.0 * time), 20.0 + time))
-    np.savetxt(file, rows, delimiter=",", header="time [s],a [g],speed [m/s]", comments="")
+    save(file, "time [s],a [g],speed [m/s]", time, np.sin(3000.0 * time), 20.0 + time)
     assert "varies" not in invoke(file, "--column", "a").stderr
 
 
@@ -463,8 +461,7 @@ def speed_table(file, change, heading="speed [rpm]"):
     """A vibration at 1000 rpm beside a reading of this speed that `change` makes wrong."""
     time = np.arange(0.0, 1.0, 1e-4)
     tone = np.sin(2.0 * np.pi * 500.0 * time)
-    rows = np.column_stack((time, tone, change(time)))
-    np.savetxt(file, rows, delimiter=",", header=f"time,{NAME},{heading}", comments="", fmt="%.9g")
+    save(file, f"time,{NAME},{heading}", time, tone, change(time))
     return invoke(file, "--column", NAME, "--speed", heading.split()[0], "--order",
                   "--scene", "paper")  # fmt: skip
 
