@@ -35,14 +35,6 @@ def checked_phases(count, teeth):
     return mesh_phases(scene.gearset.tooth_numbers, scene.gearset.planet_angles)[0]
 
 
-def test_every_table_has_a_line_for_every_value():
-    lines = {name: [value for value, _ in entries()] for name, entries in costs.TABLES.items()}
-    assert lines["terms"] == list(costs.TERMS)
-    assert len(lines["planets"]) == 12 and len(lines["motor speed"]) == len(costs.SPEEDS)
-    assert lines["duration"] == ["0.1 s", "1 s", "10 s"]
-    assert all(len(set(values)) == len(values) for values in lines.values())
-
-
 def test_every_term_has_its_speed(monkeypatch):
     monkeypatch.setattr(costs, "LONGEST", 0.02)
     found = {cost.value: cost.speed for cost in costs.measure_costs(["terms"])}

@@ -442,13 +442,6 @@ def test_a_column_of_a_varying_speed_is_suggested(tmp_path, heading, rise, varie
     assert (f"use --speed {name} --order" in said) == varies
 
 
-def test_a_column_without_a_unit_of_rotation_is_no_speed(tmp_path):
-    time = np.arange(0.0, 1.0, 1.0 / RATE)
-    file = tmp_path / "a.csv"
-    save(file, "time [s],a [g],speed [m/s]", time, np.sin(3000.0 * time), 20.0 + time)
-    assert "varies" not in invoke(file, "--column", "a").stderr
-
-
 def test_a_stuck_sensor_and_a_clipped_signal_are_reported(tmp_path):
     samples = meshing(30)
     assert "planetary-twin: " not in written(tmp_path / "a.csv", samples).stderr

@@ -1,10 +1,6 @@
 """The command `sweep` as typed."""
 
 import math
-import signal
-import subprocess
-import sys
-import time
 
 import pyarrow.parquet
 import pytest
@@ -107,33 +103,6 @@ def test_a_field_without_effect_at_any_point_is_reported_once(given, lines, tmp_
     assert done.exit_code == 0, done.output
     warnings = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
     assert len(warnings) == lines
-
-
-@pytest.mark.exhaustive
-@pytest.mark.slow
-def test_a_killed_study_continues_where_it_was(tmp_path):
-    out, journal = tmp_path / "study.parquet", tmp_path / "study.parquet.journal"
-    given = ["sweep", "paper", "--input-torque", "10:60:60", "--out", str(out), "--duration", "0.2"]
-    command = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", *given]
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 120.0
-    while not journal.exists() or journal.read_bytes().count(b"\n") < 5:
-        assert process.poll() is None and time.monotonic() < deadline
-        time.sleep(0.01)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    before = journal.read_bytes().count(b"\n")
-    assert 5 <= before < 60 and not out.exists()
-    kept = journal.read_bytes()
-    again = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert "60 points, none failed" in again.stdout
-    whole = pyarrow.parquet.read_table(out)
-    assert kept.startswith(b'{"key"') and len(whole) == 60 and not journal.exists()
-    one_go = run(
-        "paper", "--input-torque", "10:60:60", "--out", tmp_path / "b.parquet", "--duration", 0.2
-    )
-    assert one_go.exit_code == 0
-    assert whole.equals(pyarrow.parquet.read_table(tmp_path / "b.parquet"), check_metadata=True)
 
 
 def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):

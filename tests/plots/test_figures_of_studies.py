@@ -65,11 +65,6 @@ def test_the_same_figure_is_the_same_file(tmp_path, diagram, suffix):
     assert first.read_bytes() == second.read_bytes() and first.stat().st_size > 1000
 
 
-def test_another_format_is_refused(tmp_path, diagram):
-    with pytest.raises(ValueError, match=r"must end in \.png, \.svg, \.pdf"):
-        save(pt.plot_study(diagram), str(tmp_path / "a.doc"))
-
-
 def test_without_a_speed_dependent_film_there_is_no_curve(diagram):
     from planetary_twin_py.studies.plan import Settings, grid
     from planetary_twin_py.studies.sweep import sweep

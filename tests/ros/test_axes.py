@@ -14,10 +14,8 @@ from domains import private_domain
 from planetary_twin.accuracy_report import ACCURACY
 from planetary_twin.dynamics_report import DYNAMICS
 from planetary_twin.monitor import Monitor
-from planetary_twin.watching import follow
 from planetary_twin_msgs.msg import AxesState, AxesWaveform, GearboxState, RecorderStatus
 from rclpy.serialization import deserialize_message
-from rerun.chunk import RrdReader
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
@@ -26,8 +24,6 @@ from planetary_twin_py.planar.load_sharing import load_sharing
 from planetary_twin_py.recording.ros2.topics import is_status
 from planetary_twin_py.recording.runs.origin import read_origin
 from planetary_twin_py.recording.runs.verify import verify
-from planetary_twin_py.view.live import LiveView
-from planetary_twin_py.view.show import to_file
 
 from .conftest import Start, starting
 from .peer import LATCHED, LONG, TWIN, Peer, connected
@@ -47,7 +43,6 @@ class Run(NamedTuple):
     blocks: list[AxesWaveform]
     folder: Path
     table: str
-    drawn: Path
 
 
 @pytest.fixture(scope="module")
@@ -79,11 +74,6 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
                     [str(cell) for cell in column.cells]
                     for column in monitor.table(120).columns[:2]
                 ]
-            drawn = place / "live.rrd"
-            view = LiveView(TWIN, lambda: to_file(drawn))
-            for records in follow(TWIN, 1.0):
-                view.add(records)
-            view.close()
             # A signal may end the twin between two messages of an interval.
             paused = user.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True))
             end = pytest.approx(float(paused.message.split()[-2]), rel=1e-6)  # "paused from 1.23 s"
@@ -97,7 +87,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
             logger.send_signal(signal.SIGINT)
             assert logger.wait(LONG) == 0
         table = "\n".join(f"{title}: {value}" for title, value in zip(*shown, strict=True))
-        yield Run(states, gearbox, blocks, place / "recordings/bag", table, drawn)
+        yield Run(states, gearbox, blocks, place / "recordings/bag", table)
 
 
 def _end_of(block: AxesWaveform) -> float:
@@ -156,11 +146,6 @@ def test_the_recording_has_what_was_published_and_verifies(run: Run) -> None:
     assert found.identical
     assert found.messages["axes_state"] == states
     assert found.messages["axes_waveform"] == blocks
-
-
-def test_a_live_view_draws_load_shares_and_bearing_forces(run: Run) -> None:
-    paths = {chunk.entity_path for chunk in RrdReader(run.drawn).stream() if not chunk.is_static}
-    assert {"/axes/load_share", "/gears/carrier/bearing_force/planet_4", "/gears/sun"} <= paths
 
 
 def test_the_monitor_shows_load_sharing_and_bearing_forces(run: Run) -> None:

@@ -81,16 +81,6 @@ def test_a_client_that_dies_is_noticed_while_the_other_goes_on(
             peer.until(lambda: shown() == pytest.approx((104.0, 140.0), rel=1e-2))
 
 
-def test_a_storm_of_commands_acts(peer: Peer, start: Start, tmp_path: Path) -> None:
-    """As many as a client can send, at most 5 kHz; the newest one of an interval acts."""
-    joints = running(peer, start, tmp_path)
-    with client(SUN, 61.0, 5000.0):
-        peer.until(lambda: torque(joints[-1], SUN) == pytest.approx(61.0))
-        count = len(joints)
-        peer.until(lambda: len(joints) > count + 100)
-        assert torque(joints[-1], SUN) == pytest.approx(61.0)
-
-
 def test_several_steps_in_one_call_have_the_bits_of_single_ones(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:

@@ -71,37 +71,6 @@ def curves(panel: dict[str, Any]) -> list[dict[str, Any]]:
     return [path for path in panel["paths"] if not LENGTH.match(path["value"])]
 
 
-def test_every_panel_of_foxglove_is_shown_once(panels: dict[str, Any], ending: str) -> None:
-    layout = json.loads((LAYOUTS / f"foxglove{ending}.json").read_text())
-
-    def shown(part: str | dict[str, Any]) -> list[str]:
-        if isinstance(part, dict):
-            return shown(part["first"]) + shown(part["second"])
-        tabs = panels[part].get("tabs", [])
-        return [part, *(name for tab in tabs for name in shown(tab["layout"]))]
-
-    assert sorted(shown(layout["layout"])) == sorted(panels)
-
-
-def test_tabs_of_both_layouts_have_the_same_plots(
-    panels: dict[str, Any], docks: list[ElementTree.Element], ending: str
-) -> None:
-    def titles(part: str | dict[str, Any]) -> list[str]:
-        if isinstance(part, str):
-            return [panels[part][TITLES[0]]]
-        return titles(part["first"]) + titles(part["second"])
-
-    tabs = {tab["title"]: titles(tab["layout"]) for tab in panels["Tab!plots"]["tabs"]}
-    others = {
-        tab.attrib["tab_name"]: [dock.attrib["name"] for dock in tab.iter("DockArea")]
-        for tab in ElementTree.parse(LAYOUTS / f"plotjuggler{ending}.xml").iter("Tab")
-    }
-    in_metres = {
-        name: [title.replace("[µm]", "[m]") for title in found] for name, found in others.items()
-    }
-    assert tabs == in_metres and sum(map(len, tabs.values())) == len(docks) == PLOTS[ending]
-
-
 def test_foxglove_plots_fields_in_their_unit(
     panels: dict[str, Any],
 ) -> None:

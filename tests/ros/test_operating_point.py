@@ -130,13 +130,6 @@ def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ra
     assert len(points) == 1
 
 
-def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", backlash="3e-7", lambda_ratio=2)
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    point = peer.until(lambda: points, 120.0)[0]
-    assert (point.backlash, point.lambda_ratio) == (3e-7, 2.0)
-
-
 @pytest.mark.parametrize(
     "given",
     [

@@ -6,8 +6,6 @@ import itertools
 
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 from planetary_twin_msgs.srv import Step
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters
 from rclpy.time import Time
 from std_srvs.srv import Trigger
 
@@ -15,22 +13,6 @@ from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
-STORM = 300  # parameter changes, as fast as possible
-
-
-def storm(peer: Peer) -> None:
-    """Set a parameter repeatedly without waiting for responses."""
-    client = peer.node.create_client(SetParameters, f"{NODE}/set_parameters")
-    peer.until(client.service_is_ready)
-    for k in range(STORM):
-        number = ParameterValue(
-            type=ParameterType.PARAMETER_DOUBLE, double_value=1.0 + 0.5 * k / (STORM - 1)
-        )
-        parameter = Parameter(name="lambda_ratio", value=number)
-        client.call_async(SetParameters.Request(parameters=[parameter]))
-    # The middleware decides how many of them a service accepts at once: the last one counts.
-    assert peer.set(NODE, lambda_ratio=1.6).successful
-    peer.node.destroy_client(client)
 
 
 def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Start) -> None:
@@ -47,7 +29,7 @@ def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Sta
         peer.until(lambda: len(states) > count + 5)
 
     run()
-    storm(peer)
+    assert peer.set(NODE, lambda_ratio=1.6).successful
     peer.until(lambda: points[-1].lambda_ratio == 1.6)
     peer.pause(NODE)
     for value in (2e-7, 2.5e-7, 3e-7):

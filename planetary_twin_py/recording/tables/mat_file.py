@@ -33,7 +33,7 @@ def read_mat(stream: BinaryIO) -> pa.Table:
     from scipy.io import loadmat
 
     try:
-        variables = loadmat(stream, squeeze_me=True)
+        variables = loadmat(stream.name, squeeze_me=True, appendmat=False)
     except Exception as reason:  # of many kinds, if the file is damaged
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system
             raise

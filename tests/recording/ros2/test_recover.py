@@ -10,7 +10,7 @@ from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
 from mcap.records import Chunk, Message
 from mcap.stream_reader import breakup_chunk
-from twin_recording import NAMESPACE
+from twin_recording import NAMESPACE, messages
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
@@ -57,15 +57,6 @@ def damaged(whole, kind, place, bit):
     if kind == "flip":
         return whole[:place] + bytes([whole[place] ^ 1 << bit]) + whole[place + 1 :]
     return whole[:place] + (whole[place + 1 :] if kind == "cut out" else b"")
-
-
-def messages(file):
-    """Topic, time, number and bytes of every message, by a reader that uses the index."""
-    with file.open("rb") as stream:
-        return [
-            (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
-            for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
-        ]
 
 
 @pytest.mark.parametrize("share", [0.4, 0.6, 0.95])

@@ -66,20 +66,6 @@ def test_a_file_cut_anywhere_opens_with_what_is_before_the_cut(sound, tmp_path, 
     assert "\n" not in recording.remarks[0]
 
 
-def test_a_damaged_chunk_is_reported_and_left_out(sound, tmp_path):
-    data = bytearray(sound.read_bytes())
-    data[len(data) // 2] ^= 0xFF
-    damaged = tmp_path / "damaged.mcap"
-    damaged.write_bytes(data)
-    recording = read_recording(damaged)
-    (remark,) = recording.remarks
-    assert "damaged.mcap: damaged from 0." in remark and "are skipped" in remark
-    whole = read_recording(sound).state
-    kept = np.isin(whole.time, recording.state.time)
-    assert 0 < kept.sum() < len(whole) and kept[0] and kept[-1]
-    assert np.array_equal(recording.state["ring_angle"], whole["ring_angle"][kept])
-
-
 def test_the_folder_of_a_bag_can_be_opened_like_its_file(sound):
     assert len(read_recording(sound.parent).state) == len(read_recording(sound).state)
 

@@ -114,18 +114,6 @@ def test_missing_messages_are_bridged_while_nothing_changes(tmp_path):
     assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
 
 
-def test_states_missing_between_others_are_no_whole_recording(tmp_path):
-    gap = {5, 6}
-    file = record(
-        tmp_path / "a",
-        lambda at, n, row: None if n in gap and not at.startswith(("run", "op")) else row,
-    )
-    code, output = invoke(file)
-    assert code == 0
-    assert "not recorded      2 states" in output
-    assert output.endswith("116 recorded messages, all identical bit for bit\n")
-
-
 def test_settings_that_change_within_a_gap_are_not_inferred(tmp_path):
     """Interval 16 is the first at another tolerance."""
     verdict = verify(record(tmp_path / "a", without("gearbox_state", {14, 15, 16, 17})), NAMESPACE)
@@ -154,16 +142,6 @@ def test_a_recording_without_operating_point_is_refused(tmp_path):
 def test_without_a_start_nothing_can_be_simulated_again(tmp_path, left_out):
     with pytest.raises(RecordingError, match="has no run with its start"):
         verify(record(tmp_path / "a", left_out), NAMESPACE)
-
-
-def test_a_truncated_file_is_identical_up_to_its_end(sound, tmp_path):
-    whole = sound.read_bytes()
-    truncated = tmp_path / "truncated.mcap"
-    truncated.write_bytes(whole[: len(whole) // 2])
-    verdict = verify(truncated, NAMESPACE)
-    assert verdict.first_difference is None
-    assert 10 <= verdict.messages["gearbox_state"] < 41
-    assert any("is truncated" in remark for remark in verdict.remarks)
 
 
 def test_all_messages_of_an_unfinished_file_are_compared(sound, tmp_path):

@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE, messages, record
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
@@ -26,14 +25,6 @@ def branched(sound, tmp_path_factory):
     """The first run, with another lambda ratio from 50 ms on, before the recorded one at 100 ms."""
     branch = Branch({"lambda_ratio": "1.2"}, 0.045, run=1)
     return resimulate(sound, NAMESPACE, branch, tmp_path_factory.mktemp("branch") / "bag")
-
-
-def messages(file):
-    with file.open("rb") as stream:
-        return [
-            (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
-            for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
-        ]
 
 
 def test_up_to_the_branch_it_is_identical_bit_for_bit(sound, branched):
