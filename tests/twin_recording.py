@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+from mcap.reader import make_reader
 from synthetic_recording import START_NS
 
 import planetary_twin_py as pt
@@ -110,3 +111,12 @@ def record(
         recording.advance(twin, 0.01)
     recording.finish()
     return recording.file
+
+
+def messages(file: Path) -> list[tuple[str, int, int, int, bytes]]:
+    """Topic, time, number and bytes of every message, by a reader that uses the index."""
+    with file.open("rb") as stream:
+        return [
+            (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
+            for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
+        ]

@@ -14,7 +14,6 @@ from scipy.interpolate import PchipInterpolator
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording, read_recording
 from ..recording.runs.unwrapping import unwrap
-from ..recording.tables.unpacking import check_unpacked
 from ..units.catalogue import WAVEFORM
 from .segments import full_rate, longest_segment, sample_rate
 
@@ -177,8 +176,6 @@ def relative_angle(recording: Recording, time: Array) -> Array:
 def _of_run(path: Path, mesh: str, quantity: str) -> Signal:
     try:
         with np.load(path) as arrays:
-            members = arrays.zip.infolist()
-            check_unpacked(path.stat().st_size, sum(member.file_size for member in members))
             stored = {name: arrays[name] for name in arrays.files}
         bodies = stored["bodies"].tolist()
         sun, carrier = (stored["angle"][:, bodies.index(name)] for name in ("sun", "carrier"))

@@ -16,7 +16,6 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.tables.unpacking import UnpackedTooLargeError, check_unpacked
 from ..scene import Scene
 from .baseline_fields import BLOCKS, check_cell, check_field
 from .train import followed_train
@@ -107,13 +106,9 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
     """
     try:
         with np.load(path, allow_pickle=False) as archive:
-            members = archive.zip.infolist()
-            check_unpacked(path.stat().st_size, sum(member.file_size for member in members))
             arrays = {name: archive[name] for name in archive.files}
         about = json.loads(str(arrays[ABOUT]))
         version, digest = about["version"], about["scene"]
-    except UnpackedTooLargeError as reason:
-        raise ValueError(f"{path}: {reason}") from None
     except (AttributeError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as reason:
         raise ValueError(f"{path}: is not a baseline") from reason
     if version != VERSION:

@@ -1,8 +1,7 @@
-"""Parses YAML text within limits that no scene exceeds.
+"""Parses YAML text.
 
-Duplicate keys, of which YAML would use the last, are rejected, and so are aliases that expand a
-small text to a large one, and deep nesting. Numbers are decimal: what YAML 1.1 would read as octal
-(010), hexadecimal, binary, in base 60 (1:30) or with underscores is text.
+Duplicate keys, of which YAML would use the last, are rejected. Numbers are decimal: what YAML 1.1
+would read as octal (010), hexadecimal, binary, in base 60 (1:30) or with underscores is text.
 """
 
 from __future__ import annotations
@@ -16,8 +15,6 @@ from .decimal_loader import DecimalLoader
 from .quantity import SceneError, listed
 
 LONGEST = 100_000  # characters of a text
-_MOST_VALUES = 5_000  # with aliases expanded
-_DEEPEST = 50  # nested mappings and lists
 _UNNAMED = 'in "<unicode string>", '  # before a line, in messages of PyYAML
 
 
@@ -37,7 +34,6 @@ def read_yaml(text: str, what: str = "scene") -> Any:
     if len(text) > LONGEST:
         raise SceneError(f"{what} has more than {LONGEST} characters, the most that are read")
     try:
-        _check_size(text, what)
         loader = DecimalLoader(text)
         root = loader.get_single_node()
         if repeated := list(_repeated(root, "", set())):
@@ -51,31 +47,6 @@ def read_yaml(text: str, what: str = "scene") -> Any:
     except Exception as error:  # of many kinds, if a value does not match a tag such as !!int
         reason = listed([str(error)])
         raise SceneError(f"{what} has a value that does not match its tag: {reason}") from None
-
-
-def _check_size(text: str, what: str) -> None:
-    """Raise `SceneError` if a text is nested too deeply, or too large with aliases expanded."""
-    values, sizes = 0, dict[str | None, int]()
-    opened: list[tuple[str | None, int]] = []  # anchor of each collection, and values before it
-    for event in yaml.parse(text, Loader=DecimalLoader):
-        if isinstance(event, yaml.CollectionStartEvent):
-            opened.append((event.anchor, values))
-            values += 1
-        elif isinstance(event, yaml.CollectionEndEvent):
-            anchor, before = opened.pop()
-            sizes[anchor] = values - before
-        elif isinstance(event, yaml.ScalarEvent):
-            values += 1
-            sizes[event.anchor] = 1
-            event.value.encode()  # raises for lone surrogates, which cannot be printed
-        elif isinstance(event, yaml.AliasEvent):
-            if event.anchor in [anchor for anchor, _ in opened]:
-                raise SceneError(f"{what} contains itself: *{event.anchor} is in &{event.anchor}")
-            values += sizes.get(event.anchor, 1)
-        if values > _MOST_VALUES:
-            raise SceneError(f"{what} has too many values: must be at most {_MOST_VALUES}")
-        if len(opened) > _DEEPEST:
-            raise SceneError(f"{what} is nested too deeply: must be at most {_DEEPEST} levels")
 
 
 def _repeated(node: yaml.Node | None, path: str, seen: set[int]) -> Iterator[str]:

@@ -46,13 +46,6 @@ def test_page_figures_and_picture_come_from_one_run(tmp_path):
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)
 
 
-@pytest.mark.exhaustive
-def test_without_options_no_costs_are_measured(monkeypatch):
-    monkeypatch.setattr(costs, "measure_costs", lambda progress: pytest.fail("not asked for"))
-    answer = invoke()
-    assert answer.exit_code == 0 and "short" in answer.stdout
-
-
 def test_a_picture_that_cannot_be_written_ends_in_one_line():
     answer = invoke("--plot", "/nowhere/work.png")
     assert answer.exit_code == 2

@@ -1,21 +1,14 @@
 """Estimates of the COMPAct rig's losses against plain regression, and the scene that has them."""
 
-import importlib
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import planetary_twin_py as pt
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-
 
 @pytest.fixture
-def losses(monkeypatch):
-    """The module, from a folder that is not installed."""
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    return importlib.import_module("measured.compact_losses")
+def losses(measured):
+    return measured("compact_losses")
 
 
 @pytest.mark.exhaustive
@@ -30,7 +23,7 @@ def test_the_packaged_scene_has_the_estimates_of_all_steady_runs(losses):
 
 @pytest.mark.exhaustive
 @pytest.mark.slow
-def test_the_twin_with_them_is_the_straight_line_through_the_readings(losses):
+def test_the_twin_is_the_straight_line_through_the_readings(losses):
     points, base, _ = losses.steady()
     straight = np.polyval(np.polyfit(points.torque, points.loss, 1), points.torque)
     assert len(points.loss) == 54

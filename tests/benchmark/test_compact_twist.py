@@ -1,20 +1,14 @@
 """Lost motion and stiffness computed from the readings of the COMPAct rig."""
 
-import importlib
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-
 
 @pytest.fixture
-def rig(monkeypatch):
-    """The module, from a folder that is not installed."""
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    return importlib.import_module("measured.compact_twist")
+def rig(measured):
+    return measured("compact_twist")
 
 
 def test_lost_motion_is_that_of_the_authors(rig):

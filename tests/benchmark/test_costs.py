@@ -4,7 +4,7 @@ import math
 
 import pytest
 from planetary_twin_benchmark import costs
-from planetary_twin_benchmark.timing import Speed, affordable
+from planetary_twin_benchmark.timing import affordable
 
 from planetary_twin_py.gearset.phasing import mesh_phases
 from planetary_twin_py.run.engine import Engine
@@ -12,7 +12,7 @@ from planetary_twin_py.scene import load_scene
 
 
 @pytest.mark.parametrize("count", costs.PLANETS)
-def test_planets_mesh_at_the_same_frequency_under_the_same_load_and_out_of_step(count):
+def test_planets_mesh_alike_and_out_of_step(count):
     phases = checked_phases(count, costs.TEETH)
     assert len({phase % 1 for phase in phases}) == count
 
@@ -35,14 +35,6 @@ def checked_phases(count, teeth):
     return mesh_phases(scene.gearset.tooth_numbers, scene.gearset.planet_angles)[0]
 
 
-def test_every_table_has_a_line_for_every_value():
-    lines = {name: [value for value, _ in entries()] for name, entries in costs.TABLES.items()}
-    assert lines["terms"] == list(costs.TERMS)
-    assert len(lines["planets"]) == 12 and len(lines["motor speed"]) == len(costs.SPEEDS)
-    assert lines["duration"] == ["0.1 s", "1 s", "10 s"]
-    assert all(len(set(values)) == len(values) for values in lines.values())
-
-
 def test_every_term_has_its_speed(monkeypatch):
     monkeypatch.setattr(costs, "LONGEST", 0.02)
     found = {cost.value: cost.speed for cost in costs.measure_costs(["terms"])}
@@ -50,21 +42,5 @@ def test_every_term_has_its_speed(monkeypatch):
     assert all(0.0 < speed.low <= speed.median <= speed.high for speed in found.values())
 
 
-def test_a_run_is_no_longer_than_it_takes_to_time_it(monkeypatch):
-    monkeypatch.setattr("planetary_twin_benchmark.timing.ROUND", 0.0)
-    assert affordable(load_scene("paper"), 1e-2, 0.001, 1.0) == 0.001
-
-
 def test_a_run_is_never_longer_than_the_longest():
     assert affordable(load_scene("paper"), 1e-2, 0.0001, 0.0003) == 0.0003
-
-
-def test_the_section_of_the_page_shows_what_was_measured():
-    found = [
-        costs.Cost("planets", "2", Speed(3.0, 2.0, 4.0)),
-        costs.Cost("motor speed", "10 rpm", Speed(100.0, 90.0, 110.0)),
-    ]
-    text = costs.cost_markdown(found)
-    assert "| planets | speed | spread |\n| --- | --- | --- |\n| 2 | 3 | 2-4 |" in text
-    assert "| 10 rpm | 100 | 90-110 |" in text
-    assert [table.row_count for table in costs.cost_tables(found)] == [1, 1]

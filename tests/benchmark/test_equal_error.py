@@ -2,10 +2,8 @@
 
 import math
 
-from planetary_twin_benchmark.equal_error import equal_error_markdown, fastest, without_samples
-from planetary_twin_benchmark.steady import Steady
+from planetary_twin_benchmark.equal_error import fastest, without_samples
 from planetary_twin_benchmark.table import Row
-from planetary_twin_benchmark.timing import Speed
 
 
 def row(method, error, speed, note=""):
@@ -30,20 +28,3 @@ def test_the_fastest_run_that_is_accurate_enough_counts():
     assert fastest(ROWS, 1e-3, ("cvode",)) == 5.0
     assert math.isnan(fastest(ROWS, 1e-4, ("cvode",)))
     assert fastest(ROWS, 1e-4, ("march",), without_samples) == 16.0
-
-
-def test_the_page_shows_speeds_and_ratios():
-    minute = Steady("case", 1e-3, 1.0, 0.0, 2e-5, 0.0, Speed(300.0, 290.0, 310.0), 0.0)
-    page = equal_error_markdown(ROWS, [minute])
-    for error, bare, sampled in (
-        ("1e-03", "20 | 10 (2) | 1 (20) | - | 300", "10 | 5 (2) | 0.5 (20) | -"),
-        ("1e-04", "16 | - | 1 (16) | - | 300", "8 | - | 0.5 (16) | -"),
-        ("1e-06", "- | - | - | - | -", "- | - | - | -"),
-    ):
-        section = page.split(f"### DTE error at most {error}\n")[1].split("###")[0]
-        first, second = section.split("With samples")
-        assert f"| case | {bare} |" in first and f"| case | {sampled} |" in second
-
-
-def test_without_peers_there_is_nothing_to_compare():
-    assert equal_error_markdown(ROWS[:2], []) == ""

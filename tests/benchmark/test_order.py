@@ -35,9 +35,7 @@ def exact(scene):
     [(runge_kutta_4, 4, [32, 48, 64, 96, 128]), (semi_implicit_euler, 1, [256, 384, 512, 768])],
     ids=["rk4", "semi_implicit_euler"],
 )
-def test_the_error_falls_with_the_power_of_the_step_that_is_the_order(
-    method, order, counts, scene, exact
-):
+def test_the_error_falls_with_the_order_of_the_step(method, order, counts, scene, exact):
     errors = []
     for count in counts:
         problem = Problem(scene)

@@ -13,7 +13,7 @@ def _settle_soon(monkeypatch):
     monkeypatch.setattr(steady, "BY", 0.8)
 
 
-def test_repeated_cycles_are_within_the_tolerance_and_a_minute_of_them_costs_little():
+def test_repeated_cycles_are_within_the_tolerance():
     (row,) = measure_steady([Case("smooth", RECTANGULAR | FRICTIONLESS, 0.01, 1)], [1e-3])
     assert 0.3 < row.repeats_from < 0.8
     assert 0.0 < row.error_dte < 1e-3

@@ -10,7 +10,7 @@ from planetary_twin_py.cli import _commands, build_app
 MISSING = [*_commands.OF_NODES, *_commands.OF_BENCHMARKS]
 
 
-def test_commands_of_other_packages_are_those_of_their_entry_points():
+def test_commands_of_other_packages_are_their_entry_points():
     assert sorted(MISSING) == sorted(entry.name for entry in entry_points(group=_commands.GROUP))
 
 

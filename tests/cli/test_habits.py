@@ -9,22 +9,11 @@ from pathlib import Path
 
 import pytest
 from command_line import COMMAND, run
-from tiers import first
 
-MISTAKES = (
-    ["simulte"],
-    ["simulate", "--durration", "1"],
-    ["simulate", "--duration", "long"],
-    ["simulate", "papyrus"],
-    ["simulate", "--set", "backlash"],
-    ["sweep"],
-    ["info", "no/such/recording"],
-    ["run", "--set", "gap=1"],
-    ["modal", "--json", "no/such/folder.json"],
-)
+MISTAKES = (["simulte"], ["simulate", "--durration", "1"], ["simulate", "papyrus"], ["sweep"])
 
 
-@pytest.mark.parametrize("arguments", first(4, MISTAKES), ids=" ".join)
+@pytest.mark.parametrize("arguments", MISTAKES, ids=" ".join)
 def test_invalid_arguments_end_with_2_and_without_a_traceback(arguments, tmp_path):
     done = run(*arguments)
     assert done.returncode == 2
@@ -59,10 +48,9 @@ def test_colours_are_used_on_terminals_unless_disabled():
     assert "\x1b[" not in run("simulate", "papyrus", TERM="xterm-256color").stderr
 
 
-@pytest.mark.parametrize("arguments", first(1, [["modal"], ["--help"], ["modal", "--json", "-"]]))
-def test_a_reader_that_closes_the_pipe_is_no_error(arguments):
+def test_a_reader_that_closes_the_pipe_is_no_error():
     process = subprocess.Popen(
-        [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*COMMAND, "modal"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     process.stdout.close()
     errors = process.stderr.read()
@@ -81,22 +69,9 @@ def busy_threads(process):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "arguments",
-    (
-        ["simulate", "--duration", "300"],
-        pytest.param(["explain", "--duration", "300"], marks=pytest.mark.exhaustive),
-        pytest.param(
-            ["sweep", "paper", "--input-speed", "1000rpm:5000rpm:400", "--out", "s.csv"],
-            marks=pytest.mark.exhaustive,
-        ),
-        pytest.param(["bifurcation", "paper", "--out", "s.csv"], marks=pytest.mark.exhaustive),
-    ),
-    ids=lambda arguments: arguments[0],
-)
-def test_ctrl_c_ends_a_long_command_at_once(arguments, tmp_path):
+def test_ctrl_c_ends_a_long_command_at_once(tmp_path):
     process = subprocess.Popen(
-        [*COMMAND, *arguments],
+        [*COMMAND, "simulate", "--duration", "300"],
         cwd=tmp_path,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,

@@ -29,7 +29,7 @@ def test_the_factor_and_a_floating_sun_are_printed():
     assert "none: floats" in shown
 
 
-def test_the_factor_of_the_means_is_that_of_a_mesh_cycle_without_ripple():
+def test_the_mean_factor_is_that_without_ripple():
     """All planets of the paper have the same mean share: 1; tooth pairs add 22 % at times."""
     found = pt.load_sharing(pt.load_scene("paper"))
     figures = json.loads(invoke("paper", "--json", "-").stdout)
@@ -47,7 +47,7 @@ def test_the_means_over_each_of_several_mesh_cycles_are_compared():
     assert found.mean_factor == pytest.approx(cycles.max())
 
 
-def test_friction_is_named_beside_the_bearing_forces_that_omit_it():
+def test_bearing_forces_are_said_to_omit_friction():
     shown = " ".join(invoke("floating_sun").output.split())
     assert "without tooth friction" in shown and "dynamics = quasi_static_planar" in shown
 
@@ -100,6 +100,6 @@ def test_invalid_input_ends_in_one_line(change, words):
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "spatial", "quasi_static_spatial"])
-def test_statics_of_a_scene_whose_axes_tilt_are_said_to_be_planar(dynamics):
+def test_statics_of_tilting_axes_are_said_to_be_planar(dynamics):
     said = " ".join(invoke("helical_stage", "--set", f"dynamics={dynamics}").output.split())
     assert ("these statics are planar" in said) == (dynamics != "planar")

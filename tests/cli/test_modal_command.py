@@ -51,7 +51,7 @@ def test_the_model_is_that_of_the_dynamics_of_the_scene(scene, dynamics, model):
     assert f"{model} model" in invoke(scene, *options[:2]).output
 
 
-def test_the_simplest_dynamics_that_is_accurate_enough_has_the_modes_of_auto():
+def test_modes_of_auto_are_those_of_the_selected_dynamics():
     shown = invoke("floating_sun", "--set", "dynamics=auto", "--set", "dynamics_error=0.5").output
     assert "torsional model" not in shown and "planar model" in shown
 
@@ -98,7 +98,7 @@ def test_table_lists_modes_and_resonant_speeds():
     assert "harmonic 2 of the mesh frequency meets mode 2" in shown
 
 
-def test_speeds_are_listed_up_to_the_limit_of_the_drive_and_equal_frequencies_once():
+def test_speeds_are_listed_up_to_the_limit_of_the_drive():
     shown = " ".join(invoke("paper").output.split())
     assert "speeds up to 10504 rpm (drive.speed_limit)" in shown  # 1100 rad/s
     assert shown.count("harmonic 5 of the mesh frequency meets modes 3, 4 at") == 1
@@ -110,7 +110,7 @@ def test_speeds_are_listed_up_to_the_limit_of_the_drive_and_equal_frequencies_on
     assert "speeds up to 100 rpm (drive.speed_limit): none" in slow
 
 
-def test_resonances_of_a_differential_are_those_at_the_speed_of_its_second_motor():
+def test_resonances_use_the_speed_of_the_second_motor():
     shown = " ".join(invoke("differential", "--set", "drive.speed_limit=20000rpm").output.split())
     assert "the second one at -500 rpm (second_input_speed)" in shown
     assert " 2784.2 rpm: harmonic 5 of the mesh frequency meets mode 3 at 8210.6 Hz" in shown

@@ -38,7 +38,7 @@ def test_figures_are_those_of_the_library():
     assert figures["mean_power_loss_W"] == pytest.approx(over_time(run, run.total_power_loss), 2e-3)
 
 
-def test_figures_do_not_depend_on_the_sample_rate_and_exclude_the_settling():
+def test_figures_do_not_depend_on_the_sample_rate():
     coarse, fine, late = (
         json.loads(invoke("paper", "--duration", "0.1", *options, "--json", "-").stdout)
         for options in (["--sample-rate", "10"], ["--sample-rate", "1e6"], ["--settling", "0.1"])
@@ -127,7 +127,7 @@ def test_the_loss_of_each_source_is_printed_if_there_are_several():
     assert "of tooth friction" not in invoke("paper", *SHORT).stdout
 
 
-def test_the_sign_of_the_coast_flanks_is_explained_where_they_carry_the_load():
+def test_the_sign_of_loaded_coast_flanks_is_explained():
     line = "Forces and DTE are negative where the coast flanks carry the load."
     assert line not in invoke("paper", *SHORT).stdout
     assert line in invoke("wind_turbine_stage", "--duration", "0.05").stdout
@@ -179,7 +179,7 @@ def test_invalid_arguments_end_in_one_line(arguments, word):
 COMPUTED = ["--set", "lubrication.lambda_ratio=computed"]
 
 
-def test_a_lambda_ratio_that_the_scene_computes_is_reported_to_have_no_effect_as_by_fit():
+def test_a_computed_lambda_ratio_is_said_to_have_no_effect():
     done = invoke("paper", *COMPUTED, *SHORT, "--json", "-")
     assert done.exit_code == 0, done.output
     (line,) = [line for line in done.stderr.splitlines() if "lambda_ratio" in line]
@@ -198,7 +198,7 @@ def test_a_field_with_an_effect_or_not_given_is_not_reported(given):
     assert "no effect" not in invoke("paper", *given).stderr
 
 
-def test_an_efficiency_without_driving_machine_is_undefined_with_the_reason():
+def test_efficiency_without_a_driving_machine_is_undefined():
     found = invoke("paper", "--duration", "0.02", "--set", "input_speed=0 rpm")
     assert re.search(r"^efficiency +undefined: no machine puts power in", found.stdout, re.M)
 
@@ -207,7 +207,7 @@ def test_an_efficiency_without_driving_machine_is_undefined_with_the_reason():
     ("torque", "speed", "enters"),
     [(63.0, 1000.0, False), (-63.0, 1000.0, True), (63.0, -1000.0, True), (-63.0, -1000.0, False)],
 )
-def test_the_operating_point_names_the_output_where_power_enters_there(torque, speed, enters):
+def test_the_output_is_named_where_power_enters_there(torque, speed, enters):
     scene = pt.load_scene("paper").replace(input_torque=torque, input_speed=pt.rpm(speed))
     line = "power enters at the output, the ring"
     assert (line in operating_point(scene)) == enters

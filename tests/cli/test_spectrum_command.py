@@ -41,7 +41,7 @@ def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
     assert "mesh harmonic 1" in done.stderr
 
 
-def test_without_a_time_span_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
+def test_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
     recording, twin = TwinRecording(tmp_path / "bag"), pt.Twin(pt.load_scene("paper"))
     recording.begin(twin, START_NS)
     for _ in range(6):
@@ -91,7 +91,7 @@ def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty,
 
 
 @pytest.mark.exhaustive
-def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tmp_path):
+def test_a_band_has_the_same_lines_as_the_whole(file, tmp_path):
     whole, part = (
         json.loads(run_here("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
         for band in ([], ["--band", "0.9 kHz:1600"])
@@ -103,30 +103,6 @@ def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tm
     ).returncode == 0  # fmt: skip
     places = np.genfromtxt(tmp_path / "a.csv", delimiter=",", skip_header=1)[:, 0]
     assert 900.0 <= places.min() < 905.0 and 1595.0 < places.max() <= 1600.0
-
-
-@pytest.mark.exhaustive
-def test_samples_of_simulate_are_analysed_too(tmp_path):
-    npz = tmp_path / "run.npz"
-    run_here("simulate", "paper", "--duration", 0.1, "--out", npz)
-    done = run_here("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
-    assert done.returncode == 0, done.stderr
-    lines = json.loads(done.stdout)["lines"]
-    assert lines[0]["order"] == pytest.approx(30.0, abs=0.3)
-    assert [line["harmonic"] for line in lines] == [round(line["order"] / 30) for line in lines]
-
-
-@pytest.mark.exhaustive
-def test_lines_of_samples_without_a_scene_are_not_named(tmp_path):
-    npz = tmp_path / "run.npz"
-    run_here("simulate", "paper", "--duration", 0.1, "--out", npz)
-    with np.load(npz) as held:
-        np.savez(npz, **{name: held[name] for name in held.files if name != "scene_yaml"})
-    done = run_here("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
-    assert done.returncode == 0, done.stderr
-    line = json.loads(done.stdout)["lines"][0]
-    assert line["order"] == pytest.approx(30.0, abs=0.3)
-    assert line["harmonic"] is None
 
 
 def test_lost_blocks_leave_the_longest_segment_and_are_reported(file):

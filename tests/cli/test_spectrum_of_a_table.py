@@ -8,7 +8,6 @@ import pyarrow as pa
 import pytest
 from pyarrow import parquet
 from scipy import io
-from tiers import first
 from typer.testing import CliRunner
 
 from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
@@ -25,6 +24,12 @@ def invoke(*arguments):
     return CliRunner().invoke(build_app(), ["spectrum", *map(str, arguments)])
 
 
+def save(file, heading, *columns, fmt="%.9g"):
+    """Write a table in CSV."""
+    rows = np.column_stack(columns)
+    np.savetxt(file, rows, delimiter=",", header=heading, comments="", fmt=fmt)
+
+
 def vibration():
     """Two seconds with two mesh harmonics and a pair of sidebands."""
     time = np.arange(0.0, 2.0, 1.0 / RATE)
@@ -36,8 +41,7 @@ def vibration():
 @pytest.fixture(scope="module")
 def table(tmp_path_factory):
     file = tmp_path_factory.mktemp("measured") / "vibration.csv"
-    columns = np.column_stack(vibration())
-    np.savetxt(file, columns, delimiter=",", header=f"time [s],{NAME}", comments="", fmt="%.9f")
+    save(file, f"time [s],{NAME}", *vibration())
     return file
 
 
@@ -47,7 +51,7 @@ def lines(*arguments):
     return json.loads(done.stdout)["lines"]
 
 
-def test_tones_have_their_amplitudes_and_mesh_harmonics_their_numbers(table):
+def test_tones_have_their_amplitudes_and_harmonics(table):
     found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm")[:4]
     expected = ((MESH, 0.8, 1), (2.0 * MESH, 0.3, 2))
     for line, (frequency, amplitude, harmonic) in zip(found, expected, strict=False):
@@ -65,10 +69,6 @@ def test_orders_count_the_turns_of_the_sun(table):
     assert sorted(line["order"] for line in found[2:4]) == pytest.approx([29.0, 31.0], abs=0.02)
 
 
-def test_without_a_scene_no_line_is_called_a_mesh_harmonic(table):
-    assert {line["harmonic"] for line in lines(table)} == {None}
-
-
 def test_the_unit_of_the_heading_is_printed(table):
     shown = invoke(table).stdout
     assert "amplitude [m/s^2]" in shown and shown.rstrip().endswith("m/s^2")
@@ -77,7 +77,7 @@ def test_the_unit_of_the_heading_is_printed(table):
 
 def test_a_sample_rate_replaces_a_missing_time(tmp_path):
     file = tmp_path / "vibration.csv"
-    np.savetxt(file, vibration()[1], header="acceleration", comments="")
+    save(file, "acceleration", vibration()[1])
     assert lines(file, "--sample-rate", RATE)[0]["frequency_hz"] == pytest.approx(MESH, abs=0.05)
     done = invoke(file)
     assert done.exit_code == 2 and "missing" in done.stderr and "give --sample-rate" in done.stderr
@@ -87,40 +87,27 @@ def test_a_sample_rate_replaces_a_missing_time(tmp_path):
     ("decimals", "rate", "contradicts"),
     [(9, RATE, False), (3, RATE, False), (9, 0.5 * RATE, True), (9, 1.001 * RATE, True)],
 )
-def test_a_sample_rate_that_contradicts_the_time_column_is_reported_with_both_rates(
-    tmp_path, decimals, rate, contradicts
-):
+def test_a_sample_rate_that_contradicts_the_time_is_reported(tmp_path, decimals, rate, contradicts):
     file = tmp_path / "vibration.csv"
-    rows = np.column_stack(vibration())
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt=f"%.{decimals}f")
+    save(file, "time,a", *vibration(), fmt=f"%.{decimals}f")
     done = invoke(file, "--sample-rate", rate)
     words = f"--sample-rate = {rate:g} Hz contradicts the column 'time', whose stamps are 25600 Hz"
     assert done.exit_code == 0 and (words in done.stderr) == contradicts
     assert len(done.stderr.splitlines()) == contradicts
 
 
-def test_a_sample_rate_that_hides_a_gap_in_the_stamps_is_reported(tmp_path):
-    file, (time, values) = tmp_path / "vibration.csv", vibration()
-    time[len(time) // 2 :] += 0.5
-    rows = np.column_stack((time, values))
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9f")
-    assert "contradicts the column 'time'" in invoke(file, "--sample-rate", RATE).stderr
-
-
 def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     time[1001::500] = time[1000::500][: len(time[1001::500])]
-    rows = np.column_stack((time, values))
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9g")
+    save(file, "time,a", time, values)
     said = invoke(file, "--sample-rate", RATE).stderr
     assert "whose stamp in row 1002 is not later than the one before" in said
     assert "by --from and --to, or give --sample-rate" in invoke(file).stderr
 
 
-def test_stamps_rounded_to_their_last_digit_give_the_lines_of_even_steps(tmp_path):
+def test_rounded_stamps_give_the_lines_of_even_steps(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
-    rows = np.column_stack((1e3 * time, values))
-    np.savetxt(file, rows, delimiter=",", header="time [ms],a", comments="", fmt=["%.2f", "%.9f"])
+    save(file, "time [ms],a", 1e3 * time, values, fmt=["%.2f", "%.9f"])
     assert "rounded to 1e-05 s: equal steps that fit them are used, 25600 Hz" in invoke(file).stderr
     first, second = lines(file)[:2]
     assert first["frequency_hz"] == pytest.approx(MESH, abs=0.05)
@@ -145,9 +132,14 @@ def run_up(tmp_path_factory):
     time = np.arange(0.0, 2.0, 1.0 / RATE)
     turns = 15.0 * time + 0.75 * time**2
     rpm = 60.0 * (15.0 + 1.5 * time)
-    rows = np.column_stack((time, 0.8 * np.sin(2.0 * np.pi * 30.0 * turns), rpm))
-    header = "Time (s),Acceleration (m/s2),Motor speed (rpm)"
-    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.12g")
+    save(
+        file,
+        "Time (s),Acceleration (m/s2),Motor speed (rpm)",
+        time,
+        0.8 * np.sin(2.0 * np.pi * 30.0 * turns),
+        rpm,
+        fmt="%.12g",
+    )
     return file
 
 
@@ -158,14 +150,14 @@ def test_orders_follow_a_measured_speed(run_up):
         assert line["amplitude"] == pytest.approx(0.8, rel=0.01)
 
 
-def test_orders_at_a_speed_that_is_assumed_to_be_constant_come_with_a_remark(run_up):
+def test_orders_at_an_assumed_speed_come_with_a_remark(run_up):
     options = ("--column", "Acceleration", "--order", "--scene", "paper")
     done = invoke(run_up, *options)
     assert "the speed is assumed to be constant, 16.6667 turns" in done.stderr
     assert "assumed" not in invoke(run_up, "--order", "--speed", "Motor speed").stderr
 
 
-def test_lines_over_frequency_that_a_varying_speed_lowers_come_with_a_remark(run_up):
+def test_lines_that_a_varying_speed_lowers_are_remarked(run_up):
     done = invoke(run_up, "--speed", "Motor speed")
     words = r"the speed varies: lines above [3-6]\.\d+ Hz that follow it are more than 1 % too low"
     assert re.search(words, done.stderr)
@@ -173,14 +165,10 @@ def test_lines_over_frequency_that_a_varying_speed_lowers_come_with_a_remark(run
 
 
 @pytest.mark.parametrize("options", [(), ("--scene", "paper")])
-def test_a_speed_that_reverses_defines_no_mesh_frequency_and_comes_with_one_remark(
-    tmp_path, options
-):
+def test_a_speed_that_reverses_has_no_mesh_frequency(tmp_path, options):
     file, time = tmp_path / "reversing.csv", np.arange(0.0, 2.0, 2e-4)
     speed = 50.0 * np.sin(2.0 * np.pi * time)
-    rows = np.column_stack((time, np.sin(600.0 * np.pi * time), speed))
-    header = "time [s],a [m/s^2],speed [rad/s]"
-    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    save(file, "time [s],a [m/s^2],speed [rad/s]", time, np.sin(600.0 * np.pi * time), speed)
     done = invoke(file, "--speed", "speed", *options)
     (remark,) = done.stderr.splitlines()
     assert "times its rms, 35.4 rad/s: there is no mesh frequency" in remark
@@ -193,14 +181,14 @@ def test_a_speed_that_reverses_defines_no_mesh_frequency_and_comes_with_one_rema
 
 def test_a_measured_speed_without_a_unit_comes_with_a_remark(tmp_path):
     file, time = tmp_path / "a.csv", np.arange(0.0, 1.0, 1e-3)
-    rows = np.column_stack((time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time))
+    columns = time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time
     for heading, remarks in (("speed", 1), ("speed [rpm]", 0)):
-        np.savetxt(file, rows, delimiter=",", header=f"time,a,{heading}", comments="")
+        save(file, f"time,a,{heading}", *columns)
         said = invoke(file, "--order", "--speed", "speed").stderr
         assert said.count("column 'speed' has no unit and is read in rad/s") == remarks
 
 
-def test_lines_whose_amplitudes_the_record_does_not_determine_are_counted(tmp_path):
+def test_lines_with_undetermined_amplitudes_are_counted(tmp_path):
     turns = np.arange(2000) / 2000.0
     for cycles, words in (
         ((1.3, 300.0), "1 of these lines have fewer than 2 cycles in the record"),
@@ -209,7 +197,7 @@ def test_lines_whose_amplitudes_the_record_does_not_determine_are_counted(tmp_pa
     ):
         tones = sum(np.sin(2.0 * np.pi * count * turns) for count in cycles)
         file = tmp_path / "a.csv"
-        np.savetxt(file, tones, header="a", comments="")
+        save(file, "a", tones)
         shown = invoke(file, "--sample-rate", 1000.0).stdout
         assert words in shown and (words or "of these lines" not in shown)
 
@@ -225,9 +213,9 @@ def most_too_low(low, high):
     return max(1.0 - strongest_lines(*amplitude_spectrum(tone, 1.0), 1)[0][1] for tone in tones)
 
 
-def test_the_stated_errors_of_lines_with_few_cycles_are_those_of_tones_of_any_phase(tmp_path):
+def test_stated_errors_of_few_cycles_are_those_of_tones(tmp_path):
     file = tmp_path / "a.csv"
-    np.savetxt(file, np.sin(2.0 * np.pi * 1.3 * np.arange(2000) / 2000.0), header="a", comments="")
+    save(file, "a", np.sin(2.0 * np.pi * 1.3 * np.arange(2000) / 2000.0))
     shown = invoke(file, "--sample-rate", 1000.0).stdout
     stated = re.search(
         r"up to (\d+) % too low from 1.5 cycles, (\d+) % from one, more below", shown
@@ -238,11 +226,10 @@ def test_the_stated_errors_of_lines_with_few_cycles_are_those_of_tones_of_any_ph
     assert most_too_low(0.6, 1.0) > 0.42 and most_too_low(2.0, 3.0) < 0.02
 
 
-def test_a_measured_input_speed_is_converted_to_that_of_the_sun_relative_to_the_carrier(tmp_path):
+def test_a_measured_input_speed_becomes_that_of_the_sun(tmp_path):
     file, time = tmp_path / "stage.csv", np.arange(0.0, 60.0, 0.01)
     mesh = 99 * 12.1 / 60.0  # [Hz] the carrier is the input, the ring with 99 teeth is held
-    rows = np.column_stack((time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time))
-    np.savetxt(file, rows, delimiter=",", header="time,a,rotor [rpm]", comments="", fmt="%.9g")
+    save(file, "time,a,rotor [rpm]", time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time)
     line = lines(file, "--order", "--speed", "rotor", "--scene", "wind_turbine_stage")[0]
     assert line["order"] == pytest.approx(21.0, abs=0.01) and line["harmonic"] == 1
 
@@ -263,15 +250,13 @@ def test_missing_or_invalid_options_are_refused_in_one_line(table, options, word
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_lines_at_stamps_that_drift_have_their_amplitudes_with_a_remark(tmp_path):
+def test_lines_at_drifting_stamps_have_their_amplitudes(tmp_path):
     file, number = tmp_path / "vibration.csv", np.arange(25_600)
     time = np.cumsum(1.0 + 0.01 * number / len(number)) / RATE
     turns = 15.0 * time + 0.75 * time**2
     values = 0.8 * np.sin(2.0 * np.pi * 30.0 * turns)
     tones = 0.8 * np.sin(2.0 * np.pi * 500.0 * time) + 0.5 * np.sin(2e4 * np.pi * time)
-    rows = np.column_stack((time, tones, values, 15.0 + 1.5 * time))
-    header = "time,a,of_orders,shaft [rev/s]"
-    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    save(file, "time,a,of_orders,shaft [rev/s]", time, tones, values, 15.0 + 1.5 * time)
     found = lines(file, "--column", "a")[:2]
     assert [line["frequency_hz"] for line in found] == pytest.approx([500.0, 1e4], rel=1e-5)
     assert [line["amplitude"] for line in found] == pytest.approx([0.8, 0.5], rel=0.01)
@@ -284,20 +269,11 @@ def test_lines_at_stamps_that_drift_have_their_amplitudes_with_a_remark(tmp_path
     )
 
 
-def test_missing_samples_and_uneven_times_are_refused(tmp_path):
-    file = tmp_path / "vibration.csv"
-    file.write_text("time,acceleration\n0,1\n1,\n2,3\n")
-    assert "row 2: acceleration: has no value" in invoke(file).stderr
-    file.write_text("time,acceleration\n0,1\n1,2\n2,3\n5,4\n")
-    assert "row 4: time = 5 s" in invoke(file).stderr
-
-
 def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     values[:5], time[-100:] = np.nan, time[-100:] + 3.0
     time[3] = np.nan
-    rows = np.column_stack((time, values))
-    np.savetxt(file, rows, delimiter=",", header="time,a", comments="", fmt="%.9f")
+    save(file, "time,a", time, values, fmt="%.9f")
     inside = ("--from", 0.5, "--to", 1.5)
     done = invoke(file, *inside, "--json", "-")
     assert done.exit_code == 0 and "planetary-twin: " not in done.stderr
@@ -309,24 +285,6 @@ def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
     assert "planetary-twin" not in invoke(file, *inside, "--sample-rate", RATE).stderr
     nothing = invoke(file, "--from", 7.0).stderr
     assert "from 7 to 4.99996 s: 0 rows; the table runs from 0 to 4.99996 s" in nothing
-
-
-def test_a_table_of_fewer_than_two_rows_is_refused(tmp_path):
-    file = tmp_path / "vibration.csv"
-    for text in ("time,a\n", "time,a\n0,1\n"):
-        file.write_text(text)
-        for rate in ((), ("--sample-rate", 5.0)):
-            said = invoke(file, *rate).stderr
-            assert "rows: must be at least 2" in said and len(said.splitlines()) == 1
-
-
-def test_a_table_without_headings_or_without_a_time_is_refused(tmp_path):
-    file = tmp_path / "vibration.csv"
-    file.write_text("0.0,1e-3\n0.1,2\n0.2,3\n")
-    assert "row 1: must have the headings of the columns" in invoke(file).stderr
-    file.write_text("t [s],a\n0.0,1\n0.1,2\n0.2,3\n")
-    assert "column 'time': missing" in invoke(file, "--column", "a").stderr
-    assert "columns: t, a" in invoke(file, "--column", "a").stderr
 
 
 def test_options_of_tables_are_refused_for_recordings(tmp_path):
@@ -351,8 +309,7 @@ def test_the_unit_of_a_parquet_column_may_be_in_its_metadata(tmp_path):
 
 def written(file, samples, heading="time [s],a [m/s^2]", unit=1.0):
     time = unit * np.arange(len(samples)) / RATE
-    rows = np.column_stack((time, samples))
-    np.savetxt(file, rows, delimiter=",", header=heading, comments="", fmt="%.9g")
+    save(file, heading, time, samples)
     return invoke(file, "--scene", "paper", "--set", "input_speed=998 rpm", "--json", "-")
 
 
@@ -392,13 +349,13 @@ def test_a_factor_of_integers_is_found_by_the_sidebands(tmp_path, factor, amplit
 
 
 @pytest.mark.parametrize("factor", [2, 3, 4])
-def test_an_integer_factor_that_nothing_determines_is_said_to_be_possible(tmp_path, factor):
+def test_an_undetermined_integer_factor_is_possible(tmp_path, factor):
     said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
     assert f"are multiples of {factor}: these fit a mesh frequency {factor} times that of" in said
 
 
 @pytest.mark.parametrize("factor", [1 / 3, 0.5, 1.5])
-def test_a_series_of_harmonics_with_that_of_the_scene_is_found_without_sidebands(tmp_path, factor):
+def test_a_series_of_harmonics_is_found_without_sidebands(tmp_path, factor):
     said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
     assert f"mesh frequency {factor:.4g} times that of the scene" in said
     assert "The scene explains 1 of the 3 highest lines." in said
@@ -410,8 +367,8 @@ def test_factors_that_explain_as_much_are_all_stated(tmp_path):
     assert "frequency 1.5 times that of" in said and "They fit 0.5 times that of the" in said
 
 
-@pytest.mark.parametrize("strongest", first(1, [3, 1, 2]))
-@pytest.mark.parametrize("turn", first(2, [1.0, 3.0, 1.5, 30.0 / 70.0]))
+@pytest.mark.parametrize("strongest", [3])
+@pytest.mark.parametrize("turn", [1.0, 30.0 / 70.0])
 @pytest.mark.parametrize("others", ["none", "mains", "bearing", "shaft"])
 def test_a_right_speed_gives_no_warning_whatever_else_vibrates(tmp_path, strongest, turn, others):
     time = np.arange(0.0, 1.0, 1.0 / RATE)
@@ -448,14 +405,14 @@ def test_sidebands_name_the_members_that_separate_them(table):
     assert lines(table)[0]["sidebands"] == []
 
 
-def test_a_short_record_says_which_sidebands_it_does_not_separate_and_what_length_does(tmp_path):
+def test_a_short_record_says_what_length_separates_sidebands(tmp_path):
     shown = written(tmp_path / "a.csv", meshing(30)[: int(0.3 * RATE)]).stderr
     assert "sidebands of the ring are 7.129 Hz apart and not named: they need a" in shown
     assert "resolution of 1.78 Hz, 0.561 s of signal" in shown
     assert "of the ring" not in written(tmp_path / "a.csv", meshing(30)).stderr
 
 
-def test_the_record_that_separates_overlapping_sidebands_is_stated(tmp_path):
+def test_the_length_that_separates_overlaps_is_stated(tmp_path):
     """A turn of the sun, and two of the ring with 70 teeth: 1/30 and 2/70 of the mesh frequency."""
     shown = written(tmp_path / "a.csv", meshing(30)).stderr
     apart = MESH * (1.0 / 30.0 - 2.0 / 70.0)
@@ -470,42 +427,19 @@ def test_lines_within_the_noise_are_not_named_and_counted(tmp_path):
     assert {line["name"] for line in json.loads(done.stdout)["lines"]} == {""}
 
 
-def test_units_of_a_csv_may_be_in_the_file_beside_it_that_export_writes(tmp_path):
-    file, time = tmp_path / "vibration.csv", np.arange(2000) / 1000.0
-    rows = np.column_stack((1e3 * time, np.sin(200.0 * np.pi * time)))
-    np.savetxt(file, rows, delimiter=",", header="time,acceleration", comments="")
-    write_units(file, {"time": "ms", "acceleration": "m/s^2"})
-    done = invoke(file)
-    assert done.exit_code == 0 and "amplitude [m/s^2]" in done.stdout
-    assert float(done.stdout.split("\n")[1].split()[0]) == pytest.approx(100.0, rel=1e-3)
-    (tmp_path / "vibration.units.json").write_text("[1]")
-    assert "vibration.units.json: must be an object" in invoke(file).stderr
-
-
 @pytest.mark.parametrize("heading", ["n [rpm]", "speed", "input_speed (rad/s)", "f [rev/s]"])
 @pytest.mark.parametrize(("rise", "varies"), [(0.0, False), (1e-5, False), (0.1, True)])
-def test_a_column_of_a_speed_that_varies_is_stated_with_the_option_that_uses_it(
-    tmp_path, heading, rise, varies
-):
+def test_a_column_of_a_varying_speed_is_suggested(tmp_path, heading, rise, varies):
     time = np.arange(0.0, 1.0, 1.0 / RATE)
     noise = np.random.default_rng(0).standard_normal(len(time))
     speed = 1000.0 * (1.0 + rise * time) + noise
     tone = np.sin(2.0 * np.pi * 500.0 * (time + 0.5 * rise * time**2))
     file = tmp_path / "a.csv"
-    rows = np.column_stack((time, tone, speed))
-    np.savetxt(file, rows, delimiter=",", header=f"time [s],a [g],{heading}", comments="")
+    save(file, f"time [s],a [g],{heading}", time, tone, speed)
     said = invoke(file, "--column", "a").stderr
     name = heading.split()[0]
     assert (f"the column '{heading}' varies from " in said) == varies
     assert (f"use --speed {name} --order" in said) == varies
-
-
-def test_a_column_without_a_unit_of_rotation_is_no_speed(tmp_path):
-    time = np.arange(0.0, 1.0, 1.0 / RATE)
-    file = tmp_path / "a.csv"
-    rows = np.column_stack((time, np.sin(3000.0 * time), 20.0 + time))
-    np.savetxt(file, rows, delimiter=",", header="time [s],a [g],speed [m/s]", comments="")
-    assert "varies" not in invoke(file, "--column", "a").stderr
 
 
 def test_a_stuck_sensor_and_a_clipped_signal_are_reported(tmp_path):
@@ -520,8 +454,7 @@ def speed_table(file, change, heading="speed [rpm]"):
     """A vibration at 1000 rpm beside a reading of this speed that `change` makes wrong."""
     time = np.arange(0.0, 1.0, 1e-4)
     tone = np.sin(2.0 * np.pi * 500.0 * time)
-    rows = np.column_stack((time, tone, change(time)))
-    np.savetxt(file, rows, delimiter=",", header=f"time,{NAME},{heading}", comments="", fmt="%.9g")
+    save(file, f"time,{NAME},{heading}", time, tone, change(time))
     return invoke(file, "--column", NAME, "--speed", heading.split()[0], "--order",
                   "--scene", "paper")  # fmt: skip
 
@@ -540,26 +473,15 @@ def speed_table(file, change, heading="speed [rpm]"):
         (lambda t: 5.0 * (np.mod(16.0 * t, 1.0) < 0.5), "is it a pulse train?"),
     ],
 )
-def test_a_speed_without_orders_is_named_with_its_file_row_time_and_value(tmp_path, change, words):
+def test_a_speed_without_orders_is_named_with_its_row(tmp_path, change, words):
     done = speed_table(tmp_path / "table.csv", change)
     assert done.exit_code != 0 and done.stderr.count("\n") == 1
     assert str(tmp_path / "table.csv") in done.stderr and words in done.stderr
 
 
-def test_a_voltage_in_pulses_is_no_speed(tmp_path):
-    done = speed_table(
-        tmp_path / "t.csv", lambda t: 5.0 * (np.mod(16.0 * t, 1.0) < 0.2), "tach [V]"
-    )
-    assert done.exit_code != 0
-    assert "[V] cannot be converted to rad/s" in done.stderr
-    assert "is it a pulse train?" in done.stderr
-
-
 @pytest.mark.parametrize("factor, words", [(2.0, "2 times"), (0.5, "0.5 times"), (3.0, "3 times")])
 @pytest.mark.parametrize("rows", [1, 700])
-def test_a_speed_that_jumps_is_named_with_its_time_and_the_teeth_are_not_blamed(
-    tmp_path, factor, words, rows
-):
+def test_a_speed_that_jumps_is_named_with_its_time(tmp_path, factor, words, rows):
     def pieces(time):
         wrong = np.isin(np.arange(len(time)) % 2000, np.arange(1200, 1200 + rows))
         return np.where(wrong, factor, 1.0) * (950.0 + 100.0 * time)

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 
 import pytest
-from docs.blocks import LANGUAGES, REASONS, ROOT, blocks, pages, shows
+from docs.blocks import LANGUAGES, REASONS, ROOT, blocks, pages
 from docs.trial import TIMEOUT, changes_code, end, readers_environment, tried, try_block
 
 PAGES = pages()
@@ -67,16 +67,3 @@ def test_page(page, tmp_path, recording, environment, monkeypatch):
     finally:
         left = [end(process) for process in behind]
     assert not any(left), left
-
-
-def test_an_excerpt_has_parts_in_their_order():
-    printed = "one  2.41 s\n│ two   │ three │\nfour five\nsix"
-    assert shows("one ... s\n...\nfour\nfive", printed) and shows("", printed)
-    assert shows("│ two │ three │\nfour five", printed)
-    for wrong in ("one 2.42 s", "four ... one", "two three", "one 2.41 s\nfour"):
-        assert not shows(wrong, printed), wrong
-
-
-@pytest.mark.parametrize("reason", REASONS)
-def test_every_reason_is_in_use(reason):
-    assert any(block.word("not-run") == reason for page in PAGES for block in blocks(page))

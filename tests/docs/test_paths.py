@@ -1,7 +1,6 @@
 """Files and folders of the repository that a page names exist."""
 
 import re
-from pathlib import Path
 
 import pytest
 from docs.blocks import ROOT, blocks, pages
@@ -46,9 +45,3 @@ def exists(path, page, made):
 def test_files_and_folders_that_a_page_names_exist(page):
     made = {block.word("file") for block in blocks(page)}
     assert [path for path in named(page.read_text()) if not exists(path, page, made)] == []
-
-
-def test_a_path_that_does_not_exist_is_found():
-    paths = named("`dynamics/no_such_file.py`, `no_such_file.hpp`, `recordings/x`, `a/b`, `mesh/`")
-    assert paths == ["dynamics/no_such_file.py", "no_such_file.hpp", "mesh/"]
-    assert [exists(path, Path(__file__), set()) for path in paths] == [False, False, True]

@@ -2,7 +2,6 @@
 
 import re
 import runpy
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -36,7 +35,7 @@ def test_site_is_built_without_a_warning(build):
 
 
 @pytest.mark.exhaustive
-def test_pages_load_nothing_from_a_network_and_equations_are_mathml(build):
+def test_pages_load_nothing_from_a_network(build):
     _, site = build
     for page in site.rglob("*.html"):
         loaded = re.findall(r'<(?:script|img|iframe)[^>]*src="(http[^"]*)"', page.read_text())
@@ -46,36 +45,13 @@ def test_pages_load_nothing_from_a_network_and_equations_are_mathml(build):
         assert (site / f"{page}.html").read_text().count("<math") > least
 
 
-@pytest.mark.exhaustive
-def test_fields_of_named_tuples_are_not_described_by_their_number(build):
-    _, site = build
-    assert "Alias for field number" not in (site / "reference/python.html").read_text()
-
-
-@pytest.mark.slow
-def test_faults_fail_the_build_and_are_reported(tmp_path):
-    pages = tmp_path / "docs"
-    pages.mkdir()
-    shutil.copy(ROOT / "docs/conf.py", pages)
-    (pages / "index.md").write_text("# Index\n\n```{toctree}\nmodel\n```\n")
-    links = "[a](nowhere.md) [b](model.md#no-such-heading) ![c](nowhere.png)"
-    (pages / "model.md").write_text(f"# Model\n\n{links}\n")
-    (pages / "orphan.md").write_text("# Orphan\n")
-    program = Path(sys.executable).with_name("sphinx-build")
-    build = [program, "--quiet", "--fail-on-warning", "--keep-going", pages, tmp_path / "site"]
-    done = subprocess.run(build, capture_output=True, text=True, timeout=600)
-    assert done.returncode != 0
-    for fault in ("nowhere.md", "no-such-heading", "nowhere.png", "orphan.md"):
-        assert fault in done.stderr, done.stderr
-
-
 def test_reference_names_every_public_object():
     page = (ROOT / "docs/reference/python.md").read_text()
     named = ["TUNABLES", *re.findall(r"^\.\. auto\w+:: (\w+)$", page, re.MULTILINE)]
     assert sorted(named) == sorted(pt.__all__)
 
 
-def test_pages_of_the_reference_are_those_generated_from_the_code(tmp_path):
+def test_pages_of_the_reference_are_the_generated_ones(tmp_path):
     # In a separate process, because it changes the environment for the nodes that it starts.
     make = [sys.executable, "-m", "_generate", tmp_path]
     subprocess.run(make, cwd=ROOT / "docs", check=True, timeout=600)

@@ -49,7 +49,7 @@ def test_parameters_without_effect_are_left_out(tmp_path):
     assert "operating_point.lambda_ratio" not in described(computed, tmp_path)
 
 
-def test_speed_and_torque_are_fixed_if_they_only_define_the_start(tmp_path):
+def test_speed_and_torque_that_define_the_start_are_fixed(tmp_path):
     names = ("operating_point.input_speed", "operating_point.input_torque")
     machine, given = (described(scene, tmp_path) for scene in (PAPER, driven("torque", "torque")))
     assert [machine[name].get("variability") for name in names] == ["tunable", "tunable"]

@@ -46,7 +46,7 @@ def commands(scene, count):
     [("torque", "motion"), ("motion", "torque"), ("torque", "torque"), ("machine", "torque")],
     ids="-".join,
 )
-def test_the_same_commands_have_the_same_bits_by_fmu_and_in_python(tmp_path, ports, interpolation):
+def test_an_fmu_has_the_bits_of_a_twin_in_python(tmp_path, ports, interpolation):
     scene = driven(*ports, **{"drive.interpolation": interpolation})
     slave, twin = slave_of(scene, tmp_path), pt.Twin(scene, tolerance=TOLERANCE)
     assert slave.get(*SHOWN) == shown(twin.port_states)
@@ -203,7 +203,7 @@ def test_a_step_from_elsewhere_is_refused(tmp_path):
         slave.step(1e-3)
 
 
-def test_calls_after_an_error_name_it_until_a_state_is_restored_or_the_instance_is_reset(tmp_path):
+def test_calls_after_an_error_name_it_until_a_reset(tmp_path):
     slave = slave_of(driven("torque", "torque"), tmp_path)
     before = slave.state()
     with pytest.raises(Refused, match="step size = 0 s: must be above 0"):

@@ -113,9 +113,7 @@ def test_visible_teeth_are_in_the_gaps_of_their_mates(
         assert abs(inner % 1.0 - 0.5) < 1e-4
 
 
-def test_joints_are_those_of_the_joint_states_and_frames_that_follow(
-    gearset: Gearset, tmp_path: Path
-) -> None:
+def test_joints_are_those_of_the_joint_states(gearset: Gearset, tmp_path: Path) -> None:
     tree = _tree(gearset, tmp_path)
     free = {joint.name for joint in tree.joints() if joint.mimic is None}
     assert free == {f"{body}_joint" for body in _angles(gearset, "carrier", 0.0)}
@@ -159,9 +157,7 @@ def _covered(points: np.ndarray, boxes: list[Box]) -> np.ndarray:
 
 @pytest.mark.parametrize("scene", ["paper", "wind_turbine_stage"])
 @pytest.mark.parametrize("part", ["sun", "planet_1", "ring"])
-def test_boxes_fill_the_involute_teeth_to_less_than_a_sixth_of_a_module(
-    scene: str, part: str
-) -> None:
+def test_boxes_fill_the_involute_teeth(scene: str, part: str) -> None:
     gearset = pt.load_scene(scene).gearset
     robot = ElementTree.fromstring(robot_description(gearset))
     teeth = getattr(gearset.teeth, part.split("_")[0])
@@ -204,7 +200,7 @@ def test_the_solids_of_every_body_are_seen(gearset: Gearset) -> None:
 
 
 @pytest.mark.parametrize("teeth, addendum", [((12, 20, 52), 0.4), ((60, 18, 96), 1.2)])
-def test_stub_teeth_and_nearly_pointed_teeth_are_boxes_of_positive_size(
+def test_stub_and_pointed_teeth_are_boxes_of_positive_size(
     gearset: Gearset, teeth: tuple[int, int, int], addendum: float
 ) -> None:
     numbers = gearset.teeth.model_copy(

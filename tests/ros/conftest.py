@@ -8,9 +8,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from domains import private_domain
+from planetary_twin import shaft_commands
 from planetary_twin_msgs.msg import OperatingPoint
 from small_disk import mounted
 from std_srvs.srv import Trigger
@@ -24,6 +27,7 @@ _TIMEOUT = 5.0  # [s] for a node to end after a signal
 
 
 Start = Callable[..., Program]
+Play = Callable[..., Program]
 
 
 @pytest.fixture
@@ -40,13 +44,37 @@ def execute(domain: int, tmp_path: Path) -> Iterator[Start]:
         yield run
 
 
+@pytest.fixture
+def play(start: Start) -> Play:
+    """Start `planetary-twin replay` with arguments."""
+
+    def replay(*arguments: str | Path) -> Program:
+        return start("planetary_twin_py.cli", "replay", *map(str, arguments))
+
+    return replay
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The steady time of commands [s], which a test sets."""
+    now = [0.0]
+    monkeypatch.setattr(shaft_commands, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    return now
+
+
 @contextmanager
 def starting(kind: type[Executed | Forked], place: Path) -> Iterator[Start]:
-    """Start modules in a folder; those that still run at the end, also a failed one, are ended."""
+    """
+    Start modules in a folder, with parameters by name.
+
+    Those that still run at the end, also a failed one, are ended.
+    """
     processes: list[Program] = []
 
-    def run(module: str, *arguments: str) -> Program:
-        processes.append(kind(module, *arguments, cwd=place))
+    def run(module: str, *arguments: str, **parameters: Any) -> Program:
+        given = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
+        options = ("--ros-args", *given) if given else ()
+        processes.append(kind(module, *arguments, *options, cwd=place))
         return processes[-1]
 
     try:

@@ -17,6 +17,7 @@ from rclpy.client import Client
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.signals import SignalHandlerOptions
+from std_srvs.srv import SetBool
 
 TWIN = "/planetary_twin"
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -109,6 +110,12 @@ class Peer:
         """The state of a lifecycle node."""
         answer = self.call(GetState, f"{node}/get_state", GetState.Request())
         return str(answer.current_state.label)
+
+    def pause(self, node: str, paused: bool = True) -> str:
+        """Pause or resume a node; returns its answer."""
+        answer = self.call(SetBool, f"{node}/pause", SetBool.Request(data=paused))
+        assert answer.success, answer.message
+        return str(answer.message)
 
     def get(self, node: str, name: str) -> float:
         """A parameter that must be a DOUBLE."""

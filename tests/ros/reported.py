@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
@@ -10,11 +12,21 @@ from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint, RecorderStatus
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status
+from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.run.quality_control import Setting
 
-from .peer import Peer
+from .peer import LONG, TWIN, Peer
+from .programs import Program
 
 LONGEST = 20.0  # [s] simulated at a time
+
+
+def check_verified(logger: Program, folder: Path) -> None:
+    """The recording of `logger`, which is ended, repeats the run bit for bit."""
+    logger.send_signal(signal.SIGINT)
+    logger.communicate(timeout=LONG)
+    verdict = verify(folder, TWIN)
+    assert verdict.identical, verdict
 
 
 def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
@@ -32,6 +44,12 @@ def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
 def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
     """All reported values, the newest of each key."""
     return {item.key: item.value for report in reports for item in report.status[0].values}
+
+
+def published(reported: Mapping[str, str]) -> dict[str, int]:
+    """Numbers of published messages in a report, by topic."""
+    prefix = "published."
+    return {k.removeprefix(prefix): int(v) for k, v in reported.items() if k.startswith(prefix)}
 
 
 def recorded(status: Sequence[RecorderStatus], topic: str) -> int:

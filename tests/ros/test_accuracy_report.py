@@ -10,7 +10,7 @@ from planetary_twin.accuracy_report import ACCURACY, AccuracyReport
 import planetary_twin_py as pt
 
 
-def test_inaccurate_intervals_are_a_warning_until_the_next_report() -> None:
+def test_inaccurate_intervals_warn_until_the_next_report() -> None:
     window = pt.Twin(pt.load_scene("paper"), tolerance=1e-3).advance(0.01)
     report = AccuracyReport("/twin")
     report.add(window)

@@ -11,7 +11,7 @@ from std_srvs.srv import Trigger
 
 from .conftest import Start
 from .peer import TWIN, Peer
-from .test_follower_inputs import BEGIN, FOLLOWER, Rig, stamp
+from .test_follower_inputs import BEGIN, FOLLOWER, Rig, begin, stamp
 
 SAMPLED = 2_000.0  # [Hz] of the accelerometer
 MESH = 2.0 * np.pi * 500.0 * 1.00001  # [rad/s] of 30 teeth at 104.72 rad/s
@@ -33,12 +33,6 @@ def vibrate(rig: Rig, end: float) -> None:
         publisher.publish(block)
 
 
-def follow(rig: Rig, start: Start, *given: str) -> None:
-    words = [word for parameter in given for word in ("-p", parameter)]
-    start("planetary_twin.follower", "--ros-args", *words)
-    rig.wait_for_the_follower()
-
-
 def asked(rig: Rig, name: str) -> tuple[bool, str]:
     answer = rig.user.call(Trigger, f"{FOLLOWER}/{name}", Trigger.Request())
     return answer.success, answer.message
@@ -49,7 +43,7 @@ def test_a_baseline_is_saved_learned_again_and_loaded(
 ) -> None:
     rig, file = Rig(peer), tmp_path / "gearbox.npz"
     (tmp_path / "sensors.yaml").write_text("learning: 8\n")
-    follow(rig, start, f"sensors:={tmp_path / 'sensors.yaml'}")
+    begin(start, rig, sensors=tmp_path / "sensors.yaml")
     assert asked(rig, "save_baseline") == (False, "baseline = '': must be the path of a file")
     assert peer.set(FOLLOWER, baseline=str(file)).successful
     assert asked(rig, "save_baseline") == (False, "no baseline has been learned yet")
@@ -72,7 +66,7 @@ def test_a_baseline_is_saved_learned_again_and_loaded(
 
 def test_an_acknowledged_event_is_no_warning_any_more(peer: Peer, start: Start) -> None:
     rig = Rig(peer)
-    follow(rig, start)
+    begin(start, rig)
     rig.send(0.0, 20.0)
     rig.send(20.0, 24.0, torque=0.97)
     rig.reported("condition", DiagnosticStatus.WARN, "loss torque stepped")

@@ -41,9 +41,7 @@ def test_a_replay_as_fast_as_possible_answers(peer: Peer, start: Start, tmp_path
         bag.write(channel, serialize_message(String(data=f"{k}".ljust(400))), 1 + k, 1 + k, k)
     bag.close()
     received = peer.listen(String, NUMBERS, 1000)
-    options = (f"file:={bag.file}", "rate_factor:=0.0", "loop:=true")
-    arguments = [word for option in options for word in ("-p", option)]
-    start("planetary_twin.replay", "--ros-args", *arguments)
+    start("planetary_twin.replay", file=bag.file, rate_factor=0.0, loop="true")
     peer.until(lambda: len(received) > 1000)
     node = f"{TWIN}/replay"
     assert_answers(peer, node, "loop")
@@ -56,7 +54,7 @@ def test_a_replay_as_fast_as_possible_answers(peer: Peer, start: Start, tmp_path
 def test_a_simulation_as_fast_as_possible_answers(peer: Peer, start: Start) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
-    start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=0.0")
+    start("planetary_twin.simulation", rate_factor=0.0)
     peer.until(lambda: len(states) > 100 and len(waves) > 100)
     node = f"{TWIN}/simulation"
     assert_answers(peer, node, "backlash")
@@ -67,7 +65,7 @@ def test_a_simulation_as_fast_as_possible_answers(peer: Peer, start: Start) -> N
 
 def test_an_overloaded_logger_answers(peer: Peer, start: Start) -> None:
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    start("planetary_twin.logger", "--ros-args", "-p", f"topics:=['{NUMBERS}']")
+    start("planetary_twin.logger", topics=f"['{NUMBERS}']")
     count, size, depth = map(str, (10**9, 400, 1000))
     flood = [sys.executable, str(HERE / "counter.py"), NUMBERS, "0", count, size, depth, "RELIABLE"]
     sender = subprocess.Popen(flood, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)

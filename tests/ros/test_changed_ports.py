@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-import signal
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, cast
 
 import numpy as np
 import pytest
-from planetary_twin.live import LiveTwin
 from planetary_twin_msgs.msg import OperatingPoint
 from planetary_twin_msgs.srv import Step
 from rcl_interfaces.srv import GetParameters
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.branch import Branch
@@ -25,10 +21,9 @@ from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 
 from .conftest import Start
-from .peer import LATCHED, LONG, TWIN, Peer
-from .test_shaft_commands import RING, SUN, clock, received, torque
-
-__all__ = ["clock"]  # a fixture
+from .peer import LATCHED, TWIN, Peer
+from .reported import check_verified
+from .test_shaft_commands import RING, SUN, received, torque
 
 NODE = f"{TWIN}/simulation"
 INPUT, OUTPUT = "drive.input.port", "drive.output.port"
@@ -46,12 +41,12 @@ def ports_of(peer: Peer) -> list[str]:
     return [value.string_value for value in answer.values]
 
 
-def test_ports_change_while_the_node_runs_and_the_recording_repeats_it(
+def test_ports_change_while_the_node_runs_and_verify(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Two machines, then torque and motion from outside, then machines again."""
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=changed")
-    start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
+    logger = start("planetary_twin.logger", name="changed")
+    start("planetary_twin.simulation", wait_for="logger")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
@@ -75,11 +70,7 @@ def test_ports_change_while_the_node_runs_and_the_recording_repeats_it(
     peer.until(lambda: ports(points[-1]) == ("machine", "machine"))
     count = len(joints)
     peer.until(lambda: len(joints) > count + 20)
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=LONG)
-    folder = tmp_path / "recordings/changed"
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
+    check_verified(logger, folder := tmp_path / "recordings/changed")
     (run,) = read_runs(folder, TWIN, [])
     inputs = [change.values[INPUT] for change in run.changes]
     assert inputs[:2] == ["machine", "torque"] and inputs[-1] == "machine"
@@ -90,7 +81,7 @@ def test_ports_change_while_the_node_runs_and_the_recording_repeats_it(
     assert verify(made.file.parent, TWIN).identical
 
 
-def test_ports_that_cannot_be_are_refused_in_one_line_and_the_twin_goes_on(
+def test_ports_that_cannot_be_are_refused_in_one_line(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     for values, reason in (
@@ -114,24 +105,22 @@ def test_ports_that_cannot_be_are_refused_in_one_line_and_the_twin_goes_on(
 def test_a_quasi_static_twin_has_no_other_ports(peer: Peer, start: Start, tmp_path: Path) -> None:
     path = tmp_path / "slow.yaml"
     path.write_text("base: paper\nname: slow\ndynamics: quasi_static\n")
-    start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={path}")
+    start("planetary_twin.simulation", scene=path)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     peer.until(lambda: points)
     result = peer.set(NODE, **{INPUT: "torque"})
     assert result.reason == "drive.input.port = 'torque': requires dynamics other than quasi-static"
 
 
-def test_ports_that_change_before_the_first_step_are_part_of_the_run(
+def test_changes_of_ports_before_the_first_step_are_recorded(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=lockstep")
-    options = ("wait_for:=logger", "rate_factor:=0.0", "tolerance:=0.0")
-    given = [part for option in options for part in ("-p", option)]
-    start("planetary_twin.simulation", "--ros-args", *given)
+    logger = start("planetary_twin.logger", name="lockstep")
+    start("planetary_twin.simulation", wait_for="logger", rate_factor=0.0, tolerance=0.0)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     peer.until(lambda: points)
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     assert peer.set(NODE, backlash=4e-7).successful
     assert peer.set(NODE, **{INPUT: "torque"}).successful
@@ -147,11 +136,7 @@ def test_ports_that_change_before_the_first_step_are_part_of_the_run(
     assert peer.set(NODE, **{INPUT: "machine"}).successful
     peer.until(lambda: points[-1].simulated_time > 0.0)
     assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05)).success
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=LONG)
-    folder = tmp_path / "recordings/lockstep"
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
+    check_verified(logger, folder := tmp_path / "recordings/lockstep")
     run = read_runs(folder, TWIN, [])[-1]
     assert run.changes[-1].values[INPUT] == "machine"
     assert "torque" in [change.values[INPUT] for change in run.changes]
@@ -161,28 +146,7 @@ def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
     return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
 
 
-def test_no_change_is_lost_where_the_log_of_the_twin_is_cut() -> None:
-    """The report of real time keeps only its last entry; a new origin is followed by all."""
-    changed, published = twin(), list[tuple[float, str]]()
-    listener = SimpleNamespace(
-        ready=lambda: True,
-        resumed=lambda twin: None,
-        changed=lambda change: published.append((change.point.backlash, change.ports.input)),
-    )
-    quality = SimpleNamespace(relearn=lambda: None)
-    live = LiveTwin(changed, 0.01, 1.0, cast(Any, quality), cast(Any, listener), received())
-    for values in ({"backlash": 4e-7}, {INPUT: "torque"}):
-        live._change(values)
-        del changed.log[:-1]
-    live._announce()
-    assert published == [(2e-7, "machine"), (4e-7, "machine"), (4e-7, "torque")]
-    changed.advance(0.01)
-    live._change({INPUT: "machine"})
-    live._announce()
-    assert published[3:] == [(4e-7, "machine")]
-
-
-def test_a_command_for_the_port_before_has_no_effect_and_is_counted() -> None:
+def test_a_command_for_the_port_before_is_counted() -> None:
     """One that the new port takes acts, also if it came just before the change."""
     changed = twin("motion", "torque")
     commands = received(JointState(name=[SUN], velocity=[90.0]))
@@ -207,7 +171,7 @@ def test_no_command_is_missing_at_a_machine(clock: list[float]) -> None:
     assert commands.given(changed, 0.01) == {"input_torque": 0.0}
 
 
-def test_a_brake_ends_when_ports_change_and_begins_again_from_the_new_ones(
+def test_a_brake_begins_again_from_new_ports(
     clock: list[float],
 ) -> None:
     changed = twin("torque", "torque")

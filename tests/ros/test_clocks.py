@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import itertools
-import signal
 import time
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin.reports import real_time_figures
 from planetary_twin.stamps import STEADY
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform
@@ -58,10 +57,8 @@ def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
     return real_time_figures(reports[-1], TWIN) if reports else {}
 
 
-def test_stamps_follow_an_external_clock_and_increase_when_it_jumps(
-    peer: Peer, start: Start
-) -> None:
-    start(MODULE, "--ros-args", "-p", "use_sim_time:=true")
+def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) -> None:
+    start(MODULE, use_sim_time="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
@@ -87,28 +84,8 @@ def test_stamps_follow_an_external_clock_and_increase_when_it_jumps(
     assert all(after > before for before, after in itertools.pairwise(stamps))
 
 
-def test_a_stopped_process_continues_without_a_burst(peer: Peer, start: Start) -> None:
-    process = start(MODULE)
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
-    waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
-    peer.until(lambda: len(states) > 50 and figures(reports))
-    overruns = int(figures(reports)["overruns"])
-    process.send_signal(signal.SIGSTOP)
-    stopped = time.monotonic()
-    peer.until(lambda: time.monotonic() > stopped + 3.0)
-    before, resumed = states[-1].simulated_time, time.monotonic()
-    process.send_signal(signal.SIGCONT)
-    peer.until(lambda: states[-1].simulated_time > before + 1.0)
-    # The delay is not made up: simulated time runs no faster than the steady clock.
-    assert states[-1].simulated_time - before < time.monotonic() - resumed + 5 * INTERVAL
-    peer.until(lambda: int(figures(reports)["overruns"]) > overruns)
-    assert any(report.status[0].level != DiagnosticStatus.OK for report in reports)
-    check_rising(states, waves)
-
-
 def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> None:
-    start(MODULE, "--ros-args", "-p", "rate_factor:=0", "-p", "sample_rate:=5000")
+    start(MODULE, rate_factor=0, sample_rate=5000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     peer.until(lambda: states)

@@ -31,7 +31,7 @@ def execute(commands: CommandQueue) -> None:
         answer()
 
 
-def test_changes_between_two_intervals_are_merged_and_the_last_values_count() -> None:
+def test_changes_between_two_intervals_are_merged() -> None:
     twin = Twin()
     commands = CommandQueue(twin.change)
     futures = [commands.change({"backlash": float(n), f"other_{n}": 1.0}) for n in range(3)]

@@ -15,7 +15,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.verify import verify
@@ -57,8 +57,8 @@ def test_a_client_that_dies_is_noticed_while_the_other_goes_on(
 ) -> None:
     """The motor's speed is given by one client, the torque of the load by another one."""
     path = driven(tmp_path, "motion", "torque")
-    given = (f"scene:={path}", "command_timeout:=2.0", "command_silence:=zero")
-    start("planetary_twin.simulation", "--ros-args", *(p for g in given for p in ("-p", g)))
+    given = {"command_timeout": 2.0, "command_silence": "zero"}
+    start("planetary_twin.simulation", scene=path, **given)
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     diagnostics = peer.listen(DiagnosticArray, "/diagnostics")
     peer.until(lambda: joints)
@@ -81,23 +81,11 @@ def test_a_client_that_dies_is_noticed_while_the_other_goes_on(
             peer.until(lambda: shown() == pytest.approx((104.0, 140.0), rel=1e-2))
 
 
-def test_a_storm_of_commands_acts_and_leaves_the_twin_in_real_time(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    """As many as a client can send, at most 5 kHz; the newest one of an interval acts."""
-    joints = running(peer, start, tmp_path)
-    with client(SUN, 61.0, 5000.0):
-        peer.until(lambda: torque(joints[-1], SUN) == pytest.approx(61.0))
-        count = len(joints)
-        peer.until(lambda: len(joints) > count + 100)
-        assert torque(joints[-1], SUN) == pytest.approx(61.0)
-
-
 def test_several_steps_in_one_call_have_the_bits_of_single_ones(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
+    peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
     efforts = [(63.0 + n, 147.0 - n) for n in range(20)]
@@ -134,11 +122,8 @@ def test_positions_by_topic_move_a_shaft_and_are_recorded(
     driven(tmp_path, "torque", "motion")
     still = "operating_point: {input_speed: 0.0, input_torque: 0.0}\n"
     scene.write_text(scene.read_text() + still)
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=moved")
-    given = ("scene:=" + str(scene), "wait_for:=logger")
-    simulation = start(
-        "planetary_twin.simulation", "--ros-args", *(p for g in given for p in ("-p", g))
-    )
+    logger = start("planetary_twin.logger", name="moved")
+    simulation = start("planetary_twin.simulation", scene=scene, wait_for="logger")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     peer.until(lambda: joints)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)

@@ -13,20 +13,21 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
 from .recordings import counts
+from .reported import recorded
 
 STATES = f"{TWIN}/gearbox_state"
 
 
-def test_every_message_is_recorded_until_the_end_by_several_signals(
+def test_every_message_is_recorded_until_signals_end_it(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    twin = start("planetary_twin.composed", "--ros-args", "-p", "name:=bag")
+    twin = start("planetary_twin.composed", name="bag")
     states = peer.listen(GearboxState, STATES, 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     peer.until(lambda: len(states) > 100 and status and STATES in status[-1].topics)
     reported = len(status)
     peer.until(lambda: len(status) > reported + 1)
-    received = status[-1].recorded[list(status[-1].topics).index(STATES)]
+    received = recorded(status, STATES)
     assert list(status[-1].lost) == [0] * len(status[-1].topics)
     while twin.poll() is None:  # the file is finished, however many signals the user sends
         twin.send_signal(signal.SIGINT)

@@ -32,7 +32,7 @@ def positions(count: int, continuous: bool) -> tuple[np.ndarray, np.ndarray]:
     return np.array(found), np.array(speeds)
 
 
-def test_positions_are_the_integral_of_the_speed_and_modulo_a_turn_the_angle() -> None:
+def test_continuous_positions_are_the_integral_of_the_speed() -> None:
     wrapped, speeds = positions(100, continuous=False)
     counted, _ = positions(100, continuous=True)
     assert wrapped.min() >= 0.0 and wrapped.max() <= TURN
@@ -53,7 +53,7 @@ def test_a_window_after_a_gap_starts_a_new_count() -> None:
         assert np.abs(begin).max() <= 0.5 * TURN
 
 
-def test_a_joint_that_starts_below_zero_is_there_and_not_a_turn_further() -> None:
+def test_a_joint_may_start_below_zero() -> None:
     ports = {"drive.input.port": "torque", "drive.output.port": "torque"}
     twin = pt.Twin(pt.load_scene("paper").replace(input_torque=1.0, **ports))
     window = twin.advance(1e-3, input_torque=0.0, output_torque=0.0)
@@ -64,12 +64,11 @@ def test_a_joint_that_starts_below_zero_is_there_and_not_a_turn_further() -> Non
     assert -0.1 < counted[place] < 0.0
 
 
-def test_a_node_publishes_them_on_request_and_the_recording_verifies(
+def test_a_node_publishes_them_on_request_and_is_verified(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    asked = ("-p", "continuous_joints:=true", "-p", "wait_for:=logger")
-    twin = start("planetary_twin.simulation", "--ros-args", *asked)
+    logger = start("planetary_twin.logger", name="bag")
+    twin = start("planetary_twin.simulation", continuous_joints="true", wait_for="logger")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(joints) > 60 and len(states) > 60)

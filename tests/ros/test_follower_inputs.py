@@ -117,9 +117,8 @@ def rig(peer: Peer) -> Iterator[Rig]:
     yield Rig(peer)
 
 
-def begin(start: Start, rig: Rig, *given: str) -> None:
-    words = [word for parameter in given for word in ("-p", parameter)]
-    start("planetary_twin.follower", "--ros-args", *words)
+def begin(start: Start, rig: Rig, **given: Any) -> None:
+    start("planetary_twin.follower", **given)
     rig.wait_for_the_follower()
 
 
@@ -173,29 +172,6 @@ def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].input_torque_status == "ESTIMATED")
 
 
-def test_both_speeds_in_rpm_are_recognised_by_the_positions(rig: Rig, start: Start) -> None:
-    begin(start, rig)
-    for n in range(600):
-        message = rig.reading(n / RATE)
-        angle = 104.72 * n / RATE
-        message.position = [angle % math.tau, RATIO * angle % math.tau]
-        message.velocity = [30 / math.pi * speed for speed in message.velocity]
-        rig.joints.publish(message)
-    rig.reported(
-        "inputs", DiagnosticStatus.ERROR, "if the speed is in rpm, scale input_speed by 0.10472"
-    )
-
-
-def test_kelvin_in_a_message_of_degrees_celsius_is_named(rig: Rig, start: Start) -> None:
-    begin(start, rig)
-    warm = Temperature(temperature=343.15)
-    stamp(warm, BEGIN)
-    rig.oil.publish(warm)
-    rig.send(0.0, 2.0)
-    words = "oil_temperature: left out, because it must be within 200 and 475 K"
-    rig.reported("estimator", DiagnosticStatus.WARN, words)
-
-
 def test_a_follower_outlives_readings_that_no_machine_has(rig: Rig, start: Start) -> None:
     """A spike, a code for a missing reading, a cable, stamps of 0 and positions that stand."""
     begin(start, rig)
@@ -232,7 +208,7 @@ def test_a_follower_outlives_readings_that_no_machine_has(rig: Rig, start: Start
 
 
 def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:
-    begin(start, rig, "sensor_timeout:=0.5")
+    begin(start, rig, sensor_timeout=0.5)
     rig.send(0.0, 3.0)
     stale = rig.user.until(
         lambda: [one for one in rig.estimates if one.input_torque_status == "STALE"]
@@ -246,7 +222,7 @@ def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:
 
 @pytest.mark.parametrize("restarts", [False, True])
 def test_stamps_that_jump_back_are_reported(rig: Rig, start: Start, restarts: bool) -> None:
-    begin(start, rig, f"reset_on_time_jump:={restarts}")
+    begin(start, rig, reset_on_time_jump=restarts)
     rig.send(100.0, 103.0)
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].header.stamp.sec >= BEGIN + 102)
     rig.send(0.0, 3.0)
@@ -320,7 +296,7 @@ def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> No
     )
 
 
-def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, start: Start) -> None:
+def test_blocks_of_vibration_must_keep_their_channels(rig: Rig, start: Start) -> None:
     vibration = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 100)
     begin(start, rig)
     rig.user.until(lambda: rig.is_matched(vibration))
@@ -344,7 +320,7 @@ def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, sta
 
 
 def test_parameters_are_refused_in_one_line(rig: Rig, start: Start) -> None:
-    start("planetary_twin.follower", "--ros-args", "-p", "autostart:=false")
+    start("planetary_twin.follower", autostart="false")
     for name, value, words in (
         ("period", 0.001, "within 0.01 and 60"),
         ("publish_rate", 1e4, "within 0.1 and 100"),
@@ -354,8 +330,9 @@ def test_parameters_are_refused_in_one_line(rig: Rig, start: Start) -> None:
         assert not refused.successful and refused.reason.startswith(f"{name} = {value!r}")
         assert words in refused.reason
     assert rig.user.set(FOLLOWER, sensors="none.yaml").successful
-    process = start("planetary_twin.follower", "--ros-args", "-p", "sensors:=none.yaml",
-                    "-r", "__ns:=/other")  # fmt: skip
+    process = start(
+        "planetary_twin.follower", "--ros-args", "-r", "__ns:=/other", sensors="none.yaml"
+    )
     _, errors = process.communicate(timeout=120)
     assert errors.strip().splitlines()[-1] == (
         "follower: sensors = 'none.yaml': No such file or directory"

@@ -101,7 +101,7 @@ def at_once() -> list[Following]:
     return estimates_of([messages()])
 
 
-def test_there_is_an_estimate_for_each_tenth_of_a_second_though_all_is_taken_at_once(
+def test_messages_taken_at_once_give_every_estimate(
     at_once: list[Following],
 ) -> None:
     times = [one.time - BEGIN for one in at_once]
@@ -121,9 +121,7 @@ def test_estimates_are_the_same_however_messages_are_taken(
 
 
 @pytest.mark.parametrize("late", ["joints", "oil"])
-def test_estimates_are_the_same_if_a_topic_arrives_half_a_second_after_the_other(
-    at_once: list[Following], late: str
-) -> None:
+def test_estimates_are_the_same_if_one_topic_is_late(at_once: list[Following], late: str) -> None:
     def place(one: Arrived) -> float:
         return one.time + 0.5 * (one.sender == late)
 

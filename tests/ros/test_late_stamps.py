@@ -6,19 +6,16 @@ import signal
 import time
 from pathlib import Path
 
-from diagnostic_msgs.msg import DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState
-from std_srvs.srv import SetBool
 
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.schedule import read_runs
-from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import Branch, resimulate
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
 from .programs import Program
-from .reported import figures, listen_to_reports
+from .reported import check_verified, figures, listen_to_reports
 
 STALL, LIMIT = 3.0, 1.0  # [s]
 
@@ -29,36 +26,9 @@ def stall(process: Program) -> None:
     process.send_signal(signal.SIGCONT)
 
 
-def lag_of(state: GearboxState) -> float:
-    """Time since the stamp of a state that has just been received [s]."""
-    return time.time() - (state.header.stamp.sec + 1e-9 * state.header.stamp.nanosec)
-
-
-def test_stamps_after_a_stall_are_late_and_a_pause_ends_it(peer: Peer, start: Start) -> None:
-    simulation = start("planetary_twin.simulation")
-    states, reports = peer.listen(GearboxState, f"{TWIN}/gearbox_state"), listen_to_reports(peer)
-    peer.until(lambda: len(states) > 50)
-    stall(simulation)
-    peer.until(lambda: float(figures(reports).get("stamp_lag", 0.0)) > STALL - 0.5)
-    reports.clear()
-    peer.until(lambda: any("stamps are late" in each.status[0].message for each in reports))
-    assert reports[-1].status[0].level == DiagnosticStatus.WARN
-    states.clear()
-    assert lag_of(peer.until(lambda: states)[-1]) > 0.5 * STALL
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
-    reports.clear()
-    peer.until(lambda: abs(float(figures(reports).get("stamp_lag", STALL))) < 0.5 * STALL)
-
-
-def test_a_skip_bounds_the_lag_and_is_in_a_recording_that_verifies(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=stalled")
-    simulation = start(
-        "planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger",
-        "-p", f"max_lag:={LIMIT}",
-    )  # fmt: skip
+def test_a_skip_bounds_the_lag_and_verifies(peer: Peer, start: Start, tmp_path: Path) -> None:
+    logger = start("planetary_twin.logger", name="stalled")
+    simulation = start("planetary_twin.simulation", wait_for="logger", max_lag=LIMIT)  # fmt: skip
     states, reports = peer.listen(GearboxState, f"{TWIN}/gearbox_state"), listen_to_reports(peer)
     peer.until(lambda: len(states) > 50)
     stall(simulation)
@@ -68,9 +38,7 @@ def test_a_skip_bounds_the_lag_and_is_in_a_recording_that_verifies(
     peer.until(lambda: len(states) > count + 50)
     simulation.terminate()
     simulation.communicate(timeout=LONG)
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=LONG)
-    folder = tmp_path / "recordings/stalled"
+    check_verified(logger, folder := tmp_path / "recordings/stalled")
     info = read_info(folder)
     assert info.skips >= 1
     assert info.skipped >= STALL - LIMIT
@@ -79,7 +47,6 @@ def test_a_skip_bounds_the_lag_and_is_in_a_recording_that_verifies(
     ends = [interval.end for interval in run.intervals]
     passed, simulated = (stamps[-1] - stamps[0]) * 1e-9, (ends[-1] - ends[0]) * 1e-12
     assert abs(passed - simulated - info.skipped) < LIMIT
-    assert verify(folder, TWIN).identical
     made = resimulate(folder, TWIN, Branch({"backlash": 3e-7}), tmp_path / "branch")
     (again,) = read_runs(made.file, TWIN, [])
     assert [interval.stamp for interval in again.intervals] == stamps

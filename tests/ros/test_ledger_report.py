@@ -10,7 +10,7 @@ from planetary_twin.ledger_report import LEDGER, LedgerReport
 import planetary_twin_py as pt
 
 
-def test_a_ledger_that_does_not_close_is_a_warning_until_the_next_report() -> None:
+def test_an_open_ledger_warns_until_the_next_report() -> None:
     twin = pt.Twin(pt.load_scene("paper"), tolerance=1e-3)
     windows = [twin.advance(0.01) for _ in range(3)]
     report = LedgerReport("/twin")

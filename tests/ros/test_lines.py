@@ -55,7 +55,7 @@ def test_lines_in_a_file_with_other_writers_are_kept(tmp_path: Path) -> None:
 
 def test_lines_arrive_if_the_pipe_is_read(peer: Peer, start: Start) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    node = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=1e9")
+    node = start("planetary_twin.simulation", rate_factor="1e9")
     _, errors = node.communicate(timeout=LONG)
     assert node.returncode == 1
     assert "rate_factor = 1000000000.0: must be a number within 0 and 100" in errors
@@ -66,7 +66,7 @@ def test_lines_arrive_if_the_pipe_is_read(peer: Peer, start: Start) -> None:
     assert "tolerance" in errors
 
 
-def test_a_stopped_terminal_delays_neither_the_twin_nor_its_parameters(
+def test_a_stopped_terminal_does_not_delay_the_twin(
     peer: Peer, stalled: subprocess.Popen[bytes]
 ) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")

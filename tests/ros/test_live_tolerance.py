@@ -21,12 +21,11 @@ SAMPLE_RATE = 5000
 @pytest.fixture
 def simulation(start: Start) -> subprocess.Popen[str]:
     """A simulation that waits for activation, so that a peer receives its first message."""
-    options = ("autostart:=false", f"sample_rate:={SAMPLE_RATE}", "tolerance:=0.0")
-    given = [part for option in options for part in ("-p", option)]
-    return start("planetary_twin.simulation", "--ros-args", *given)
+    given = {"autostart": "false", "sample_rate": SAMPLE_RATE, "tolerance": 0.0}
+    return start("planetary_twin.simulation", **given)
 
 
-def test_published_waveforms_are_reproduced_bit_for_bit_from_the_reports(
+def test_reports_reproduce_published_waveforms_bit_for_bit(
     peer: Peer, simulation: subprocess.Popen[str]
 ) -> None:
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)

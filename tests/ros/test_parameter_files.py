@@ -60,8 +60,7 @@ def set_all(peer: Peer, parameters: list[Parameter]) -> SetParametersResult:
 
 
 def test_a_dumped_file_restores_its_values(peer: Peer, start: Start, tmp_path: Path) -> None:
-    typed = [word for name, value in TYPED.items() for word in ("-p", f"{name}:={value}")]
-    first = start("planetary_twin.simulation", "--ros-args", *typed)
+    first = start("planetary_twin.simulation", **TYPED)
     file = tmp_path / "dumped.yaml"
     dumped = dump(peer, file)
     assert {name: dumped[name] for name in TYPED} == {
@@ -109,8 +108,8 @@ def test_a_dumped_file_restores_its_values(peer: Peer, start: Start, tmp_path: P
 def test_only_unknown_start_parameters_cause_a_warning(peer: Peer, start: Start) -> None:
     """All parameters of the packaged file are known."""
     config = Path(get_package_share_directory("planetary_twin")) / "config" / "paper.yaml"
-    given = ("--ros-args", "--params-file", str(config), "-p", "backlsh:=3e-7")
-    process = start("planetary_twin.composed", *given, "-p", "zzz:=1")
+    given = ("--ros-args", "--params-file", str(config))
+    process = start("planetary_twin.composed", *given, backlsh="3e-7", zzz=1)
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: states)
     process.terminate()

@@ -103,9 +103,7 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
 )
 
 
-def test_a_refusal_names_field_value_and_range_and_changes_nothing(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_a_refusal_names_field_value_and_range(user: Peer, points: list[OperatingPoint]) -> None:
     for name, value, reason in REFUSED:
         for given in ({name: value}, {"torque_ripple": 1.0, name: value}):
             result = user.set(NODE, atomically=len(given) == 2, **given)
@@ -117,10 +115,8 @@ def test_a_refusal_names_field_value_and_range_and_changes_nothing(
     assert points[-1].changed == "torque_ripple"
 
 
-def test_a_quantity_without_effect_in_the_scene_is_accepted_with_a_remark(
-    peer: Peer, start: Start
-) -> None:
-    start("planetary_twin.simulation", "--ros-args", "-p", "scene:=wind_turbine_stage")
+def test_a_quantity_without_effect_comes_with_a_remark(peer: Peer, start: Start) -> None:
+    start("planetary_twin.simulation", scene="wind_turbine_stage")
     remark = "lambda_ratio: has no effect: the scene computes it"
     result = peer.set(NODE, lambda_ratio=1.2)
     assert result.successful and result.reason.startswith(remark)
@@ -131,7 +127,7 @@ def test_a_quantity_without_effect_in_the_scene_is_accepted_with_a_remark(
     assert answer.success and answer.message.startswith(remark)
 
 
-def test_a_start_value_of_the_geometry_must_equal_that_of_the_scene(start: Start) -> None:
+def test_a_start_value_of_the_geometry_must_be_the_scene_s(start: Start) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", "gearset.teeth.sun:=31")
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1

@@ -60,8 +60,8 @@ class Subscriptions:
                 )
 
 
-def test_every_subscriber_receives_messages_or_the_reason_why_not(peer: Peer, start: Start) -> None:
-    process = start("planetary_twin.simulation", "--ros-args", "-p", "clock:=true")
+def test_subscribers_receive_messages_or_the_reason_why_not(peer: Peer, start: Start) -> None:
+    process = start("planetary_twin.simulation", clock="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 10)
     streams = Subscriptions(peer, STREAMS, VOLATILE)

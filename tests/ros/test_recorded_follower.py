@@ -30,7 +30,7 @@ def test_remapped_inputs_are_recorded_completely(
 ) -> None:
     remaps = [f"measured/{name}:={topic}" for name, topic in REMAPPED.items()]
     options = [word for remap in remaps for word in ("-r", remap)]
-    nodes = [start(program, "--ros-args", "-p", "name:=bag", *options) for program in programs]
+    nodes = [start(program, "--ros-args", *options, name="bag") for program in programs]
     joints = peer.node.create_publisher(JointState, REMAPPED["joint_states"], 2000)
     oil = peer.node.create_publisher(Temperature, REMAPPED["oil_temperature"], 100)
     estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")

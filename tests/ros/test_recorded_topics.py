@@ -90,7 +90,7 @@ def recorded_topics(publishing: int = 0) -> tuple[RecordedTopics, Disk, list[OSE
 
 
 @pytest.mark.parametrize("publishing", [0, 1, 7, 40])
-def test_no_state_is_written_without_its_commands_although_the_twin_goes_on(
+def test_no_state_is_written_without_its_commands(
     publishing: int,
 ) -> None:
     topics, disk, _ = recorded_topics(publishing)

@@ -5,9 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 import signal
-import subprocess
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,18 +17,15 @@ from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool
 
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
 
-from .conftest import Start
-from .peer import LATCHED, LONG, TWIN, Peer
-from .programs import Program
-from .recordings import read_all
+from .conftest import Play, Start
+from .peer import LATCHED, TWIN, Peer
+from .test_replay import refused
 
-COMMAND = Path(sys.executable).with_name("planetary-twin")
 NODE = f"{TWIN}/replay"
 PERIOD = 10_000_000  # [ns] between two states
 BEGIN = 1_790_000_000_000_000_000  # log time of the first message
@@ -39,7 +33,6 @@ STAMPED = 1_000_000_000_000  # its stamp, from another clock
 LENGTH = 2000  # states, in two files
 POINTS = 500  # states between two operating points
 DEPTH = 200  # states kept for a subscriber that a busy machine delays
-Play = Callable[..., Program]
 
 
 @pytest.fixture(scope="module")
@@ -78,22 +71,6 @@ def _topic(name: str, kind: str, qos: QoSProfile) -> Topic:
     return Topic(f"{TWIN}/{name}", kind, "", message_definition(kind), [to_words(qos)])
 
 
-@pytest.fixture
-def play(start: Start) -> Play:
-    """Start `planetary-twin replay` with arguments."""
-
-    def replay(*arguments: str | Path) -> Program:
-        return start("planetary_twin_py.cli", "replay", *map(str, arguments))
-
-    return replay
-
-
-def pause(peer: Peer, paused: bool) -> str:
-    answer = peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused))
-    assert answer.success, answer.message
-    return answer.message
-
-
 def step(peer: Peer, duration: float) -> Step.Response:
     return peer.call(Step, f"{NODE}/step", Step.Request(duration=duration))
 
@@ -119,10 +96,9 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 5000)
     points = peer.listen(OperatingPoint, "/elsewhere", LATCHED)
     clock = peer.listen(Clock, "/clock", 5000)
-    given = (f"file:={split}", "start_paused:=true", "clock:=100.0")
-    arguments = [word for value in given for word in ("-p", value)]
-    remap = f"{TWIN}/operating_point:=/elsewhere"
-    process = start("planetary_twin.replay", "--ros-args", *arguments, "-r", remap)
+    remap = ("--ros-args", "-r", f"{TWIN}/operating_point:=/elsewhere")
+    given = {"file": split, "start_paused": "true", "clock": 100.0}
+    process = start("planetary_twin.replay", *remap, **given)
     expect(peer, states, 1, 1)
 
     reached = step(peer, 0.5)
@@ -161,14 +137,14 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     refused = step(peer, 10.5)
     assert "duration = 10.5 s: must be above 0 and at most 10" in refused.message
     assert not peer.set(NODE, rate_factor=0.001).successful
-    assert pause(peer, True) == "paused from 4 s"
+    assert peer.pause(NODE) == "paused from 4 s"
 
     # To the end, where it waits until it is resumed.
     assert seek(peer, 19.9).success
     assert step(peer, 1.0).simulated_time == pytest.approx(19.99)
     expect(peer, states, 1991, 2000)
     assert process.poll() is None
-    pause(peer, False)
+    peer.pause(NODE, False)
     peer.until(lambda: process.poll() is not None)
     output, errors = process.communicate()
     assert process.returncode == 0, errors
@@ -176,9 +152,7 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     assert not states
 
 
-def test_a_running_replay_changes_its_rate_and_position_without_a_jump(
-    peer: Peer, play: Play, split: Path
-) -> None:
+def test_a_running_replay_changes_rate_and_position(peer: Peer, play: Play, split: Path) -> None:
     received: list[tuple[float, float]] = []  # recorded and received [s]
     clock = peer.listen(Clock, "/clock", 5000)
     peer.node.create_subscription(
@@ -205,10 +179,10 @@ def test_a_running_replay_changes_its_rate_and_position_without_a_jump(
     assert np.sum(steps <= 0) <= len(recorded) // (LENGTH - 100)  # where the loop starts again
 
     # A pause keeps the position; a seek changes it, also between passes of the loop.
-    held = float(pause(peer, True).split()[-2])
+    held = float(peer.pause(NODE).split()[-2])
     peer.until(lambda: held - 0.0101 <= received[-1][0] <= held + 1e-9)
     count = len(received)
-    pause(peer, False)
+    peer.pause(NODE, False)
     peer.until(lambda: len(received) > count)
     assert received[count][0] == pytest.approx(received[count - 1][0] + 0.01)
     count = len(received)
@@ -241,7 +215,7 @@ def _pace(messages: list[tuple[float, float]]) -> float:
     return float(np.polyfit(received, np.unwrap(recorded, period=LENGTH * 0.01 - 1.01), 1)[0])
 
 
-def test_as_fast_as_possible_every_message_reaches_a_reliable_subscriber(
+def test_as_fast_as_possible_reliable_subscribers_receive_all(
     peer: Peer, play: Play, tmp_path: Path
 ) -> None:
     file = _write(tmp_path / "shallow", range(LENGTH), depth=5)
@@ -268,41 +242,7 @@ def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path
 
 
 def test_invalid_names_of_topics_end_in_one_line(play: Play, split: Path) -> None:
-    _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
-    _refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
-    _refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
-    _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW")
-
-
-def _refused(process: Program, *reasons: str) -> None:
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 2
-    assert errors.startswith("planetary-twin: "), errors
-    assert len(errors.strip().splitlines()) == 1, errors
-    assert all(reason in errors for reason in reasons), errors
-
-
-@pytest.mark.exhaustive
-def test_a_recording_of_a_replay_equals_the_original(
-    peer: Peer, start: Start, play: Play, tmp_path: Path
-) -> None:
-    twin = subprocess.run(
-        [COMMAND, "run", "--duration", "1", "--record", "first"],
-        cwd=tmp_path,
-        capture_output=True,
-        check=False,
-    )
-    assert twin.returncode == 0, twin.stderr
-    first = tmp_path / "recordings/first"
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
-    peer.until(lambda: (tmp_path / "recordings/second/second_0.mcap").exists())
-    player = play(first)
-    peer.until(lambda: player.poll() is not None)
-    assert player.returncode == 0
-    logger.send_signal(signal.SIGINT)
-    peer.until(lambda: logger.poll() is not None)
-    once, again = read_all(first), read_all(tmp_path / "recordings/second")
-    assert len(once) >= 8
-    assert once.keys() == again.keys()
-    for name, topic in once.items():
-        assert again[name] == topic, name
+    refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
+    refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
+    refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
+    refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW")

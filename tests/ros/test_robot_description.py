@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import itertools
 from typing import NamedTuple
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -73,12 +72,8 @@ def in_base(poses: dict[tuple[str, str], Pose], frame: str) -> Pose:
     return Pose(0.0, 1.0)
 
 
-def test_a_late_subscriber_receives_a_description_whose_frames_follow_the_joints(
-    peer: Peer, start: Start
-) -> None:
-    options = ("frame_id:=gearbox_base", f"frame_prefix:={PREFIX}")
-    given = itertools.chain.from_iterable(("-p", option) for option in options)
-    start("planetary_twin.simulation", "--ros-args", *given)
+def test_frames_of_the_description_follow_the_joints(peer: Peer, start: Start) -> None:
+    start("planetary_twin.simulation", frame_id="gearbox_base", frame_prefix=PREFIX)
     states = peer.listen(JointState, f"{TWIN}/joint_states")
     transforms = peer.listen(TFMessage, "/tf")
     gearbox = peer.listen(GearboxState, f"{TWIN}/gearbox_state")

@@ -37,17 +37,9 @@ def test_a_controller_of_ros2_control_moves_the_arm(
     peer: Peer, start: Start, topic_system: subprocess.Popen[bytes]
 ) -> None:
     """A tenth of real time leaves a busy machine time for the loop over both topics."""
-    options = (
-        f"scene:={EXAMPLES / 'geared_joint.yaml'}",
-        "publish_rate:=200.0",
-        "continuous_joints:=true",
-        "rate_factor:=0.1",
-    )
-    start(
-        "planetary_twin.simulation",
-        "--ros-args",
-        *(part for option in options for part in ("-p", option)),
-    )
+    scene = EXAMPLES / "geared_joint.yaml"
+    given = {"publish_rate": 200.0, "continuous_joints": "true", "rate_factor": 0.1}
+    start("planetary_twin.simulation", scene=scene, **given)
     commands = peer.listen(JointState, f"{TWIN}/simulation/command")
     states = peer.listen(JointState, f"{TWIN}/joint_states")
     diagnostics = peer.listen(DiagnosticArray, "/diagnostics")

@@ -14,19 +14,17 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
 from planetary_twin.running.node_settings import node_settings
 from planetary_twin.running.tour import LENGTH, tour_of
 from planetary_twin.telemetry import STALL
-from planetary_twin_msgs.msg import GearboxState, OperatingPoint
-from std_srvs.srv import SetBool, Trigger
+from planetary_twin_msgs.msg import GearboxState
+from std_srvs.srv import Trigger
 from tiers import first_rows
 
 from planetary_twin_py.scene import load_scene, parse_scene
 
-from .peer import LATCHED, LONG, TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .processes import holding, working_in
 from .recordings import counts, times_received, unfinished_states
 
@@ -86,7 +84,7 @@ def test_a_run_records_every_message_it_publishes(
 
 
 @pytest.mark.exhaustive
-def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
+def test_parameters_fixed_at_the_start_are_options_of_a_run(
     run: Callable[..., subprocess.Popen[str]],
 ) -> None:
     process = run("--duration", "0.5", "--no-tour", "--param", "publish_rate=200", "--json", "-")
@@ -100,14 +98,14 @@ def test_parameters_that_are_fixed_at_the_start_are_options_of_a_run(
     assert "--param 'rate_factor=2': must be NAME=VALUE, with NAME of" in " ".join(errors.split())
 
 
-def test_a_mistyped_parameter_of_a_run_is_refused_with_a_similar_one() -> None:
+def test_a_mistyped_parameter_is_refused_with_a_similar_one() -> None:
     reason = "--param 'comand_timeout=1': no such parameter; did you mean command_timeout?"
     with pytest.raises(ValueError) as refusal:
         node_settings(["comand_timeout=1"])
     assert str(refusal.value) == reason
 
 
-def test_a_clock_of_another_node_is_refused_with_the_reason_and_the_way_to_follow_it() -> None:
+def test_a_clock_of_another_node_is_refused_with_advice() -> None:
     for text in ("use_sim_time=true", "use_sim_time=false", "use_sim_time"):
         with pytest.raises(ValueError, match="publishes no /clock") as refusal:
             node_settings([text])
@@ -136,7 +134,7 @@ def test_a_recording_split_during_the_run_is_counted_as_a_whole(
 
 
 @pytest.mark.exhaustive
-def test_losses_while_the_logger_was_stopped_are_reported_and_both_recordings_counted(
+def test_losses_of_a_stopped_logger_are_reported(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -163,7 +161,7 @@ def _process_of(node: str, folder: Path) -> int:
 
 
 @pytest.mark.exhaustive
-def test_a_run_whose_logger_stalls_longer_than_messages_are_kept_fails_and_reports_the_losses(
+def test_a_run_whose_logger_stalls_long_reports_the_losses(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -206,17 +204,13 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     assert working_in(tmp_path) == []
 
 
-@pytest.mark.parametrize(
-    "seconds", [0.0, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.9, 1.8))]
-)
 def test_ctrl_c_during_the_start_leaves_nothing_running(
-    run: Callable[..., subprocess.Popen[str]], tmp_path: Path, seconds: float
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     process = run("--duration", "600")
     deadline = time.monotonic() + LONG
     while not holding(process.pid, "_rclpy"):  # earlier, Python has not read the command yet
         assert time.monotonic() < deadline and process.poll() is None
-    time.sleep(seconds)  # the subject of the test: an arbitrary moment
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
@@ -226,41 +220,16 @@ def test_ctrl_c_during_the_start_leaves_nothing_running(
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
-@pytest.mark.exhaustive
-def test_ctrl_c_before_the_first_state_leaves_no_recording(
-    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
-) -> None:
-    """The first state of a slow twin follows its operating point after a second."""
-    process = run("--duration", "600", "--rate-factor", "0.01")
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points)
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 0, errors
-    assert working_in(tmp_path) == []
-    ran = [counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*")]
-    assert all(ran)
-    assert ran or "interrupted before the recording started" in errors
-
-
-@pytest.mark.parametrize(
-    "node", [pytest.param("simulation", marks=pytest.mark.exhaustive), "logger"]
-)
 def test_the_death_of_a_node_ends_the_run_with_one_line(
-    run: Callable[..., subprocess.Popen[str]], tmp_path: Path, node: str
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     process = run("--duration", "600")
     _line(process, "rpm")
-    victim = next(
-        pid
-        for pid in working_in(tmp_path)
-        if f"planetary_twin.{node}".encode() in Path(f"/proc/{pid}/cmdline").read_bytes()
-    )
-    os.kill(victim, signal.SIGKILL)
+    os.kill(_process_of("logger", tmp_path), signal.SIGKILL)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
-    assert f"{node}: ended by SIGKILL; the recording is in recordings/" in errors
+    assert "logger: ended by SIGKILL; the recording is in recordings/" in errors
     assert working_in(tmp_path) == []
 
 
@@ -296,7 +265,7 @@ def test_sigkill_of_the_run_ends_its_nodes(
         ],
     ),
 )
-def test_an_invalid_option_ends_in_one_line_before_any_process_starts(
+def test_an_invalid_option_ends_before_any_process_starts(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, options: list[str], reason: str
 ) -> None:
     process = run(*options)
@@ -305,20 +274,6 @@ def test_an_invalid_option_ends_in_one_line_before_any_process_starts(
     assert len(errors.strip().splitlines()) == 1
     assert reason in errors
     assert not (tmp_path / "recordings").exists()
-
-
-@pytest.mark.exhaustive
-def test_a_second_run_on_the_same_domain_is_refused_and_leaves_the_first_alone(run):
-    first = run("--duration", "60", "--no-tour")
-    _line(first, "rpm")
-    second = run("--duration", "1")
-    _, errors = second.communicate(timeout=LONG)
-    assert second.returncode == 1
-    assert "another twin runs on ROS_DOMAIN_ID" in errors.strip().splitlines()[-1]
-    first.send_signal(signal.SIGINT)
-    output, _ = first.communicate(timeout=LONG)
-    assert first.returncode == 0
-    assert "efficiency" in output
 
 
 def test_a_run_does_not_start_beside_another_publisher_of_a_twin(
@@ -338,59 +293,12 @@ def test_a_long_pause_and_a_reset_do_not_fail_a_run(
 ) -> None:
     process = run("--duration", "3", "--no-tour", "--record", "bag")
     _line(process, "rpm")
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
+    peer.pause(f"{TWIN}/simulation")
     _line(process, "paused")
     time.sleep(12.0)  # the subject of the test
-    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
+    peer.pause(f"{TWIN}/simulation", False)
     assert peer.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
     output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run after the reset
     assert "efficiency" in output
-
-
-@pytest.mark.exhaustive
-def test_a_run_waits_for_a_twin_that_was_stopped(
-    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
-) -> None:
-    process = run("--duration", "3", "--no-tour", "--record", "bag")
-    _line(process, "rpm")
-    simulation = _process_of("simulation", tmp_path)
-    os.kill(simulation, signal.SIGSTOP)
-    _line(process, "no answer")
-    time.sleep(15.0)  # the subject of the test
-    os.kill(simulation, signal.SIGCONT)
-    output, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 0, errors
-    assert "efficiency" in output
-
-
-@pytest.mark.exhaustive
-def test_a_run_whose_simulation_is_shut_down_reports_it(
-    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
-) -> None:
-    process = run("--duration", "60", "--no-tour", "--record", "bag")
-    _line(process, "rpm")
-    request = ChangeState.Request(transition=Transition(label="shutdown"))
-    assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", request, 20.0).success
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
-    assert "is finalized after a lifecycle request; the recording is in" in errors
-    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
-
-
-@pytest.mark.exhaustive
-def test_a_recording_that_another_process_creates_under_the_name_is_left_alone(
-    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
-) -> None:
-    process = run("--duration", "60", "--record", "bag")
-    deadline = time.monotonic() + LONG
-    while len(working_in(tmp_path)) < 2:  # from then on, the name has been checked
-        assert time.monotonic() < deadline
-    theirs = tmp_path / "recordings/bag/theirs.mcap"
-    theirs.parent.mkdir(parents=True)
-    theirs.write_bytes(b"theirs")
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
-    assert "exists" in errors
-    assert theirs.read_bytes() == b"theirs"

@@ -42,7 +42,7 @@ def efficiency_of(scene: pt.Scene, *torques: float) -> float:
 
 
 @pytest.mark.parametrize("name", ["paper", "differential"])
-def test_efficiency_of_a_run_counts_power_at_any_shaft_through_a_reversal(tmp_path, name):
+def test_efficiency_counts_power_at_any_shaft(tmp_path, name):
     scene = pt.load_scene(name)
     torque = scene.operating_point.input_torque
     found = read_outcome(
@@ -52,7 +52,7 @@ def test_efficiency_of_a_run_counts_power_at_any_shaft_through_a_reversal(tmp_pa
     assert 0.9 < found.efficiency < 1.0
 
 
-def test_sums_of_arriving_states_are_those_of_the_file_and_replace_reading_it(tmp_path):
+def test_sums_of_arriving_states_replace_reading_the_file(tmp_path):
     folder = recorded(tmp_path / "run", pt.load_scene("differential"), 20.0, -20.0)
     arriving = Sums()
     for _, state in messages_of(folder, NAMESPACE, ("gearbox_state",), []):

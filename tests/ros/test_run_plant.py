@@ -90,18 +90,6 @@ def test_a_crack_of_one_percent_is_found_in_four_seconds(run: Run, tmp_path: Pat
 
 
 @pytest.mark.release
-def test_a_follower_detects_a_crack_by_the_accelerometer_alone(run: Run, tmp_path: Path) -> None:
-    vibrating = CRACK.replace("encoders: {rate: 20 kHz, lost: 0.003}", "vibration: {rate: 10 kHz}")
-    (tmp_path / "vibrating.yaml").write_text(vibrating.replace("0.01}]", "0.1}]"))
-    process = run("--hidden", "vibrating.yaml", "--duration", "40", "--json", "out.json")
-    _, errors = process.communicate(timeout=5 * LONG)
-    assert process.returncode == 0, errors
-    (crack,) = json.loads((tmp_path / "out.json").read_text())["events"]
-    assert crack["what"] == "vibration grew: sidebands of the sun"
-    assert crack["since"] <= 25.0 < crack["found"] < 32.0
-
-
-@pytest.mark.release
 def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Path) -> None:
     (tmp_path / "healthy.yaml").write_text(CRACK.partition("changes:")[0])
     process = run("--hidden", "healthy.yaml", "--duration", "120", "--json", "out.json")
@@ -112,9 +100,7 @@ def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Pat
 
 
 @pytest.mark.exhaustive
-def test_an_interrupt_leaves_a_finished_recording_and_says_what_was_judged(
-    run: Run, peer: Peer, tmp_path: Path
-) -> None:
+def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path: Path) -> None:
     from planetary_twin_msgs.msg import FollowerEstimate
 
     estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")

@@ -4,44 +4,15 @@ from __future__ import annotations
 
 import itertools
 
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 from planetary_twin_msgs.srv import Step
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters
 from rclpy.time import Time
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
-STORM = 300  # parameter changes, as fast as possible
-
-
-def change_state(peer: Peer, label: str) -> None:
-    request = ChangeState.Request(transition=Transition(label=label))
-    assert peer.call(ChangeState, f"{NODE}/change_state", request).success
-
-
-def pause(peer: Peer, paused: bool) -> None:
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused)).success
-
-
-def storm(peer: Peer) -> None:
-    """Set a parameter repeatedly without waiting for responses."""
-    client = peer.node.create_client(SetParameters, f"{NODE}/set_parameters")
-    peer.until(client.service_is_ready)
-    for k in range(STORM):
-        number = ParameterValue(
-            type=ParameterType.PARAMETER_DOUBLE, double_value=1.0 + 0.5 * k / (STORM - 1)
-        )
-        parameter = Parameter(name="lambda_ratio", value=number)
-        client.call_async(SetParameters.Request(parameters=[parameter]))
-    # The middleware decides how many of them a service accepts at once: the last one counts.
-    assert peer.set(NODE, lambda_ratio=1.6).successful
-    peer.node.destroy_client(client)
 
 
 def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Start) -> None:
@@ -58,27 +29,27 @@ def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Sta
         peer.until(lambda: len(states) > count + 5)
 
     run()
-    storm(peer)
+    assert peer.set(NODE, lambda_ratio=1.6).successful
     peer.until(lambda: points[-1].lambda_ratio == 1.6)
-    pause(peer, True)
+    peer.pause(NODE)
     for value in (2e-7, 2.5e-7, 3e-7):
         assert peer.set(NODE, backlash=value).successful
         peer.until(lambda value=value: points[-1].backlash == value)
     assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.025)).success
-    pause(peer, False)
+    peer.pause(NODE, False)
     run()
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     run()
-    change_state(peer, "deactivate")
+    peer.change_state(NODE, "deactivate")
     assert peer.set(NODE, backlash=4e-7).successful
-    change_state(peer, "activate")
+    peer.change_state(NODE, "activate")
     peer.until(lambda: points[-1].backlash == 4e-7)
     run()
     for label in ("deactivate", "cleanup", "configure"):
-        change_state(peer, label)
+        peer.change_state(NODE, label)
     # Publishers are new, and send their first messages to the subscribers found so far.
     peer.until(lambda: all(peer.node.count_publishers(f"{TWIN}/{name}") for name in received))
-    change_state(peer, "activate")
+    peer.change_state(NODE, "activate")
     run()
     for messages in received.values():
         for before, after in itertools.pairwise(messages):

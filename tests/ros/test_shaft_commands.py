@@ -3,37 +3,36 @@
 from __future__ import annotations
 
 import math
-import signal
 import time
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from planetary_twin import shaft_commands
 from planetary_twin.shaft_commands import ShaftCommands, fault_of_names, names_given
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.schedule import read_runs
-from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
 from .peer import TWIN, Peer
+from .reported import check_verified
 
 NODE = f"{TWIN}/simulation"
 PAPER = pt.load_scene("paper")
 SUN, RING = "sun_joint", "ring_joint"
 
 
-def driven(folder: Path, input: str, output: str, more: str = "") -> str:
-    """A scene file with these ports, and `more` fields of the drive."""
+def driven(folder: Path, input: str, output: str) -> str:
+    """A scene file with these ports."""
     path = folder / "driven.yaml"
-    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}{more}}}"
+    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}}}"
     path.write_text(f"base: paper\nname: driven\ndrive: {ports}\n")
     return str(path)
 
@@ -45,13 +44,9 @@ def command(effort: tuple[float, float], stamp: int = 0) -> JointState:
     return message
 
 
-def running(
-    peer: Peer, start: Start, folder: Path, *options: str, more: str = ""
-) -> list[JointState]:
+def running(peer: Peer, start: Start, folder: Path, **given: Any) -> list[JointState]:
     """Joint states of a simulation whose torques are given."""
-    path = driven(folder, "torque", "torque", more)
-    given = [part for option in (f"scene:={path}", *options) for part in ("-p", option)]
-    start("planetary_twin.simulation", "--ros-args", *given)
+    start("planetary_twin.simulation", scene=driven(folder, "torque", "torque"), **given)
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     peer.until(lambda: joints)
     return joints
@@ -78,9 +73,9 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Pause, reset, then commands in and states out, one call a step, at any load."""
-    joints = running(peer, start, tmp_path, "tolerance:=0.0", "compute_share:=0.9")
+    joints = running(peer, start, tmp_path, tolerance=0.0, compute_share=0.9)
     peer.until(lambda: len(joints) > 200)  # the tolerance has been selected by the load
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
     twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
     rng, begin, calls = np.random.default_rng(3), time.monotonic(), 300
@@ -121,8 +116,8 @@ def reports_on_commands(arrays: list[DiagnosticArray]) -> set[str]:
 def test_steps_with_a_command_that_no_port_takes_are_refused(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    running(peer, start, tmp_path, "rate_factor:=0.0", "tolerance:=0.0")
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
+    peer.pause(NODE)
     now = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3)).simulated_time
     for request, reason in (
         (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),
@@ -148,40 +143,11 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
     assert answer.message == "command: must be empty if there are commands"
 
 
-def test_diagnostics_count_commands_that_are_out_of_range_or_have_no_name(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    running(peer, start, tmp_path)
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-    diagnostics = peer.listen(DiagnosticArray, "/diagnostics")
-
-    def counted() -> bool:
-        publisher.publish(command((1e9, 0.0)))
-        publisher.publish(JointState(name=[SUN], effort=[0.1, 0.2]))
-        status = [each for array in diagnostics for each in array.status if "commands" in each.name]
-        keys = {value.key for each in status for value in each.values}
-        return {"ignored: out of range", "ignored: more values than names"} <= keys
-
-    peer.until(counted)
-
-
-def test_commands_by_topic_drive_the_shafts(peer: Peer, start: Start, tmp_path: Path) -> None:
-    joints = running(peer, start, tmp_path)
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-
-    def follows(effort: tuple[float, float]) -> bool:
-        publisher.publish(command(effort))
-        return (torque(joints[-1], SUN), torque(joints[-1], RING)) == pytest.approx(effort)
-
-    peer.until(lambda: follows((66.0, 148.0)))
-    peer.until(lambda: follows((60.0, 146.0)))
-
-
 @pytest.mark.parametrize("silence", ["hold", "zero", "brake"])
 def test_silence_holds_releases_or_brakes(
     peer: Peer, start: Start, tmp_path: Path, silence: str
 ) -> None:
-    joints = running(peer, start, tmp_path, "command_timeout:=0.3", f"command_silence:={silence}")
+    joints = running(peer, start, tmp_path, command_timeout=0.3, command_silence=silence)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
 
     def follows() -> bool:
@@ -199,32 +165,6 @@ def test_silence_holds_releases_or_brakes(
         # The shaft stands; the sun swings about it, since the torque on the ring has gone.
         assert abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0
     peer.until(follows)  # the next command acts again
-
-
-def test_a_node_brakes_a_shaft_that_its_client_left_beyond_the_limit(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    """Also without a command that could be refused: the port itself brakes."""
-    limit = 200.0
-    options = ("command_timeout:=0.3", "command_silence:=brake")
-    joints = running(peer, start, tmp_path, *options, more=f", speed_limit: {limit}")
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
-
-    def is_fast() -> bool:
-        publisher.publish(command((65.0, 0.0)))
-        return speed(joints[-1], SUN) > 1.1 * limit
-
-    peer.until(is_fast)
-    count = len(joints)
-    peer.until(lambda: abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0)
-    speeds = [speed(state, SUN) for state in joints[count:]]
-    braked = [now for now in speeds[int(np.argmax(speeds)) :] if now > 30.0]
-    # The sun swings on the shaft, whose end is braked.
-    slope = np.polyfit(np.arange(len(braked)) * 0.01, braked, 1)[0]
-    assert -slope == pytest.approx(PAPER.drive.speed_control.slew_rate, rel=0.1)
-    faults = [status for each in reports for status in each.status if "s: brake" in status.message]
-    assert {status.level for status in faults} == {DiagnosticStatus.ERROR}
 
 
 def received(
@@ -266,18 +206,6 @@ def test_repeated_and_reordered_commands_have_no_effect() -> None:
     assert torques(commands) == {}
 
 
-def test_the_report_counts_what_was_ignored_and_names_the_silence() -> None:
-    commands = received(command((1.0, 2.0), 5), command((3.0, 4.0), 5))
-    status = commands.status("/twin")
-    assert (ord(status.level), status.name) == (1, "twin/simulation: commands")
-    assert [(v.key, v.value) for v in status.values] == [("ignored: repeated or out of order", "1")]
-    assert received().status("/twin").message == "no command yet"
-    silent = received(command((1.0, 2.0)), timeout=1e-3)
-    torques(silent)
-    time.sleep(0.01)
-    assert silent.status("/twin").message.endswith("s: hold")
-
-
 def test_a_fault_is_reported_once_with_its_reason() -> None:
     commands = received(command((1.0, 2.0)), command((1e9, 2.0)))
     torques(commands)
@@ -291,7 +219,7 @@ def test_a_fault_is_reported_once_with_its_reason() -> None:
     assert [(each.key, each.value) for each in second.values] == [("ignored: out of range", "1")]
 
 
-def test_a_misspelt_joint_is_named_while_its_shaft_has_no_command() -> None:
+def test_a_misspelt_joint_is_named() -> None:
     commands = received(JointState(name=[SUN, "rin_joint"], effort=[1.0, 2.0]))
     assert torques(commands) == {"input_torque": 1.0}
     status = commands.status("/twin")
@@ -307,7 +235,7 @@ def test_a_misspelt_joint_is_named_while_its_shaft_has_no_command() -> None:
     )
 
 
-def test_only_a_joint_of_the_twin_that_is_named_twice_discards_a_command() -> None:
+def test_a_joint_named_twice_discards_a_command() -> None:
     other = JointState(name=["elbow", SUN, "elbow"], effort=[7.0, 5.0, 8.0])
     assert fault_of_names(other, (SUN, RING)) == ""
     own = JointState(name=[SUN, RING, SUN], effort=[1.0, 2.0, 3.0])
@@ -344,18 +272,6 @@ def test_a_shaft_faster_than_the_limit_of_commands_is_reported() -> None:
     assert "rad/s: exceeds 105 rad/s, from drive.speed_limit; speed of the output" in status.message
 
 
-def test_late_commands_have_no_effect() -> None:
-    now = 10**18
-    commands = received(
-        command((1.0, 2.0), now - 2_000_000_000),
-        command((3.0, 4.0), now),
-        timeout=1.0,
-        now=lambda: now,
-    )
-    assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
-    assert commands.ignored == {"late": 1}
-
-
 @pytest.mark.parametrize(
     ("offset", "words"),
     [
@@ -382,7 +298,7 @@ def test_a_command_that_waited_to_be_taken_is_not_late() -> None:
     assert torques(commands) == {"input_torque": 1.0, "output_torque": 2.0}
 
 
-def test_a_command_far_ahead_of_the_clock_does_not_lock_out_later_ones() -> None:
+def test_a_command_ahead_of_the_clock_leaves_later_ones() -> None:
     now = 10**18
     commands = received(
         command((1.0, 2.0), now + 3600 * 10**9), command((3.0, 4.0), now), now=lambda: now
@@ -398,14 +314,6 @@ def test_commands_act_after_the_clock_was_set_back() -> None:
     commands.receive(command((3.0, 4.0), now))
     assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
     assert not commands.ignored
-
-
-@pytest.fixture
-def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """The steady time of commands [s], which a test sets."""
-    now = [0.0]
-    monkeypatch.setattr(shaft_commands, "time", SimpleNamespace(monotonic=lambda: now[0]))
-    return now
 
 
 def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:
@@ -477,7 +385,7 @@ def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) ->
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("output", ["torque", "motion", "machine"])
 @pytest.mark.parametrize("input", ["torque", "motion"])
-def test_silence_brakes_a_live_twin_far_beyond_the_limit_of_commands(
+def test_silence_brakes_far_beyond_the_limit_of_commands(
     clock: list[float], input: str, output: str, sign: float
 ) -> None:
     """Interval by interval as a node does, with an error until the shaft is at rest."""
@@ -526,25 +434,6 @@ def test_a_defect_in_taking_commands_is_a_silence(clock: list[float]) -> None:
     assert "not taken (RuntimeError: the middleware is gone)" in commands.status("/twin").message
 
 
-def test_commands_from_before_a_stall_do_not_end_a_silence(clock: list[float]) -> None:
-    """A node that was stopped finds them in its queue when it continues."""
-    commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
-    commands.given(braked, 0.01)
-    clock[0] = 8.0
-    commands.receive(command((65.0, 147.0)), waited=7_900_000_000)
-    assert commands.given(braked, 0.01) == {}
-    assert braked.ports == ("brake", "torque")
-
-
-def test_a_joint_whose_port_takes_something_else_is_counted() -> None:
-    commands = received(JointState(name=[SUN], velocity=[1.0]))
-    assert torques(commands) == {}
-    assert commands.ignored == {f"{SUN}: drive.input.port = torque": 1}
-    both = received(JointState(name=[SUN], effort=[5.0], velocity=[1.0]))
-    assert torques(both) == {"input_torque": 5.0}
-    assert not both.ignored
-
-
 @pytest.mark.parametrize("continuous", [False, True])
 def test_positions_are_those_of_joint_states(continuous: bool) -> None:
     """Within one turn, the nearest angle is meant; with `continuous_joints`, the angle itself."""
@@ -572,7 +461,7 @@ def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
     assert empty.ignored == {reason: 1}
 
 
-def test_a_command_for_an_unknown_joint_is_reported_with_its_name() -> None:
+def test_a_command_for_an_unknown_joint_is_reported() -> None:
     commands = received(JointState(name=["elbow"], effort=[1.0]))
     text = "of sun_joint or ring_joint (the command names 'elbow')"
     assert text in commands.status("/twin").message
@@ -588,9 +477,9 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     """Commands at 1 kHz are in the recording as they acted, and a brake in between."""
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=driven")
+    logger = start("planetary_twin.logger", name="driven")
     joints = running(
-        peer, start, tmp_path, "wait_for:=logger", "command_timeout:=0.3", "command_silence:=brake"
+        peer, start, tmp_path, wait_for="logger", command_timeout=0.3, command_silence="brake"
     )
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
@@ -604,12 +493,7 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
     for n in range(100):
         publisher.publish(command((20.0 + 0.1 * n, 40.0)))
         time.sleep(1e-3)
-    logger.send_signal(signal.SIGINT)
-    logger.communicate(timeout=20.0)
-    assert logger.returncode == 0
-    folder = tmp_path / "recordings/driven"
-    verdict = verify(folder, TWIN)
-    assert verdict.identical, verdict
+    check_verified(logger, folder := tmp_path / "recordings/driven")
     (run,) = read_runs(folder, TWIN, [])
     assert len(run.given) > 20
     ports = [change.values["drive.input.port"] for change in run.changes]

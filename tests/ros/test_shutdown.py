@@ -107,9 +107,7 @@ def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer: Peer, start: St
 
 
 @pytest.mark.exhaustive
-def test_a_signal_during_a_service_call_or_a_transition_ends_the_node(
-    peer: Peer, start: Start
-) -> None:
+def test_a_signal_during_a_call_or_transition_ends_the_node(peer: Peer, start: Start) -> None:
     process = running(peer, start)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     states = peer.listen(GearboxState, STATES)
@@ -128,10 +126,8 @@ def test_a_signal_during_a_service_call_or_a_transition_ends_the_node(
         ended_well(process)
 
 
-def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_complete(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+def test_both_nodes_end_on_one_ctrl_c(peer: Peer, start: Start, tmp_path: Path) -> None:
+    logger = start("planetary_twin.logger", name="bag")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
     peer.until(lambda: recorded(status, STATES) > 50)
@@ -143,18 +139,16 @@ def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_complete(
 
 
 @pytest.mark.exhaustive
-def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_each_node_may_be_killed_and_restarted(peer: Peer, start: Start, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, STATES)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start)
-    first = start("planetary_twin.logger", "--ros-args", "-p", "name:=first")
+    first = start("planetary_twin.logger", name="first")
     peer.until(lambda: recorded(status, STATES) > 50)
     first.kill()
     first.wait(QUICK)
     status.clear()
-    second = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
+    second = start("planetary_twin.logger", name="second")
     peer.until(lambda: recorded(status, STATES) > 50)
     assert [b.sequence - a.sequence for a, b in itertools.pairwise(states)] == [1] * (
         len(states) - 1
@@ -174,7 +168,7 @@ def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
 
 
 @pytest.mark.parametrize("faster", [True, False])
-def test_a_signal_that_is_faster_is_no_failure_and_another_error_of_rcl_is(
+def test_a_faster_signal_is_no_failure_of_rcl(
     monkeypatch: pytest.MonkeyPatch, faster: bool
 ) -> None:
     context = Context()

@@ -20,7 +20,7 @@ SIGNALS.stop.wait()
 """
 
 
-def test_a_process_survives_thousands_of_signals_that_interrupt_one_another() -> None:
+def test_thousands_of_signals_interrupt_one_another() -> None:
     with subprocess.Popen([sys.executable, "-c", WORK], stdout=subprocess.PIPE, text=True) as child:
         assert child.stdout
         assert child.stdout.readline() == "ready\n"

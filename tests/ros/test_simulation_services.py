@@ -48,7 +48,7 @@ def reset(peer: Peer, scope: int) -> Result:
 
 
 def test_time_is_paused_stepped_reset_and_played(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", "--ros-args", "-p", "publish_rate:=50")
+    start("planetary_twin.simulation", publish_rate=50)
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: states)
     assert state(peer) == PLAYING

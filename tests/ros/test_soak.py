@@ -19,7 +19,7 @@ from rosbags.rosbag2 import Reader
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .reported import figures, listen_to_reports
+from .reported import figures, listen_to_reports, published
 
 DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
 SETTLING = 120.0  # [s] after which everything that is loaded or allocated once has been
@@ -29,11 +29,6 @@ PERIOD = 10  # [s] of the parameter
 # 0.3 kB per entry, and the steps of a repeated mesh cycle: a tighter tolerance needs more of them.
 GROWTH = 1.0
 SLOPE = 1.0  # [MB/h]
-
-
-def published(reported: dict[str, str]) -> dict[str, int]:
-    prefix = "published."
-    return {k.removeprefix(prefix): int(v) for k, v in reported.items() if k.startswith(prefix)}
 
 
 def accounted(status: RecorderStatus) -> dict[str, int]:
@@ -64,11 +59,11 @@ def check_recording(folder: Path, reported: dict[str, str], lost: dict[str, int]
 
 
 @pytest.mark.timeout(DURATION + 300.0)
-def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
+def test_a_long_run_neither_grows_nor_loses_nor_is_late(
     peer: Peer, start: Start, tmp_path: Path, record_property
 ) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    process = start("planetary_twin.simulation", "--ros-args", "-p", "autostart:=false")
+    logger = start("planetary_twin.logger", name="bag")
+    process = start("planetary_twin.simulation", autostart="false")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status", 1)
     reports = listen_to_reports(peer)
     peer.change_state(NODE, "configure")

@@ -10,9 +10,6 @@ from subprocess import CompletedProcess
 import pytest
 from planetary_twin.monitor import FIGURES, sparkline
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
-from typer.main import get_command
-
-from planetary_twin_py.cli import build_app
 
 from .peer import Peer
 from .programs import Forked
@@ -169,8 +166,3 @@ def test_every_figure_of_one_kind_of_mesh_names_it() -> None:
             states.append(state)
         moved = [figure.title for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
         assert moved and all(kind.replace("_", "-") in name for name in moved)
-
-
-def test_the_commands_are_offered_on_the_command_line() -> None:
-    names = get_command(build_app()).list_commands(None)
-    assert {"op", "monitor", "param"} <= set(names)

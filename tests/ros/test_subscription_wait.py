@@ -13,43 +13,37 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .reported import figures, listen_to_reports
+from .reported import figures, listen_to_reports, recorded
 
 STATES = f"{TWIN}/gearbox_state"
-WAITING = ("--ros-args", "-p", "wait_for:=logger")
 
 
 def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderStatus:
     """The first status of the logger that counts that many messages."""
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-
-    def enough() -> bool:
-        topics = list(status[-1].topics) if status else []
-        return topic in topics and status[-1].recorded[topics.index(topic)] >= messages
-
-    peer.until(enough)
+    peer.until(lambda: recorded(status, topic) >= messages)
     return status[-1]
 
 
 def test_nodes_that_start_together_record_every_message(peer: Peer, start: Start) -> None:
     start("planetary_twin.logger")
-    start("planetary_twin.simulation", *WAITING)
+    start("planetary_twin.simulation", wait_for="logger")
     status = accounted(peer)
     assert not any(status.lost)
 
 
 def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", *WAITING)
+    start("planetary_twin.simulation", wait_for="logger")
     reports = listen_to_reports(peer)
     peer.until(lambda: figures(reports).get("state") == "waits")
-    start("planetary_twin.logger", "--ros-args", "-p", f"topics:=[{TWIN}/joint_states]")
+    start("planetary_twin.logger", topics=f"[{TWIN}/joint_states]")
     status = accounted(peer, f"{TWIN}/joint_states")
     assert list(status.topics) == [f"{TWIN}/joint_states"]
     assert not any(status.lost)
 
 
 def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) -> None:
-    simulation = start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=nobody")
+    simulation = start("planetary_twin.simulation", wait_for="nobody")
     states = peer.listen(GearboxState, STATES)
     peer.until(lambda: states, TIMEOUT + 60.0)
     simulation.terminate()
@@ -57,11 +51,9 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
     assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
 
 
-def test_a_recorder_that_has_gone_is_an_error_until_another_one_comes(
-    peer: Peer, start: Start
-) -> None:
+def test_a_recorder_that_has_gone_is_an_error(peer: Peer, start: Start) -> None:
     logger = start("planetary_twin.logger")
-    start("planetary_twin.simulation", *WAITING)
+    start("planetary_twin.simulation", wait_for="logger")
     arrays = peer.listen(DiagnosticArray, "/diagnostics")
 
     def recorder() -> tuple[bytes, str]:
@@ -117,7 +109,7 @@ def waited(
     return clock.now - 100.0
 
 
-def test_a_subscription_of_an_unknown_node_ends_the_wait_without_a_warning(
+def test_a_subscription_of_an_unknown_node_ends_the_wait(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert waited(monkeypatch, "logger") < 1.0
@@ -125,7 +117,7 @@ def test_a_subscription_of_an_unknown_node_ends_the_wait_without_a_warning(
     assert "has not subscribed" not in capsys.readouterr().out
 
 
-def test_a_busy_logger_that_subscribes_topic_by_topic_is_waited_for(
+def test_a_logger_that_subscribes_slowly_is_waited_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """And one that has subscribed to all is waited for no longer."""

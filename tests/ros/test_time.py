@@ -12,7 +12,7 @@ from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 from planetary_twin_msgs.srv import NaturalModes, Step
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 
@@ -70,28 +70,20 @@ def received(peer: Peer, start: Start) -> Received:
     return Received(peer)
 
 
-def pause(peer: Peer, paused: bool) -> str:
-    answer = peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused))
-    assert answer.success
-    return answer.message
-
-
 def step(peer: Peer, duration: float) -> Step.Response:
     return peer.call(Step, f"{NODE}/step", Step.Request(duration=duration))
 
 
 def stand(peer: Peer, states: list[GearboxState]) -> float:
     """Pause; returns the simulated time [s] after all earlier messages have arrived."""
-    word, *_, instant, unit = pause(peer, True).split()
+    word, *_, instant, unit = peer.pause(NODE).split()
     assert (word, unit) == ("paused", "s")
     held = float(instant)
     peer.until(lambda: states[-1].simulated_time == pytest.approx(held, abs=1e-6))
     return held
 
 
-def test_a_paused_twin_publishes_nothing_and_resumes_at_the_same_time(
-    peer: Peer, received: Received
-) -> None:
+def test_a_paused_twin_resumes_at_the_same_time(peer: Peer, received: Received) -> None:
     stand(peer, received.states)
     stood = len(received.states)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
@@ -102,7 +94,7 @@ def test_a_paused_twin_publishes_nothing_and_resumes_at_the_same_time(
     peer.until(lambda: len(paused()) >= 2)  # a second apart
     assert len(received.states) == stood
     assert all(ord(report.status[0].level) == 0 for report in paused())
-    pause(peer, False)
+    peer.pause(NODE, False)
     peer.until(lambda: len(received.states) > stood + 20)
     times = [state.simulated_time for state in received.states]
     assert all(math.isclose(b - a, INTERVAL, abs_tol=1e-9) for a, b in itertools.pairwise(times))
@@ -124,7 +116,7 @@ def test_a_step_of_a_paused_twin_has_the_requested_duration(peer: Peer, received
 
 
 def test_an_invalid_step_is_refused(peer: Peer, received: Received) -> None:
-    pause(peer, True)
+    peer.pause(NODE)
     for duration in (0.0, -1.0, math.nan, 1e9):
         answer = step(peer, duration)
         assert not answer.success
@@ -158,16 +150,14 @@ def test_a_reset_starts_again_with_the_parameters_in_force(peer: Peer, received:
 
 def test_the_clock_has_the_time_of_the_messages(peer: Peer, start: Start) -> None:
     # Launch files set `use_sim_time` for all nodes: the source must not wait for itself.
-    options = ("clock:=true", "use_sim_time:=true", "rate_factor:=0.1")
-    given = itertools.chain.from_iterable(("-p", option) for option in options)
-    start("planetary_twin.simulation", "--ros-args", *given)
+    start("planetary_twin.simulation", clock="true", use_sim_time="true", rate_factor=0.1)
     clocks = peer.listen(Clock, "/clock")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     follower = Follower(peer)
     # A loaded machine may delay the twin for a while.
     peer.until(lambda: follower.pace() == pytest.approx(0.1, rel=0.05))
     stand(peer, states)
-    pause(peer, False)
+    peer.pause(NODE, False)
     stood = len(clocks)
     peer.until(lambda: len(clocks) > stood + 2)
     stamps = {nanoseconds(state.header.stamp) for state in states}

@@ -32,7 +32,7 @@ def test_a_running_simulation_reaches_what_is_measured(peer: Peer, start: Start)
     start("planetary_twin.simulation")
     peer.until(lambda: states)
     rig = OtherRig(peer)
-    start("planetary_twin.follower", "--ros-args", "-p", "twin:=simulation")
+    start("planetary_twin.follower", twin="simulation")
     rig.wait_for_the_follower()
     rig.send(0.0, 4.0)
     peer.until(lambda: abs(states[-1].input_torque - 50.0) < 0.5)
@@ -51,7 +51,7 @@ def test_changes_are_at_most_one_a_second_and_not_repeated(peer: Peer, start: St
 
     peer.node.create_service(SetOperatingPoint, f"{TWIN}/other/set_operating_point", answer)
     rig = Rig(peer)
-    start("planetary_twin.follower", "--ros-args", "-p", "twin:=other")
+    start("planetary_twin.follower", twin="other")
     rig.wait_for_the_follower()
     estimates: list[FollowerEstimate] = rig.estimates
     rig.send(0.0, 2.0)

@@ -16,7 +16,6 @@ import planetary_twin_py as pt
 from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
 
-UNCONFIGURED = ("--ros-args", "-p", "autostart:=false")
 OF_ROS = {"/rosout", "/parameter_events"}
 SIMULATION = f"{TWIN}/simulation"
 
@@ -41,8 +40,8 @@ def read_only(peer: Peer, name: str) -> bool:
     return bool(peer.call(DescribeParameters, service, request).descriptors[0].read_only)
 
 
-def test_a_simulation_uses_parameters_set_before_it_is_configured(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", *UNCONFIGURED)
+def test_a_simulation_uses_parameters_set_when_unconfigured(peer: Peer, start: Start) -> None:
+    start("planetary_twin.simulation", autostart="false")
     assert peer.state(SIMULATION) == "unconfigured"
     assert topics(peer) == set()
     assert not read_only(peer, "publish_rate") and read_only(peer, "autostart")
@@ -87,7 +86,7 @@ def test_a_simulation_uses_parameters_set_before_it_is_configured(peer: Peer, st
 
 
 def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", *UNCONFIGURED, "-p", "input_torque:=80")
+    start("planetary_twin.simulation", autostart="false", input_torque=80)
     before = values(peer, "scene", "input_torque", "gearset.teeth.sun")
     for given in (
         {"scene": "no_such_scene"},
@@ -104,11 +103,11 @@ def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Star
     peer.change_state(SIMULATION, "configure")
 
 
-def test_a_logger_records_into_the_folder_set_before_it_is_configured(
+def test_a_logger_uses_the_name_set_when_unconfigured(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     node = f"{TWIN}/logger"
-    start("planetary_twin.logger", *UNCONFIGURED)
+    start("planetary_twin.logger", autostart="false")
     assert peer.state(node) == "unconfigured"
     assert topics(peer) == set()
     assert peer.set(node, name="later").successful

@@ -12,9 +12,8 @@ import pytest
 from mcap.records import Message
 from planetary_twin.watching import follow
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
-from rerun.chunk import McapReader, RrdReader
+from rerun.chunk import RrdReader
 
-from .conftest import Start
 from .peer import TWIN, Peer
 
 COMMAND = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", "view"]
@@ -27,7 +26,7 @@ def _view(*options: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.exhaustive
-def test_a_running_twin_is_drawn_and_its_absence_is_reported_in_one_line(
+def test_a_running_twin_is_drawn_or_said_to_be_absent(
     user: Peer, points: list[OperatingPoint], tmp_path: Path
 ) -> None:
     states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
@@ -69,27 +68,3 @@ def test_what_arrives_while_the_last_batch_is_drawn_is_drawn_too(
     user.until(lambda: time.monotonic() > end and len(states) > count + 20)
     (rest,) = batches
     assert sum(isinstance(record, Message) for record in rest) > 20
-
-
-@pytest.mark.exhaustive
-def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
-    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    start("planetary_twin.simulation")
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: len(states) > 100)
-    logger.terminate()
-    peer.until(lambda: logger.poll() is not None)
-    drawn, names, turning = set(), [], 0
-    for chunk in McapReader(tmp_path / "recordings/bag/bag_0.mcap").stream():
-        columns = chunk.to_record_batch()
-        if {"Boxes3D:half_sizes", "Cylinders3D:radii"} & set(columns.schema.names):
-            drawn.add(chunk.entity_path.split("/")[-2])
-        if "SeriesLines:names" in columns.schema.names:
-            names += columns.column("SeriesLines:names").to_pylist()[0]
-        if chunk.entity_path == "/tf" and "Transform3D:quaternion" in columns.schema.names:
-            turning += chunk.num_rows
-    assert {"sun", "planet_3", "ring", "carrier"} <= drawn
-    assert {"sun_joint", "planet_3_joint"} <= set(names)
-    assert turning > 100

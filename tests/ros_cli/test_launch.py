@@ -65,7 +65,7 @@ def test_a_twin_in_another_domain_is_not_discovered(ros2: Ros2) -> None:
     assert "[DEBUG]" in ros2.output(far)
 
 
-def test_deprecated_names_of_arguments_work_and_a_clock_is_followed(ros2: Ros2) -> None:
+def test_deprecated_names_of_arguments_work(ros2: Ros2) -> None:
     params = ros2.folder / "older.yaml"
     params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
     older = ("composed:=true", f"params:={params}")
@@ -86,7 +86,7 @@ def test_a_scene_keeps_its_operating_point(ros2: Ros2) -> None:
     assert ros2.interrupt(light) == 0
 
 
-def test_a_simulation_that_cannot_start_ends_the_launch_with_the_reason(ros2: Ros2) -> None:
+def test_a_simulation_that_cannot_start_ends_the_launch(ros2: Ros2) -> None:
     process = ros2.start(*LAUNCH, "namespace:=wrong", "rate_factor:=1000.0")
     process.wait(60)
     output = ros2.output(process)

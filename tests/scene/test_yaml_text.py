@@ -1,7 +1,5 @@
 """YAML of a scene: a duplicate key is refused, with both of its lines."""
 
-from itertools import pairwise
-
 import pytest
 import yaml
 
@@ -44,32 +42,20 @@ def test_other_text_is_read_as_yaml_reads_it(text):
     assert read_yaml(text) == yaml.safe_load(text)
 
 
-LAUGHS = "a: &a [lol, lol]\n" + "".join(
-    f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefghij")
-)
-
-
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("&a [*a]", "scene contains itself: *a is in &a"),
-        (LAUGHS, "scene has too many values: must be at most 5000"),
-        (f"base: {LAUGHS.replace(chr(10), ', ')}", "scene is not YAML: mapping values"),
-        ("[" * 3000 + "]" * 3000, "scene is nested too deeply: must be at most 50 levels"),
-        ("base: paper\nmesh: " + "{a: " * 3000 + "}" * 3000, "must be at most 50 levels"),
         ("faults:\n" + "- {kind: crack}\n" * 100_000, "scene has more than 100000 characters"),
-        ("faults:\n" + "- {kind: x}\n" * 3000, "too many values: must be at most 5000"),
         ("base: paper\na: " + "9" * 5000, "a: no such field"),
         ("a: !!int 0x10", "does not match its tag: '0x10' is not a whole number in decimal digits"),
         ("a: !!float 1:30", "does not match its tag: '1:30' is not a decimal number"),
         ("a: !!timestamp x", "scene has a value that does not match its tag"),
         ("a: !!python/object/apply:os.system [x]", "could not determine a constructor"),
-        ('a: "\\ud800"', "scene is not YAML: "),
         ('base: paper\n"\\e[31mred": 1', "\\x1b[31mred: no such field"),
         ("base: [paper]", "base = \"['paper']\": must be a file NAME.yaml"),
     ],
 )
-def test_a_hostile_text_is_refused_in_one_short_line(text, reason):
+def test_a_text_that_is_no_scene_is_refused_in_one_line(text, reason):
     message = refusal(text)
     assert reason in message
     assert len(message) < 500 and "\n" not in message
@@ -104,10 +90,8 @@ def test_yes_is_no_number(text, reason):
 OTHER_NUMBERS = {
     "in base 60": "1:30",
     "in base 60 with a fraction": "190:20:30.15",
-    "very long in base 60": "1" + ":59" * 25_000,
     "hexadecimal": "0x1F",
     "negative and hexadecimal": "-0x1F",
-    "very long and hexadecimal": "0x" + "f" * 80_000,
     "binary": "0b11",
     "octal of YAML 1.2": "0o17",
     "with an underscore": "1_0",
@@ -121,9 +105,7 @@ OTHER_NUMBERS = {
 
 
 @pytest.mark.parametrize("number", OTHER_NUMBERS.values(), ids=OTHER_NUMBERS)
-def test_a_number_that_is_not_plain_and_decimal_is_refused_with_its_field_and_file(
-    tmp_path, number
-):
+def test_a_number_that_is_not_decimal_is_refused(tmp_path, number):
     file = tmp_path / "scene.yaml"
     file.write_text(f"base: paper\noperating_point: {{input_torque: {number}}}\n", "utf-8")
     with pytest.raises(pt.SceneError) as error:
@@ -148,7 +130,7 @@ def test_a_plain_number_is_decimal_whatever_it_starts_with(number, value):
 
 
 @pytest.mark.parametrize("text", ["08", "010", "1:30", "0x1F", "1_0", "12", "1.5", "1e5", ".inf"])
-def test_text_that_looks_like_a_number_is_read_as_it_was_written(text):
+def test_text_that_looks_like_a_number_stays_text(text):
     assert read_yaml(yaml.safe_dump({"name": text})) == {"name": text}
 
 
@@ -163,7 +145,7 @@ def test_an_error_of_a_file_names_the_file_and_the_line(tmp_path):
     )
 
 
-def test_a_file_longer_than_is_read_is_not_said_to_have_another_length(tmp_path):
+def test_a_file_that_is_too_long_is_refused(tmp_path):
     file = tmp_path / "scene.yaml"
     file.write_text("#" * 1_000_000, "utf-8")
     with pytest.raises(pt.SceneError) as error:

@@ -21,7 +21,7 @@ def test_executables_are_those_of_the_package() -> None:
 
 
 @pytest.mark.parametrize("name", first(1, sorted(path.name for path in SCRIPTS.iterdir())))
-def test_executables_run_with_the_interpreter_of_their_environment(name: str) -> None:
+def test_executables_run_with_their_interpreter(name: str) -> None:
     unknown = [FOLDER / name, "--ros-args", "--no-such-option"]
     done = subprocess.run(
         unknown, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=120

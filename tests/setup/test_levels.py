@@ -61,7 +61,7 @@ def test_levels_with_fused_products_compute_the_same_bits(by_level):
         assert np.array_equal(values, by_level["v3"][name], equal_nan=True), name
 
 
-def test_the_level_without_fused_products_computes_the_same_within_the_tolerance(by_level):
+def test_the_level_without_fused_products_agrees(by_level):
     best = by_level[BEST]
     for name, values in best.items():
         if name.startswith("paper_printed"):  # flanks chatter at the jump of its force law

@@ -29,7 +29,7 @@ def run(environment, *arguments):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_the_first_configuration_installs_the_core_into_the_package(tmp_path):
+def test_the_core_is_installed_into_the_package(tmp_path):
     configure(tmp_path)
     installed = (tmp_path / "build/core/cmake_install.cmake").read_text()
     cores = re.findall(r'INSTALL DESTINATION "\$\{CMAKE_INSTALL_PREFIX\}/([^"]*_core)"', installed)

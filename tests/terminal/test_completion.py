@@ -87,7 +87,7 @@ def test_bash_completes_with_the_printed_script():
     assert done.returncode == 0 and done.stdout.startswith("complete "), done.stderr
 
 
-def test_fields_of_a_scene_complete_settings_and_the_options_of_a_sweep():
+def test_fields_of_a_scene_complete_settings_and_sweeps():
     assert offered("simulate", "--set", "backl") == ["backlash="]
     assert offered("sweep", "paper", "--inp") == ["--input-speed", "--input-torque"]
     assert offered("sweep", "paper", "--mesh.damping.lo") == [

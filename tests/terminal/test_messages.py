@@ -34,7 +34,7 @@ def test_an_error_is_one_line_without_the_names_of_python(capsys, error, line):
         ("from = 3", "from = 3"),  # a text of the command itself
     ],
 )
-def test_arguments_of_functions_are_shown_as_options_of_the_command(capsys, error, line):
+def test_arguments_of_functions_are_shown_as_options(capsys, error, line):
     with naming_options(["--sample-rate", "--from"]), pytest.raises(typer.Exit):
         fail(error)
     assert capsys.readouterr().err == f"planetary-twin: {line}\n"

@@ -22,12 +22,6 @@ def test_a_name_is_shown_as_one_plain_line(name, line):
     assert Text.from_markup(shown(name)).plain == line
 
 
-def test_a_long_name_is_shortened_in_its_middle():
-    line = shown(f"/begin{'x' * 60_000}/end")
-    assert line.startswith("/begin") and " ... " in line and line.endswith("/end")
-    assert len(line) <= 100
-
-
 def test_a_line_end_or_markup_in_the_name_of_a_scene_is_escaped(tmp_path):
     file = tmp_path / "scene.yaml"
     file.write_text('base: paper\nname: "a\\nplanetary-twin: fake [/x]"\n', "utf-8")

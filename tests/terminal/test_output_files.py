@@ -80,14 +80,6 @@ def test_a_folder_in_the_place_of_a_file_is_refused_at_once(tmp_path):
     assert "is a folder; name a file" in done.stderr
 
 
-@pytest.mark.parametrize("kind", ["csv", "mcap"])
-def test_a_name_that_no_file_can_have_is_refused_at_once(kind):
-    out = f"{'a' * 300}.{kind}"
-    done = CliRunner().invoke(build_app(), ["simulate", "paper", *LONG, "--out", out])
-    assert done.exit_code == 2
-    assert "File name too long" in done.stderr and done.stderr.count("\n") == 1
-
-
 def test_a_pipe_in_the_place_of_a_table_is_refused_at_once(tmp_path):
     os.mkfifo(pipe := tmp_path / "pipe.csv")
     done = CliRunner().invoke(build_app(), ["plant", "paper", "--out", str(pipe)])

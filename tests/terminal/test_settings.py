@@ -49,7 +49,7 @@ def test_a_number_without_a_unit_is_echoed_with_the_assumed_unit(setting, line):
 @pytest.mark.parametrize(
     "setting", ["input_speed=1000rpm", "mesh.ramp=0.02", "lambda_ratio=1.5", "gearset.teeth.sun=30"]
 )
-def test_a_value_with_a_unit_or_without_need_of_one_is_not_echoed(setting):
+def test_a_value_with_a_unit_is_not_echoed(setting):
     assert notes(invoke(*SHORT, "--set", setting)) == []
 
 

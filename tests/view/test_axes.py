@@ -37,9 +37,7 @@ def drawn(recording, tmp_path_factory):
     return rrd
 
 
-def test_the_sun_is_drawn_displaced_by_the_stated_multiple_and_turns_with_the_carrier(
-    recording, drawn
-):
+def test_the_sun_is_drawn_displaced_by_the_stated_multiple(recording, drawn):
     scene = scene_of(recording)[0]
     scale = scales(scene.gearset, recording.axes_state)
     assert scale.magnification > 1.0
@@ -84,7 +82,7 @@ def test_arrows_have_the_size_of_the_bearing_forces(recording, drawn):
     assert all(np.linalg.norm(vector[0]) == 0.0 for _, vector in still)  # it floats
 
 
-def test_the_scales_of_displacements_and_forces_are_written_in_the_view(recording, drawn):
+def test_scales_are_written_in_the_view(recording, drawn):
     scale = scales(scene_of(recording)[0].gearset, recording.axes_state)
     texts = []
     for chunk in RrdReader(drawn).stream():
@@ -95,7 +93,7 @@ def test_the_scales_of_displacements_and_forces_are_written_in_the_view(recordin
     assert any(text.startswith("Bearing force ") for text in texts)
 
 
-def test_the_orbit_of_the_floating_sun_is_drawn_and_load_shares_are_plotted(recording, drawn):
+def test_orbit_and_load_shares_are_drawn(recording, drawn):
     assert all(len(row) for _, row in rows(drawn, "/orbit/sun/curve", "LineStrips2D:strips"))
     shares = rows(drawn, "/axes/load_share", "Scalars:scalars")
     assert [len(row) for _, row in shares] == [3] * len(recording.axes_state)
@@ -112,7 +110,7 @@ def test_a_torsional_recording_has_nothing_of_axes(tmp_path):
 
 
 @pytest.mark.parametrize("batch", first(1, [1, 50]))
-def test_a_live_view_draws_load_shares_and_arrows_of_the_recording(file, drawn, tmp_path, batch):
+def test_a_live_view_draws_load_shares_and_arrows(file, drawn, tmp_path, batch):
     rrd = tmp_path / "live.rrd"
     view = LiveView(NAMESPACE, lambda: to_file(rrd))
     records = list(records_of(file, []))

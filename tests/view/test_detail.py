@@ -20,7 +20,7 @@ def test_a_short_recording_is_shown_completely(recording):
     assert len(detail.overview(recording, [(0.0, 1.0)]).state) == 100
 
 
-def test_samples_are_used_for_the_start_and_for_changes_within_the_limit(recording, monkeypatch):
+def test_samples_are_used_for_the_start_and_for_changes(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 20_000)
     found = detail.detailed_spans(recording)
     assert [begin <= time < end for (begin, end), (time, *_) in zip(found, TOUR, strict=True)]
@@ -37,7 +37,7 @@ def test_adjoining_intervals_are_merged(recording, monkeypatch):
     assert found[0][0] == 0.0 and found[-1][1] <= 1.0
 
 
-def test_an_overview_keeps_peaks_and_means_and_every_row_in_detail(recording, monkeypatch):
+def test_an_overview_keeps_peaks_and_means(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_ROWS", 10)
     state = recording.state
     state["sun_planet_dte_peak"][57] = 1.0

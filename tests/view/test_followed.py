@@ -64,9 +64,7 @@ def drawn(recording, tmp_path_factory):
     return rrd
 
 
-def test_measured_and_simulated_torque_share_a_plot_and_their_difference_has_its_own(
-    recording, drawn
-):
+def test_measured_and_simulated_torque_share_a_plot(recording, drawn):
     state = recording.state
     found = rows(drawn, "/followed/input_torque")
     times = np.array([time for time, _ in found])
@@ -86,7 +84,7 @@ def test_the_measured_loss_is_a_power(drawn):
     assert set(found[:, 0]) == {LOSS * 100.0}
 
 
-def test_friction_level_balance_and_the_last_word_on_a_change_are_drawn(drawn):
+def test_friction_level_balance_and_changes_are_drawn(drawn):
     assert rows(drawn, "/followed/friction_level")[0][1][0] == 1.1
     assert rows(drawn, "/followed/innovation")[0][1] == [0.5, -1.0, 1.0]
     said = rows(drawn, "/followed/events", "TextLog:text")

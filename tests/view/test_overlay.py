@@ -49,7 +49,7 @@ def entities(rrd):
     return found
 
 
-def test_a_difference_is_computed_for_samples_at_the_same_instant(first):
+def test_a_difference_is_that_of_samples_at_one_instant(first):
     other = altered(first, start=0.05)
     less = difference(first, other).waveform
     assert np.array_equal(less.time, other.waveform.time)
@@ -58,7 +58,7 @@ def test_a_difference_is_computed_for_samples_at_the_same_instant(first):
     assert np.array_equal(less.block, other.waveform.block)
 
 
-def test_samples_at_other_instants_are_excluded_from_the_difference(first):
+def test_samples_at_other_instants_have_no_difference(first):
     other = altered(first)
     other.waveform.time[: len(other.waveform.time) // 2] += 1e-5
     less = difference(first, other).waveform

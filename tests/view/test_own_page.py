@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from planetary_twin_py.view.own_page import policy, without_other_hosts
+from planetary_twin_py.view.own_page import policy
 from planetary_twin_py.view.viewer import Viewer, page
 
 
@@ -73,17 +73,3 @@ def test_the_policy_names_no_host_but_this_machine() -> None:
     sources = {source for listed in directives.values() for source in listed.split()}
     hosts = {source for source in sources if not source.startswith("'")} - {"data:", "blob:"}
     assert hosts == {"http://127.0.0.1:9091", "http://localhost:9091"}
-
-
-@pytest.mark.parametrize(
-    "element",
-    [
-        '<link rel="preconnect" href="https://fonts.gstatic.com" crossorigin />',
-        '<link\n  href="https://fonts.googleapis.com/css2?family=Inter"\n rel="stylesheet">',
-        "<link rel=stylesheet href=//other.host/style.css>",
-    ],
-)
-def test_references_to_other_hosts_are_removed_and_the_rest_is_kept(element: str) -> None:
-    own = '<link rel="icon" href="favicon.ico" /><a href="https://rerun.io">to click on</a>'
-    assert Loaded(element).hosts != {""}
-    assert without_other_hosts(f"<head>{element}{own}</head>") == f"<head>{own}</head>"

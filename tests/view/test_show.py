@@ -28,7 +28,7 @@ def rerun(*arguments):
     return subprocess.run([RERUN, "rrd", *arguments], capture_output=True, text=True, check=True)
 
 
-def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(tmp_path):
+def test_rerun_verifies_the_file(tmp_path):
     file = write_recording(tmp_path / "a.mcap", 0.25, scene_yaml=PAPER.read_text())
     recording = read_recording(file)
     scene, remark = scene_of(recording)
@@ -58,7 +58,7 @@ def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(tmp_path):
     assert "ros_time" in printed
 
 
-def test_without_a_scene_curves_are_shown_and_missing_gears_are_reported(tmp_path):
+def test_without_a_scene_missing_gears_are_reported(tmp_path):
     recording = read_recording(write_recording(tmp_path / "a.mcap", 0.05))
     scene, remark = scene_of(recording)
     assert scene is None
@@ -82,7 +82,7 @@ def test_changes_are_listed_with_old_and_new_value(recording):
     assert sentence(recording, 3) == "lambda_ratio = 2, was 1; input_speed = 2000 rpm, was 1000"
 
 
-def test_details_of_a_long_recording_are_shown_where_something_happens(tmp_path, monkeypatch):
+def test_details_are_shown_where_something_happens(tmp_path, monkeypatch):
     monkeypatch.setattr("planetary_twin_py.view.detail.MOST_SAMPLES", 20_000)  # 0.4 s
     recording = read_recording(write_recording(tmp_path / "a.mcap", 1.0))
     (remark,) = save(recording, None, tmp_path / "a.rrd")

@@ -1,24 +1,20 @@
 """Views of windows of the DTE: spectrum, order map and phase portrait."""
 
 import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-import rerun as rr
 import rerun_cli
 from synthetic_recording import BLOCK, write_recording
 
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.view.chart import Chart
-from planetary_twin_py.view.colour_map import shade
-from planetary_twin_py.view.frames import MOST, frames
-from planetary_twin_py.view.phase_portrait import flanks_meet, log_phase_portrait
+from planetary_twin_py.view.frames import frames
+from planetary_twin_py.view.phase_portrait import flanks_meet
 from planetary_twin_py.view.round_numbers import one_digit, round_up, ticks
 from planetary_twin_py.view.show import save
-from planetary_twin_py.view.spectra import HEIGHT, _orders, _spectrum, log_spectra
+from planetary_twin_py.view.spectra import HEIGHT, _orders, _spectrum
 
 RERUN = Path(rerun_cli.__file__).parent / "rerun"
 
@@ -45,7 +41,7 @@ def test_the_file_contains_spectrum_order_map_and_phase_portrait(recording, tmp_
         assert entity in printed
 
 
-def test_the_spectrum_at_an_instant_has_the_lines_of_that_instant(recording):
+def test_the_spectrum_has_the_lines_of_its_instant(recording):
     """500 Hz at 1000 rpm; from 0.75 s on 1000 Hz at 2000 rpm."""
     windows = frames(recording)
     for at, mesh in ((0.1, 500.0), (0.9, 1000.0)):
@@ -53,7 +49,7 @@ def test_the_spectrum_at_an_instant_has_the_lines_of_that_instant(recording):
         assert frequency[1 + amplitude[1:].argmax()] == pytest.approx(mesh, abs=5.0)
 
 
-def test_the_order_map_keeps_the_meshing_at_its_order_at_any_speed(recording):
+def test_the_order_map_keeps_the_meshing_at_its_order(recording):
     windows, reach = frames(recording), 8.5 * 30
     for at in (0.1, 0.9):
         levels = _orders(windows, int(np.abs(windows.time - at).argmin()), reach)
@@ -77,7 +73,7 @@ def test_windows_near_a_gap_are_shifted_and_none_spans_it(recording):
             assert np.isfinite(dte).all()
 
 
-def test_windows_of_slow_gears_have_as_many_mesh_cycles_as_samples_allow(recording):
+def test_windows_of_slow_gears_are_longer(recording):
     windows = frames(recording)
     assert windows.lasting(0.2, 64) == 0.2
     recording.state["mesh_frequency"][:] = 100.0
@@ -103,53 +99,13 @@ def test_without_samples_there_is_nothing_to_show(recording):
     assert frames(recording) is None
 
 
-@pytest.mark.exhaustive
-def test_long_recordings_have_no_more_windows_than_half_a_minute_and_take_few_seconds(
-    recording, tmp_path
-):
-    wave, times = recording.waveform, 100
-    wave.time = np.arange(len(wave.time) * times) * 2e-5
-    wave.stamp = np.arange(len(wave.time)) * 20_000 + wave.stamp[0]
-    wave.dte = np.tile(wave.dte[:, :1], (times, 1))
-    state = recording.state
-    state.time = np.linspace(0.01, 100.0, len(state.time))
-    windows = frames(recording)
-    assert len(windows.time) == MOST
-    stream = rr.RecordingStream("planetary_twin")
-    stream.save(tmp_path / "a.rrd")
-    began = time.process_time()
-    log_spectra(stream, windows, load_scene("paper"))
-    log_phase_portrait(stream, windows, load_scene("paper"))
-    stream.flush()
-    stream.disconnect()
-    assert time.process_time() - began < 15.0
-    assert (tmp_path / "a.rrd").stat().st_size < 40e6
-
-
 @pytest.mark.parametrize(("law", "share"), [("dead_zone", 0.5), ("regulatory_factor", 1.0)])
 def test_marks_of_the_portrait_are_where_flanks_meet(law, share):
     scene = load_scene("paper").replace(**{"mesh.backlash": law, "mesh.motion": "line_of_action"})
     assert flanks_meet(scene, 4e-5) == share * 4e-5
 
 
-def test_a_chart_places_values_by_its_axes_and_clips_at_its_frame():
-    chart = Chart("a", 200.0, 100.0, (0.0, 4.0), (-1.0, 1.0))
-    places = chart.place(np.array([0.0, 1.0, 9.0]), np.array([-1.0, 0.0, 9.0]))
-    assert places.tolist() == [[0.0, 0.0], [50.0, -50.0], [200.0, -100.0]]
-
-
 def test_scales_end_and_step_at_round_numbers():
     assert [round_up(v) for v in (0.9, 1.0, 1.1, 3.0, 6e-5)] == pytest.approx([1, 1, 2, 5, 1e-4])
     assert [one_digit(v) for v in (1.2, 2.0, 870.0)] == [2.0, 2.0, 900.0]
     assert ticks(-0.13, 0.21, 5).tolist() == pytest.approx([-0.1, 0.0, 0.1, 0.2])
-
-
-def test_the_colour_map_brightens_in_even_steps():
-    colours = shade(np.linspace(0.0, 1.0, 33)).astype(float) / 255.0
-    linear = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
-    luminance = linear @ (0.2126, 0.7152, 0.0722)
-    lightness = 116.0 * np.cbrt(np.maximum(luminance, 0.008856)) - 16.0  # CIE 1976
-    assert lightness[-1] - lightness[0] > 75.0
-    assert np.all(np.diff(lightness) > 0.5)
-    assert np.diff(lightness).max() < 2.0 * np.diff(lightness)[1:].mean()
-    assert shade(np.array([-1.0, 2.0])).tolist() == shade(np.array([0.0, 1.0])).tolist()

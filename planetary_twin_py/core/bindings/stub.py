@@ -4,6 +4,7 @@ It is nanobind's, but that the fields of a record are named where it is made, so
 finds one that is misspelt there too, and that an array takes whatever NumPy makes an array of.
 """
 
+import importlib
 import re
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ from nanobind import stubgen
 ANYTHING = "def __init__(self, **kwargs) -> None: ..."
 ARRAY_SETTER = re.compile(r"(def \w+\(self, arg: )object(, /\) -> None)")
 SETTER = re.compile(r"\.setter\n +def (\w+)\(self, arg: (.+), /\)")
-NUMBERS = re.compile(r"^([A-Z_]+): dict = ", re.MULTILINE)  # of laws and methods by name
+LISTING = re.compile(r"^([A-Z_]+): (?:dict|tuple) = .*$", re.MULTILINE)  # of laws, for example
 CLASS = re.compile(r"^class \w+.*:\n(?:(?: .*)?\n)+", re.MULTILINE)
 
 
@@ -24,6 +25,13 @@ def with_fields(record: re.Match[str]) -> str:
     if not fields:
         return record[0]
     return record[0].replace(ANYTHING, f"def __init__(self, *{fields}) -> None: ...")
+
+
+def kind_of(value: object) -> str:
+    """Type of a listing, whose entries have one type."""
+    if isinstance(value, dict):
+        return f"dict[str, {kind_of(next(iter(value.values())))}]"
+    return f"tuple[{kind_of(value[0])}, ...]" if isinstance(value, tuple) else type(value).__name__
 
 
 def main(folder: Path) -> None:
@@ -36,7 +44,8 @@ def main(folder: Path) -> None:
     stubgen.main(["-q", "-m", "planetary_twin_py._core", "-o", str(out)])
     text = ARRAY_SETTER.sub(r"\1numpy.typing.ArrayLike\2", out.read_text())
     text = text.replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
-    text = NUMBERS.sub(r"\1: dict[str, int] = ", text)
+    core = importlib.import_module("planetary_twin_py._core")
+    text = LISTING.sub(lambda found: f"{found[1]}: {kind_of(getattr(core, found[1]))} = ...", text)
     out.write_text(CLASS.sub(with_fields, text))
     # Its classes have the fields of those for axes that are held.
     out.with_name("axes.pyi").write_text("from planetary_twin_py._core import *\n")

@@ -45,7 +45,6 @@ _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time and publish tim
 _INDEX = struct.Struct("<HI")  # channel and bytes of the entries of a message index
 _ENTRY = 16  # bytes: log time and place of a message
 _ZSTD = b"\x28\xb5\x2f\xfd"  # with which no plain CDR begins
-_MOST_PLAIN = 64 * 2**20  # bytes of the messages of a chunk that are compressed by themselves
 _TIMES_AND_SIZE = struct.Struct("<QQQ")  # of a chunk
 _CHECKSUM = struct.Struct("<I")
 _CONTENTS: dict[int, Any] = {
@@ -123,9 +122,9 @@ def opened(piece: Piece) -> list[Any]:
     """
     opcode, content = piece.opcode, piece.content
     if opcode == Opcode.CHUNK:
-        return _unpacked(_chunk(content))
+        return _unpacked(_exact(Chunk, _Fields(content), content))
     if opcode == Opcode.MESSAGE:
-        return [_published(_message(content, 0, len(content)), _MOST_PLAIN)]
+        return [_published(_message(content, 0, len(content)))]
     if opcode == Opcode.MESSAGE_INDEX:
         indexed_messages(piece)
     elif opcode in _STRUCTURE:
@@ -166,12 +165,6 @@ def next_chunk(stream: BinaryIO, begin: int) -> int | None:
     return None
 
 
-def _chunk(content: bytes) -> Chunk:
-    """A chunk; its data may end before their stated length if a checksum shows they are whole."""
-    chunk: Chunk = _exact(Chunk, ReadDataStream(BytesIO(content)), content)
-    return chunk if chunk.uncompressed_crc else _exact(Chunk, _Fields(content), content)
-
-
 def _exact(kind: Any, fields: ReadDataStream, content: bytes) -> Any:
     """A record whose `fields` fill `content` exactly."""
     record = kind.read(fields)
@@ -192,7 +185,7 @@ def _unpacked(chunk: Chunk) -> list[Any]:
     if chunk.uncompressed_crc not in (0, found := zlib.crc32(data)):
         raise CRCValidationError(chunk.uncompressed_crc, found, chunk)
     records: list[Any] = []
-    end, room = 0, _MOST_PLAIN
+    end = 0
     while end < size:
         opcode, length = _HEAD.unpack_from(data, end)
         begin = end + _HEAD.size
@@ -200,11 +193,7 @@ def _unpacked(chunk: Chunk) -> list[Any]:
         if end > size:
             raise EndOfFile
         if opcode == Opcode.MESSAGE:
-            message = _message(data, begin, end)
-            if message.data[:4] == _ZSTD:
-                message = _published(message, room)
-                room -= len(message.data)
-            records.append(message)
+            records.append(_published(_message(data, begin, end)))
         elif kind := _CONTENTS.get(opcode):
             records.append(_exact(kind, _Fields(part := data[begin:end]), part))
     return records
@@ -239,19 +228,16 @@ def _message(data: bytes, begin: int, end: int) -> Message:
     return Message(channel, log_time, data[begin + _MESSAGE.size : end], publish_time, sequence)
 
 
-def _published(message: Message, room: int) -> Message:
+def _published(message: Message) -> Message:
     """A message as it was published; rosbag2 compresses each by itself in compression mode message.
 
-    What is no such message, or has more than `room` bytes, stays as it is: its topic's reader
-    refuses it.
+    What is no such message stays as it is: its topic's reader refuses it.
     """
     data = message.data
     if data[:4] != _ZSTD:
         return message
     try:
-        if room <= 0 or zstandard.frame_content_size(data) > room:
-            return message
-        plain = zstandard.ZstdDecompressor().decompress(data, max_output_size=room)
+        plain = zstandard.ZstdDecompressor().decompress(data, max_output_size=_LONGEST_RECORD)
     except zstandard.ZstdError:
         return message
     return replace(message, data=plain)

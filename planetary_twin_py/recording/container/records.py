@@ -25,7 +25,6 @@ from .missing_files import missing_files
 from .suffixes import TABLES
 from .walk import Lost, Sound, Walk
 
-MOST_TOPICS = 2048
 _LONGEST_MESSAGE = 900  # characters
 
 
@@ -151,10 +150,6 @@ class _Known:
             if record.schema_id not in self._schemas:
                 return False
             self._channels.add(record.id)
-            if len(self._channels) > MOST_TOPICS:
-                raise RecordingError(
-                    f"{self._file}: has too many topics: must be at most {MOST_TOPICS}"
-                )
         return True
 
 

@@ -15,7 +15,6 @@ from mcap.records import Channel, ChunkIndex, Metadata, MetadataIndex, Schema, S
 
 from .framing import opened, piece_at
 from .integrity import damaged_summary, start_of_summary
-from .records import MOST_TOPICS
 
 
 class ChunkPlace(NamedTuple):
@@ -69,8 +68,6 @@ def read_summary(file: Path) -> Summary:
             elif piece.opcode == Opcode.CHANNEL:
                 (channel,) = opened(piece)
                 channels[channel.id] = channel
-                if len(channels) > MOST_TOPICS:
-                    raise ValueError("too many topics")
             elif piece.opcode == Opcode.METADATA_INDEX:
                 here = stream.tell()
                 stream.seek(MetadataIndex.read(data).offset)

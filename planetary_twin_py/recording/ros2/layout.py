@@ -21,7 +21,6 @@ Definitions = Mapping[str, tuple[Any, Fields]]
 _Field = tuple[str, Any, int]  # name, format, position
 _ENCAPSULATION = 4  # bytes before the body, to whose start alignment refers
 _PADDING = 3  # bytes after the last field that pad a message to whole words
-_MOST_FIELDS = 20_000  # of a message, including each element of an array of texts or messages
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _NUMBERS = {"bool": "?", "byte": "u1", "char": "u1", "float32": "f4", "float64": "f8"} | {
     f"{name}{8 * size}": f"{letter}{size}"
@@ -101,7 +100,6 @@ class _Walk:
         self._place = _ENCAPSULATION
         self.decisive = [0, 1]
         self._path: list[str] = []  # names of the current field and of its parents
-        self._count_of_fields = 0
 
     def whole(self, kind: str) -> np.dtype[Any]:
         """The message, from its encapsulation to its last byte."""
@@ -121,9 +119,6 @@ class _Walk:
 
     def _field(self, description: Any) -> tuple[Any, int]:
         """Format and position of a field."""
-        self._count_of_fields += 1
-        if self._count_of_fields > _MOST_FIELDS:
-            raise LayoutError(f"has more than {_MOST_FIELDS} fields{self._in_field()}")
         node_type, detail = description
         if node_type == Nodetype.BASE:
             if detail[0] == "string":

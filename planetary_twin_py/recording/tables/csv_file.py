@@ -16,7 +16,6 @@ import pyarrow.csv
 
 from ...text.escaping import one_line
 from ...units.conversion import is_number
-from .unpacking import check_columns
 
 _COMMENT = re.compile(r"^[ \t]*(?:#|%|//).*(?:\r\n?|\n|\Z)", re.MULTILINE)
 _LINE_END = re.compile(r"\r\n?|\n|\Z")
@@ -35,7 +34,7 @@ def read_csv(stream: BinaryIO) -> pa.Table:
 
     Raises:
         UnicodeDecodeError: it is not in UTF-8.
-        ValueError: it has no headings, too many columns, or rows of another length.
+        ValueError: it has no headings, or rows of another length.
         pyarrow.ArrowException: it cannot be read for another reason.
     """
     given = stream.read().decode()
@@ -44,7 +43,6 @@ def read_csv(stream: BinaryIO) -> pa.Table:
     separator = _separator(heading)
     heading = _as_wide_as_its_rows(heading, _split(body)[0], separator)
     names = heading.split(separator)
-    check_columns(len(names))
     if all(is_number(name) for name in names):
         raise ValueError("row 1: must have the headings of the columns, such as time [s]")
     commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)

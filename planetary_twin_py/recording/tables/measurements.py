@@ -20,10 +20,8 @@ from ...units.conversion import LARGEST, column_to_si
 from ..container.suffixes import SUFFIXES, TABLES, is_table
 from .csv_file import read_csv
 from .mat_file import MatError, read_mat
-from .parquet_pages import unpacked_size
 from .rounded_stamps import UNEVEN, rounded_grid
 from .units_file import units_beside
-from .unpacking import check_columns, check_unpacked
 
 Array = NDArray[np.float64]
 
@@ -37,11 +35,6 @@ _LONGEST_LIST = 400  # characters
 DATE = "2026-11-22 10:00:00"  # example
 _DAY_NUMBERS = 20_000.0, 80_000.0  # of a spreadsheet, from 1954 to 2119
 _SHORT = 1e-3  # [s] step of readings, or a minute and a half in days
-_NUMBER = 8  # bytes in memory
-_TEXTS = (
-    pa.types.is_string, pa.types.is_large_string, pa.types.is_string_view, pa.types.is_binary,
-    pa.types.is_large_binary, pa.types.is_binary_view,
-)  # fmt: skip
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
@@ -244,24 +237,7 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
 
 
 def _read_parquet(stream: BinaryIO) -> pa.Table:
-    source = pa.OSFile(stream.name)  # not `stream`: see `read_csv`
-    file = parquet.ParquetFile(source)
-    metadata, packed = file.metadata, source.size()
-    check_columns(metadata.num_columns)
-    # Each page states its size again, and each column its number of values: Arrow believes them.
-    check_unpacked(packed, unpacked_size(stream, metadata))
-    groups = [metadata.row_group(k) for k in range(metadata.num_row_groups)]
-    values = sum(g.column(k).num_values for g in groups for k in range(g.num_columns))
-    check_unpacked(packed, _NUMBER * max(values, metadata.num_rows * metadata.num_columns))
-    for k in range(metadata.num_columns):
-        if file.schema.column(k).max_repetition_level > 0:
-            raise ValueError(f"column {file.schema.column(k).path!r}: must be numbers, not lists")
-    # Texts stay as they are stored, once each; bytes of a fixed size would be copied for each row.
-    for field in file.schema_arrow:
-        if pa.types.is_fixed_size_binary(field.type):
-            raise ValueError(f"column {field.name!r}: must be numbers, not {field.type}")
-    texts = [f.name for f in file.schema_arrow if any(kind(f.type) for kind in _TEXTS)]
-    return parquet.ParquetFile(source, read_dictionary=texts).read()
+    return parquet.read_table(pa.OSFile(stream.name))  # not `stream`: see `read_csv`
 
 
 _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = dict(
@@ -323,8 +299,6 @@ def _numbers(name: str, column: pa.ChunkedArray) -> Array:
     """Values (rows,) of a column, NaN where it is empty."""
     if pa.types.is_boolean(column.type):
         raise ValueError(f"{name}: must be numbers, not true or false")
-    if pa.types.is_dictionary(column.type):  # texts: value by value, as a cast would copy each
-        return np.array([_number(name, k, cell.as_py()) for k, cell in enumerate(column, 1)])
     try:
         return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row

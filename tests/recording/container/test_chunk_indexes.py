@@ -7,10 +7,8 @@ from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
-from mcap.writer import Writer
 from numbered import NUMBERS
 
-from planetary_twin_py.recording.container.chunk_indexes import ChunkIndexes
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.mcap_file import McapFile
 
@@ -19,7 +17,7 @@ CHUNKS = 500
 PER_CHUNK = 50.0  # bytes; a chunk index of mcap's list takes 1 kB
 
 
-def test_memory_does_not_grow_with_the_chunks_and_each_is_in_the_index(
+def test_memory_does_not_grow_with_the_chunks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("os.fsync", lambda descriptor: None)
@@ -51,11 +49,3 @@ def test_memory_does_not_grow_with_the_chunks_and_each_is_in_the_index(
     assert times == list(range(1001, 1001 + WARM + CHUNKS))
     starts = [index.message_start_time for index in summary.chunk_indexes]
     assert starts == times
-
-
-def test_replacing_the_indexes_twice_is_refused(tmp_path: Path) -> None:
-    with (tmp_path / "used.mcap").open("wb") as stream:
-        writer = Writer(stream)
-        ChunkIndexes.replace(writer, tmp_path).close()
-        with pytest.raises(TypeError, match="no empty list of chunk indexes"):
-            ChunkIndexes.replace(writer, tmp_path)

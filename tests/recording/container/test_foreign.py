@@ -7,16 +7,15 @@ import sys
 from pathlib import Path
 
 import pytest
-import zstandard
-from hostile import messages_of, of, rewritten, string
+from altered_recording import messages_of, rewritten, string
 from mcap.reader import make_reader
-from mcap.records import Attachment, Message
+from mcap.records import Message
 from mcap.stream_reader import StreamReader
 from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 from tiers import first_rows
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 
 from planetary_twin_py.recording.container.foreign import how_stored
 from planetary_twin_py.recording.container.records import RecordingError
@@ -26,11 +25,6 @@ from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.view.show import scene_of
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def stored(source, folder, plugin, mode=None):
@@ -62,7 +56,7 @@ def stored(source, folder, plugin, mode=None):
         ],
     ),
 )
-def test_the_conversion_that_a_refusal_suggests_makes_a_bag_readable(
+def test_the_suggested_conversion_makes_a_bag_readable(
     sound, tmp_path, monkeypatch, plugin, mode, reason
 ):
     chosen = mode and CompressionMode[mode]
@@ -79,7 +73,7 @@ def test_the_conversion_that_a_refusal_suggests_makes_a_bag_readable(
     assert how_stored(folder) is not None and how_stored(Path("bag_mcap")) is None
 
 
-def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tmp_path):
+def test_a_bag_compressed_by_message_is_readable(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP, CompressionMode.MESSAGE)
     (file,) = folder.glob("*.mcap")
     alone = shutil.copy(file, tmp_path / "alone.mcap")
@@ -93,36 +87,20 @@ def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tm
     assert verify(recovered.file, NAMESPACE).identical
 
 
-def test_messages_that_decompress_beyond_the_size_limit_are_refused(sound, tmp_path):
-    bomb = zstandard.ZstdCompressor().compress(bytes(2**28))
-    file = rewritten(sound, tmp_path / "bomb.mcap", messages_of("gearbox_state", lambda data: bomb))
-    with pytest.raises(RecordingError, match="a message is compressed individually, and cannot"):
-        read_recording(file)
-
-
-def test_the_scene_of_a_bag_without_attachments_is_that_of_the_origin_of_its_run(sound, tmp_path):
+def test_a_bag_without_attachments_has_the_scene_of_its_run(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP)
     scene, remark = scene_of(read_recording(folder))
     assert remark is None
     assert scene == read_runs(sound, NAMESPACE, [])[-1].origin.scene
 
 
-def test_an_unreadable_scene_in_an_origin_is_reported(sound, tmp_path):
-    without = rewritten(sound, tmp_path / "a.mcap", of(Attachment, "", name="another"))
-    bad = messages_of("run_origin", lambda data: string("{"))
-    recording = read_recording(rewritten(without, tmp_path / "b.mcap", bad))
-    assert recording.scene_yaml is None
-    assert "run_origin: origin of the run: cannot be read" in recording.remarks[0]
-
-
-@pytest.mark.parametrize("text", ["{", b"\xff", "begins: 1\n"])
-def test_a_bad_message_of_one_origin_leaves_the_other_run_to_verify(sound, tmp_path, text):
+def test_an_unreadable_origin_leaves_other_runs_to_verify(sound, tmp_path):
     first = True
 
     def spoil(data):
         nonlocal first
         first, spoiled = False, first
-        return string(text) if spoiled else data
+        return string("begins: 1\n") if spoiled else data
 
     file = rewritten(sound, tmp_path / "bad.mcap", messages_of("run_origin", spoil))
     verdict = verify(file, NAMESPACE)

@@ -59,9 +59,7 @@ def test_recorded_losses_are_those_of_the_account() -> None:
         ({"missed": "9" * 5000}, r"^missed = '9{27} \.\.\. 9{27}': must be a whole number$"),
     ],
 )
-def test_a_recorded_loss_that_is_no_number_is_refused_with_its_name(
-    changes: dict[str, str], reason: str
-) -> None:
+def test_a_recorded_loss_that_is_no_number_is_refused(changes: dict[str, str], reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
         recorded_losses({"topic": "/t", "lost": "0", "missed": "0", "recorded": "1"} | changes)
     with pytest.raises(ValueError, match=r"^topic: missing$"):

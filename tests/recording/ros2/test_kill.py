@@ -1,8 +1,4 @@
-"""After a kill at any moment, all flushed messages are present, none wrong or duplicated.
-
-`PYTHONPATH=tests python tests/recording/ros2/test_kill.py TRIES` makes as many tries and prints
-their losses.
-"""
+"""After a kill at any moment, all flushed messages are present, none wrong or duplicated."""
 
 import itertools
 import mmap
@@ -10,15 +6,11 @@ import os
 import random
 import signal
 import struct
-import sys
-import tempfile
 import time
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 from numbered import COMPRESSIONS, Numbered, read_numbers
-from tiers import first_rows
 
 from planetary_twin_py.recording.container.records import files_of
 from planetary_twin_py.recording.container.storage import Storage
@@ -31,14 +23,6 @@ CHUNK_SIZES = (0.002, 1.0)  # [MB]
 SPLITS = (0.0, 0.08)  # [s]
 CASES = list(itertools.product(COMPRESSIONS, FLUSH_PERIODS, CHUNK_SIZES, SPLITS))
 _COUNTS = struct.Struct("<QQ")  # written, flushed
-
-
-class Lost(NamedTuple):
-    """Losses of a kill: of `written` messages, one each millisecond, `kept` are present."""
-
-    written: int
-    flushed: int
-    kept: int
 
 
 def write_until_killed(folder: Path, storage: Storage, period: float, counts: mmap.mmap) -> None:
@@ -57,7 +41,7 @@ def write_until_killed(folder: Path, storage: Storage, period: float, counts: mm
         time.sleep(max(begin + numbered.written * 1e-3 - time.monotonic(), 0.0))
 
 
-def kill_amid_writing(folder: Path, case: tuple, lifetime: float) -> Lost:
+def kill_amid_writing(folder: Path, case: tuple, lifetime: float) -> None:
     """Kill a writer `lifetime` [s] after its first flush, and check the files."""
     compression, period, chunk_size, split = case
     counts = mmap.mmap(-1, _COUNTS.size)
@@ -81,7 +65,6 @@ def kill_amid_writing(folder: Path, case: tuple, lifetime: float) -> Lost:
     saved = recover(folder, folder.with_name("saved"))
     assert read_numbers(saved.file) == kept
     assert read_numbers(saved.file, "/settings") == [1]
-    return Lost(written, flushed, len(kept))
 
 
 def cases(tries: int, seed: int) -> list[tuple[tuple, float]]:
@@ -91,22 +74,6 @@ def cases(tries: int, seed: int) -> list[tuple[tuple, float]]:
     return [(case, generator.uniform(0.0, 0.3)) for case in itertools.islice(order, tries)]
 
 
-@pytest.mark.parametrize(("case", "lifetime"), first_rows(8, cases(20, seed=1)))
+@pytest.mark.parametrize(("case", "lifetime"), cases(10, seed=1))
 def test_flushed_messages_survive_a_kill(tmp_path, case, lifetime):
     kill_amid_writing(tmp_path / "bag", case, lifetime)
-
-
-def main(tries: int) -> None:
-    """Print each try, and the largest loss for each flush period."""
-    cost = dict.fromkeys(FLUSH_PERIODS, 0)
-    for number, (case, lifetime) in enumerate(cases(tries, seed=2), start=1):
-        with tempfile.TemporaryDirectory() as place:
-            done = kill_amid_writing(Path(place) / "bag", case, lifetime)
-        cost[case[1]] = max(cost[case[1]], done.written - done.kept)
-        print(number, *case, f"{lifetime:.3f} s:", *done, flush=True)
-    for period, messages in cost.items():
-        print(f"flushed every {period * 1e3:g} ms: at most {messages} messages of 1 ms are lost")
-
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]))

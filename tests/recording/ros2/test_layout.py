@@ -16,7 +16,6 @@ TYPES = get_typestore(Stores.ROS2_JAZZY)
 for _name in ("GearboxState", "MeshWaveform", "OperatingPoint"):
     _found = get_types_from_msg(definition(_name), f"planetary_twin_msgs/msg/{_name}")
     TYPES.register({k: v for k, v in _found.items() if k not in TYPES.types})
-WAVEFORM = "planetary_twin_msgs/msg/MeshWaveform"
 KINDS = sorted(TYPES.fielddefs)
 SIZES = st.integers(0, 3)
 
@@ -94,7 +93,7 @@ def diagnostics(names):
     )
 
 
-def test_messages_of_the_same_size_with_another_layout_are_distinguished():
+def test_layouts_of_the_same_size_are_distinguished():
     kind = "diagnostic_msgs/msg/DiagnosticArray"
     order = [("ab", "abcdef"), ("ab", "abcdef"), ("abcdef", "ab"), ("cd", "ghijkl"), ("a",)]
     raw = [bytes(TYPES.serialize_cdr(diagnostics(names), kind)) for names in order]
@@ -107,7 +106,7 @@ def test_messages_of_the_same_size_with_another_layout_are_distinguished():
     assert found == [list(names) for names in order]
 
 
-def test_no_message_is_read_beyond_its_end_or_with_trailing_bytes():
+def test_no_message_is_read_beyond_its_end():
     kind = "sensor_msgs/msg/JointState"
     numbers = np.arange(3.0)
     header = diagnostics(()).header
@@ -122,10 +121,3 @@ def test_no_message_is_read_beyond_its_end_or_with_trailing_bytes():
         Layout(TYPES.fielddefs, kind, whole + bytes(4))
     with pytest.raises(LayoutError, match="must be plain CDR"):
         Layout(TYPES.fielddefs, kind, b"\0\7" + whole[2:])
-
-
-def test_an_array_longer_than_any_integer_of_numpy_is_refused():
-    kind = "x/msg/Long"
-    fields = get_types_from_msg("float64[18446744073709551616] q\n", kind)
-    with pytest.raises(LayoutError, match="ends after 12 bytes, in its field q"):
-        Layout(fields, kind, b"\0\1\0\0" + bytes(8))

@@ -104,20 +104,15 @@ def metadata(split: Path) -> dict[str, Any]:
     )
 
 
-@pytest.mark.parametrize("name", FIELDS)
-def test_each_field_of_a_split_bag_is_as_rosbag2_reads_it(
-    metadata: dict[str, Any], name: str
-) -> None:
-    assert FIELDS[name](metadata[name])
-
-
-@pytest.mark.parametrize("name", FIELDS)
-def test_each_field_of_a_file_alone_is_as_rosbag2_reads_it(split: Path, name: str) -> None:
-    """Without metadata.yaml, it reads the file."""
+def test_each_field_is_as_rosbag2_reads_it(split: Path, metadata: dict[str, Any]) -> None:
+    """Without metadata.yaml, it reads each file."""
+    every = [metadata]
     for file in split.glob("*.mcap"):
         with file.open("rb") as stream:
             (found,) = [r for r in make_reader(stream).iter_metadata() if r.name == "rosbag2"]
-        assert FIELDS[name](yaml.safe_load(found.metadata["serialized_metadata"])[name])
+        every.append(yaml.safe_load(found.metadata["serialized_metadata"]))
+    for given in every:
+        assert [name for name, check in FIELDS.items() if not check(given[name])] == []
 
 
 def test_the_files_exist_and_their_counts_add_up_to_the_total(
@@ -130,10 +125,3 @@ def test_the_files_exist_and_their_counts_add_up_to_the_total(
     counts = [file["message_count"] for file in metadata["files"]]
     topics = [topic["message_count"] for topic in metadata["topics_with_message_count"]]
     assert metadata["message_count"] == sum(counts) == sum(topics) > 0
-
-
-def test_a_check_of_a_field_can_fail(metadata: dict[str, Any]) -> None:
-    assert not FIELDS["duration"]({"nanoseconds": -1})
-    assert not FIELDS["files"]([{"path": "a"}])
-    topic = metadata["topics_with_message_count"][0]["topic_metadata"]
-    assert not TOPIC(topic | {"offered_qos_profiles": [{"history": 1}]})

@@ -70,7 +70,7 @@ def playback(request, whole, tmp_path):
 
 
 @pytest.mark.parametrize("begin", [0, 1, 25, 26, 100, 251, 270])
-def test_it_starts_at_any_instant_with_the_messages_latched_there(playback, begin):
+def test_it_starts_at_any_instant_with_latched_messages(playback, begin):
     messages = list(playback.messages(begin * STEP, 275 * STEP))
     latched = [
         message

@@ -6,21 +6,23 @@ from collections import Counter
 
 import pytest
 from mcap.data_stream import ReadDataStream
+from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
 from mcap.records import Chunk, Message
 from mcap.stream_reader import breakup_chunk
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE, messages
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.container.damage import Damages
+from planetary_twin_py.recording.container.integrity import MAGIC
 from planetary_twin_py.recording.container.records import RecordingError, records_of
+from planetary_twin_py.recording.container.walk import Lost
+from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover
+from planetary_twin_py.recording.runs.info import read_info
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def lost_chunks(file, begin, end):
@@ -57,17 +59,8 @@ def damaged(whole, kind, place, bit):
     return whole[:place] + (whole[place + 1 :] if kind == "cut out" else b"")
 
 
-def messages(file):
-    """Topic, time, number and bytes of every message, by a reader that uses the index."""
-    with file.open("rb") as stream:
-        return [
-            (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
-            for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
-        ]
-
-
 @pytest.mark.parametrize("share", [0.4, 0.6, 0.95])
-def test_a_truncated_file_is_recovered_with_all_its_valid_messages(sound, tmp_path, share):
+def test_a_truncated_file_keeps_all_its_valid_messages(sound, tmp_path, share):
     whole = sound.read_bytes()
     truncated = tmp_path / "truncated.mcap"
     truncated.write_bytes(whole[: int(share * len(whole))])
@@ -81,14 +74,18 @@ def test_a_truncated_file_is_recovered_with_all_its_valid_messages(sound, tmp_pa
     assert verdict.identical
 
 
-@pytest.mark.parametrize("count", [60, pytest.param(500, marks=pytest.mark.exhaustive)])
-def test_a_flipped_bit_or_a_removed_byte_costs_its_chunk_only_and_adds_nothing(
-    sound, tmp_path, count
-):
+def played(file, count):
+    """Remarks of a playback, or one that it has all of `count` messages."""
+    playback = Playback(file)
+    complete = len(list(playback.messages())) == count
+    return playback.remarks or complete * ["complete"]
+
+
+def test_damage_costs_its_chunk_and_every_reader_reports_it(sound, tmp_path):
     whole = sound.read_bytes()
     file = tmp_path / "damaged.mcap"
     there = Counter((log, number, data) for _, log, _, number, data in messages(sound))
-    for kind, place, bit in damages(len(whole), count):
+    for kind, place, bit in damages(len(whole), 60):
         file.write_bytes(damaged(whole, kind, place, bit))
         end = len(whole) if kind == "cut off" else place + 1
         expected = there - lost_chunks(sound, place, end)
@@ -99,11 +96,32 @@ def test_a_flipped_bit_or_a_removed_byte_costs_its_chunk_only_and_adds_nothing(
             remarks.append(str(refusal))
         assert found - there == Counter() and expected - found == Counter(), (kind, place, bit)
         assert remarks and not any("\n" in line for line in remarks), (kind, place, bit)
+        for read in (read_recording, read_info, lambda file: played(file, there.total())):
+            try:
+                found = read(file)
+                assert getattr(found, "remarks", found), (read, kind, place, bit)
+            except RecordingError as refusal:
+                assert "\n" not in str(refusal)
+        try:
+            assert not verify(file, NAMESPACE).identical, (kind, place, bit)
+        except RecordingError as refusal:
+            assert "\n" not in str(refusal)
 
 
-def test_damage_in_the_middle_is_left_out_and_reported_with_its_time_and_number_of_messages(
-    sound, tmp_path
-):
+def test_a_file_that_grows_while_read_is_still_being_written(tmp_path):
+    file = tmp_path / "growing.mcap"
+    file.write_bytes(MAGIC)
+    found = Damages(file)
+    file.write_bytes(MAGIC + bytes(10))
+    grown = file.stat().st_size
+    found.add_lost(Lost(grown, grown, 0, EndOfFile()))
+    assert found.remarks() == [
+        "growing.mcap: has no end record: the recorder is still writing, or was killed; "
+        "everything before is intact"
+    ]
+
+
+def test_damage_is_reported_with_its_time_and_messages(sound, tmp_path):
     with sound.open("rb") as stream:
         first, _, index, *_, last = make_reader(stream).get_summary().chunk_indexes
     truncated = tmp_path / "truncated.mcap"

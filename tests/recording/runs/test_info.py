@@ -4,14 +4,14 @@ import json
 import operator
 import re
 import tracemalloc
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hostile import of, rewritten
+from altered_recording import rewritten
 from mcap.reader import make_reader
-from mcap.records import Channel, Message, Metadata
+from mcap.records import Message, Metadata
 from numbered import Numbered
 from synthetic_recording import START_NS
 from twin_recording import NAMESPACE, TwinRecording, record
@@ -28,11 +28,6 @@ from planetary_twin_py.recording.runs.info import Changed, read_info
 from planetary_twin_py.recording.runs.ramps import ramps
 
 SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def test_topics_rates_and_gaps_are_those_written(sound):
@@ -67,19 +62,6 @@ def test_changes_are_listed_with_their_instants(sound):
     assert third.values == {"backlash": 2e-7, "lambda_ratio": 1.0, "input_speed": 150.0}
 
 
-def test_the_command_prints_them_and_its_figures_are_those_of_a_run(sound, tmp_path):
-    answer = CliRunner().invoke(
-        build_app(), ["info", str(sound), "--json", str(tmp_path / "figures.json")]
-    )
-    assert answer.exit_code == 0, answer.output
-    assert "backlash = 3e-07 m, lambda_ratio = 1.5" in answer.output
-    figures = json.loads((tmp_path / "figures.json").read_text())
-    assert set(figures) == {
-        "topics", "duration_s", "real_time_factor", "overruns", "skips", "skipped_s", "file"
-    }  # fmt: skip
-    assert figures["topics"][f"{NAMESPACE}/joint_states"]["recorded"] == 41
-
-
 def test_a_file_that_is_no_recording_is_refused_in_one_line(tmp_path):
     answer = CliRunner().invoke(build_app(), ["info", str(tmp_path)])
     assert answer.exit_code == 2
@@ -103,7 +85,7 @@ def test_the_index_of_a_file_agrees_with_all_its_records(tmp_path, monkeypatch):
     assert by_index == by_records
 
 
-def test_missing_states_are_counted_by_their_numbers_if_the_recorder_did_not(sound, tmp_path):
+def test_missing_states_are_counted_by_their_numbers(sound, tmp_path):
     """Not the end of a run before a reset, after which the numbers continue."""
 
     def lose(topic, number, row):
@@ -127,7 +109,7 @@ def test_the_index_leads_to_every_message(sound):
             assert index.message(channel, number) == message
 
 
-def test_a_file_without_a_valid_index_or_with_a_damaged_chunk_is_read_completely(sound, tmp_path):
+def test_a_file_without_a_valid_index_is_read(sound, tmp_path):
     whole = sound.read_bytes()
     flipped = bytearray(whole)
     flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, with the operating point
@@ -203,14 +185,6 @@ def ramped(folder, *legs):
     return recording.file
 
 
-def test_changes_fit_the_terminal(tmp_path):
-    file = ramped(tmp_path / "bag", (20, {"backlash": 4e-7, "lambda_ratio": 2.0}))
-    printed = CliRunner(env={"COLUMNS": "60"}).invoke(build_app(), ["info", str(file)]).output
-    *_, changes = printed.partition("changes")
-    assert "lambda_ratio from 1 to 2 in 20 steps over 0.2 s" in changes
-    assert max(map(len, changes.splitlines())) <= 60
-
-
 def listed_changes(file):
     printed = CliRunner().invoke(build_app(), ["info", str(file)]).output.splitlines()
     lines = printed[[line.startswith("changes") for line in printed].index(True) :]
@@ -225,10 +199,6 @@ def test_a_ramp_is_one_line(tmp_path):
         "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
         "0.5500 s  backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
     ]
-
-
-def test_a_ramp_to_its_initial_value_is_at_most_one_line(tmp_path):
-    assert len(listed_changes(ramped(tmp_path / "bag", (50, {"input_torque": 63.0})))) <= 2
 
 
 def test_the_figures_of_a_ramp_are_still_those_of_every_step(tmp_path):
@@ -258,13 +228,6 @@ def test_only_changes_at_a_constant_rate_are_one_ramp():
     assert [len(ramp.times) for ramp in ramps(begin + by_hand)] == [1, 1, 1, 1]
 
 
-def test_ramps_of_two_gearboxes_at_once_are_one_each():
-    both = [turned((0.0, 1.0), namespace=n)[0] for n in ("/one", "/two")]
-    for step in range(1, 11):
-        both += turned((step / 100, 1.0 + step)) + turned((step / 100, 1 - step), namespace="/two")
-    assert [len(ramp.times) for ramp in ramps(both)] == [1, 1, 10, 10]
-
-
 def said(file):
     """Exit code of `info`, and its lines."""
     answer = CliRunner().invoke(build_app(), ["info", str(file)])
@@ -272,8 +235,12 @@ def said(file):
     return answer.exit_code, answer.output.splitlines()
 
 
-def test_accounts_that_cannot_be_read_are_one_line_with_the_file_and_the_value(tmp_path):
-    alter = of(Metadata, ACCOUNT_RECORD, metadata={"topic": "/t", "lost": "inf", "missed": "0"})
+def test_unreadable_accounts_are_one_line(tmp_path):
+    def alter(entry):
+        if isinstance(entry, Metadata) and entry.name == ACCOUNT_RECORD:
+            return replace(entry, metadata={"topic": "/t", "lost": "inf", "missed": "0"})
+        return entry
+
     code, lines = said(rewritten(SAMPLE, tmp_path / "bad.mcap", alter))
     (line,) = [line for line in lines if "of losses" in line]
     assert code == 0
@@ -284,33 +251,6 @@ def test_accounts_that_cannot_be_read_are_one_line_with_the_file_and_the_value(t
     )
 
 
-@pytest.mark.parametrize(
-    ("prefix", "start"),
-    [("/a\nplanetary-twin: fake", "/a\\nplanetary-twin: fake/"), ("/" + "x" * 60_000, "/xxx")],
-)
-def test_a_topic_is_one_line_of_moderate_length_whatever_its_name(sound, tmp_path, prefix, start):
-    alter = of(Channel, "joint_states", topic=f"{prefix}/joint_states")
-    code, lines = said(rewritten(sound, tmp_path / "named.mcap", alter))
-    (line,) = [line for line in lines if "/joint_states " in line]
-    assert code == 0 and line.startswith(start)
-    assert max(map(len, lines)) < 400
-
-
-UNREADABLE = {
-    "zeros where records should be": b"\x89MCAP0\r\n" + bytes(1000),
-    "a record that is too long": b"\x89MCAP0\r\n\x06" + b"\xff" * 60,
-}
-
-
-@pytest.mark.parametrize("data", UNREADABLE.values(), ids=UNREADABLE)
-def test_a_file_that_can_hold_no_message_ends_with_code_1(tmp_path, data):
-    file = tmp_path / "odd.mcap"
-    file.write_bytes(data)
-    code, lines = said(file)
-    assert code == 1 and f"planetary-twin: {file}: has no message that can be read" in lines
-    assert not any("still being written" in line for line in lines)
-
-
 def test_a_finished_recording_of_nothing_ends_with_code_1(tmp_path):
     bag = BagWriter(tmp_path / "bag")
     bag.close()
@@ -319,7 +259,7 @@ def test_a_finished_recording_of_nothing_ends_with_code_1(tmp_path):
 
 
 @pytest.mark.parametrize("size", [0, 4, 8, 40])
-def test_a_file_to_which_a_recorder_may_be_writing_ends_with_code_0(sound, tmp_path, size):
+def test_a_file_that_is_being_written_ends_with_code_0(sound, tmp_path, size):
     file = tmp_path / "young.mcap"
     file.write_bytes(sound.read_bytes()[:size])
     assert said(file)[0] == 0
@@ -337,7 +277,7 @@ def with_its_origin_in_the_first_chunk(folder):
 
 
 @pytest.mark.parametrize("kind", ["flip", "cut out"])
-def test_the_origin_of_a_finished_recording_is_said_to_be_lost_in_its_damage(tmp_path, kind):
+def test_an_origin_lost_in_damage_is_said_to_be_lost(tmp_path, kind):
     file = with_its_origin_in_the_first_chunk(tmp_path / "bag")
     with file.open("rb") as stream:
         first = make_reader(stream).get_summary().chunk_indexes[0]

@@ -41,7 +41,7 @@ def test_a_run_is_written_as_file_or_folder(tmp_path, name):
     assert simulate("paper", "--duration", "0.045", "--out", tmp_path / name).exit_code == 2
 
 
-def test_the_contents_say_why_the_number_of_lost_messages_is_unknown(tmp_path):
+def test_info_says_why_the_number_of_losses_is_unknown(tmp_path):
     assert simulate("paper", "--duration", "0.02", "--out", tmp_path / "run").exit_code == 0
     lines = CliRunner().invoke(build_app(), ["info", str(tmp_path / "run")]).stdout.splitlines()
     (line,) = (line for line in lines if line.startswith("lost  "))

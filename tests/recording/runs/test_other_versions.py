@@ -4,11 +4,11 @@ import re
 
 import numpy as np
 import pytest
-from hostile import rewritten
+from altered_recording import rewritten
 from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.runs.branch import Branch
@@ -20,11 +20,6 @@ from planetary_twin_py.recording.tables.export import Export, export
 
 STATE = "planetary_twin_msgs/msg/GearboxState"
 POINT = "planetary_twin_msgs/msg/OperatingPoint"
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 def types_of(definition, kind):
@@ -87,7 +82,7 @@ def test_a_table_has_no_column_for_a_missing_field(sound, tmp_path):
     assert "power_loss" in heading and "efficiency" not in heading
 
 
-def test_a_parameter_that_did_not_exist_keeps_the_value_of_the_scene(sound, tmp_path):
+def test_a_parameter_that_did_not_exist_has_the_scene_s_value(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", POINT, without("oil_temperature"))
     assert verify(file, NAMESPACE).identical
     assert all("oil_temperature" not in change.values for change in read_info(file).changes)

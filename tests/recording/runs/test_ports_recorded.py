@@ -101,7 +101,7 @@ def test_ports_that_were_not_recorded_follow_from_the_commands(run, tmp_path):
     assert verify(made.file, NAMESPACE).identical
 
 
-def test_commands_that_are_not_recorded_are_named_where_the_result_differs(tmp_path):
+def test_commands_that_are_not_recorded_are_named(tmp_path):
     without_commands = topics_of(NAMESPACE)
     bag = BagWriter(tmp_path / "bag")
     for _ in write_run(Composer(bag, without_commands, NAMESPACE), braked_run()):

@@ -52,11 +52,6 @@ def end_of_data(file):
     return last + 9 + length
 
 
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
-
-
 def test_an_unaltered_recording_is_identical_bit_for_bit(sound):
     verdict = verify(sound, NAMESPACE)
     assert verdict.identical and verdict.same_makers
@@ -98,9 +93,7 @@ def test_one_altered_bit_is_found_where_it_is(tmp_path, topic, field, change, pl
         ("run_origin", 1, "data", lambda text: text.replace("torque: 63.0", "torque: 64.0")),
     ],
 )
-def test_an_altered_input_shows_in_the_quantities_that_depend_on_it(
-    tmp_path, topic, number, field, change
-):
+def test_an_altered_input_shows_in_what_depends_on_it(tmp_path, topic, number, field, change):
     verdict = verify(record(tmp_path / "a", altering(topic, number, field, change)), NAMESPACE)
     assert not verdict.identical
     assert verdict.first_difference is not None
@@ -121,18 +114,6 @@ def test_missing_messages_are_bridged_while_nothing_changes(tmp_path):
     assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
 
 
-def test_states_missing_between_others_are_no_whole_recording(tmp_path):
-    gap = {5, 6}
-    file = record(
-        tmp_path / "a",
-        lambda at, n, row: None if n in gap and not at.startswith(("run", "op")) else row,
-    )
-    code, output = invoke(file)
-    assert code == 0
-    assert "not recorded      2 states" in output
-    assert output.endswith("116 recorded messages, all identical bit for bit\n")
-
-
 def test_settings_that_change_within_a_gap_are_not_inferred(tmp_path):
     """Interval 16 is the first at another tolerance."""
     verdict = verify(record(tmp_path / "a", without("gearbox_state", {14, 15, 16, 17})), NAMESPACE)
@@ -148,18 +129,11 @@ def test_messages_after_a_lost_change_are_not_compared(tmp_path):
     assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
 
 
-def test_a_recording_without_the_operating_point_is_refused_with_the_name_of_the_topic(tmp_path):
+def test_a_recording_without_operating_point_is_refused(tmp_path):
     code, output = invoke(record(tmp_path / "a", without("operating_point", range(9))))
     assert code == 2
     assert len(output.splitlines()) == 1
     assert "has no message of the topic operating_point" in output
-
-
-def test_a_run_without_its_first_operating_point_is_not_compared(tmp_path):
-    verdict = verify(record(tmp_path / "a", without("operating_point", {1})), NAMESPACE)
-    assert "operating_point at the start of a run is missing" in verdict.remarks[0]
-    assert verdict.first_difference is None
-    assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
 
 
 @pytest.mark.parametrize(
@@ -168,16 +142,6 @@ def test_a_run_without_its_first_operating_point_is_not_compared(tmp_path):
 def test_without_a_start_nothing_can_be_simulated_again(tmp_path, left_out):
     with pytest.raises(RecordingError, match="has no run with its start"):
         verify(record(tmp_path / "a", left_out), NAMESPACE)
-
-
-def test_a_truncated_file_is_identical_up_to_its_end(sound, tmp_path):
-    whole = sound.read_bytes()
-    truncated = tmp_path / "truncated.mcap"
-    truncated.write_bytes(whole[: len(whole) // 2])
-    verdict = verify(truncated, NAMESPACE)
-    assert verdict.first_difference is None
-    assert 10 <= verdict.messages["gearbox_state"] < 41
-    assert any("is truncated" in remark for remark in verdict.remarks)
 
 
 def test_all_messages_of_an_unfinished_file_are_compared(sound, tmp_path):
@@ -191,7 +155,7 @@ def test_all_messages_of_an_unfinished_file_are_compared(sound, tmp_path):
     assert "122 messages read, all identical bit for bit" in output
 
 
-def test_messages_written_during_the_comparison_are_left_for_the_next_one(sound, tmp_path):
+def test_messages_written_during_the_comparison_are_left(sound, tmp_path):
     whole, path = sound.read_bytes(), tmp_path / "growing.mcap"
     path.write_bytes(whole[: len(whole) * 2 // 3])
 
@@ -202,29 +166,6 @@ def test_messages_written_during_the_comparison_are_left_for_the_next_one(sound,
     assert result.left_out == 0
     assert result.first_difference is None
     assert all("belong to no interval" not in remark for remark in result.remarks)
-
-
-def test_the_number_of_messages_not_compared_is_reported(tmp_path):
-    file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
-    code, output = invoke(file)
-    assert code == 1
-    assert "identical bit for bit in 121 of 122 messages" in output
-
-
-@pytest.mark.exhaustive
-@pytest.mark.slow
-def test_any_bit_flip_in_the_file_is_found(sound, tmp_path):
-    whole = sound.read_bytes()
-    places = np.random.default_rng(1).integers(0, 8 * len(whole), 60).tolist()
-    ends = range(8 * (len(whole) - 40), 8 * len(whole), 13)  # footer and magic
-    for place in (*places, *ends, 3, 90, 300):
-        damaged = bytearray(whole)
-        damaged[place // 8] ^= 1 << place % 8
-        file = tmp_path / "damaged.mcap"
-        file.write_bytes(damaged)
-        code, output = invoke(file)
-        assert code in (1, 2), (place, output)
-        assert "Traceback" not in output
 
 
 def invoke(*arguments):
@@ -248,7 +189,7 @@ def test_other_machines_may_differ_within_the_bound(tmp_path):
         assert output.splitlines()[-1] == f"result            {result}"
 
 
-def test_stored_power_differs_in_relation_to_the_power_it_is_a_difference_of(tmp_path, sound):
+def test_stored_power_is_compared_with_the_input_power(tmp_path, sound):
     state = read_recording(sound).state
     power, stored = state["input_power"][4], state["stored_power"][4]
     assert 0.0 < abs(stored) < 0.2 * power
@@ -273,7 +214,7 @@ def test_the_command_prints_its_findings(sound, tmp_path):
     assert json.loads((tmp_path / "figures.json").read_text())["first_difference"]["time"] == 0.25
 
 
-def test_the_command_refuses_recordings_it_cannot_compare_in_one_line(tmp_path):
+def test_a_recording_that_cannot_be_compared_is_refused(tmp_path):
     code, output = invoke(write_recording(tmp_path / "bag_0.mcap", 0.1))
     assert code == 2
     assert len(output.strip().splitlines()) == 1
@@ -281,17 +222,10 @@ def test_the_command_refuses_recordings_it_cannot_compare_in_one_line(tmp_path):
 
 
 @pytest.mark.parametrize("last", [40, 39])
-def test_a_recorder_stopped_between_the_messages_of_an_interval_made_no_error(tmp_path, last):
+def test_a_recorder_may_stop_within_an_interval(tmp_path, last):
     """States end one or two intervals before the other topics."""
     states = range(last, 42)
     verdict = verify(record(tmp_path / "bag", without("gearbox_state", states)), NAMESPACE)
     assert verdict.identical and verdict.left_out == 0
     assert verdict.messages["gearbox_state"] == 41 - len(states)
     assert verdict.messages["joint_states"] == verdict.messages["gearbox_state"]
-
-
-def test_messages_long_after_the_last_state_are_reported(tmp_path, monkeypatch):
-    monkeypatch.setattr("planetary_twin_py.recording.runs.verify.STOPPED", 15_000_000)  # 1.5 states
-    verdict = verify(record(tmp_path / "bag", without("gearbox_state", range(36, 42))), NAMESPACE)
-    assert not verdict.identical
-    assert any("belong to no interval that is simulated again" in one for one in verdict.remarks)

@@ -58,7 +58,7 @@ def test_commands_are_recorded_and_verified(machine, driven):
     assert verify(driven, NAMESPACE).identical
 
 
-def test_one_shaft_has_other_commands_and_the_other_one_those_that_were_recorded(driven, tmp_path):
+def test_one_shaft_has_other_commands(driven, tmp_path):
     branch = Branch({}, 0.05, commands=pt.Commands(np.array([0.0, 0.123]), output_torque=[140, 99]))
     made = resimulate(driven, NAMESPACE, branch, tmp_path / "bag")
     recording = read_recording(made.file)
@@ -80,7 +80,7 @@ def test_one_shaft_has_other_commands_and_the_other_one_those_that_were_recorded
     assert given[6] == {"input_torque": 63.0 + 2.0 * np.cos(6)}
 
 
-def test_a_shaft_may_follow_positions_where_its_torque_was_recorded(driven, tmp_path):
+def test_a_shaft_may_follow_positions_instead_of_torque(driven, tmp_path):
     scene = pt.load_scene("paper")
     ports = {"drive.input.port": "torque", "drive.output.port": "motion"}
     begin = pt.Twin(scene.replace(**ports)).port_states.output_angle
@@ -93,9 +93,7 @@ def test_a_shaft_may_follow_positions_where_its_torque_was_recorded(driven, tmp_
     assert verify(made.file.parent, NAMESPACE).identical
 
 
-def test_a_port_changes_within_the_run_and_commands_for_the_one_before_have_no_effect(
-    driven, tmp_path
-):
+def test_commands_of_a_changed_port_have_no_effect(driven, tmp_path):
     course = pt.Commands(np.array([0.1, 0.15]), output_speed=[-44.88, -44.0])
     branch = Branch({"drive.input.port": "machine", "input_speed": 100.0}, 0.1, commands=course)
     made = resimulate(driven, NAMESPACE, branch, tmp_path / "bag")

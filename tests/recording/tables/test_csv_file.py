@@ -53,6 +53,7 @@ def test_a_last_value_may_be_missing(tmp_path):
         ([*ROWS, "End of data"], "row 4: has 1 value, must have 2: 'End of data'"),
         ([*ROWS[:3], "# pause", "0.2,3,4", "0.3"], "row 3: has 3 values, must have 2: '0.2,3,4'"),
         (["recorder 7,", *ROWS[1:], "0.3,4,5"], "row 4: has 3 values, must have 2: '0.3,4,5'"),
+        (["0.0,1e-3", "0.1,2"], "row 1: must have the headings of the columns"),
         ([*ROWS, "0.3,-"], "row 4: acceleration = '-': must be a number"),
     ],
 )

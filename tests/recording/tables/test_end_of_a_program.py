@@ -20,9 +20,7 @@ sys.exit(len(columns))
 @pytest.mark.parametrize(
     "suffix, comment", [(".csv", ""), (".csv", "# comment\n"), (".parquet", "")]
 )
-def test_threads_that_read_a_table_never_abort_the_interpreter_at_its_end(
-    tmp_path, suffix, comment
-):
+def test_threads_that_read_a_table_never_abort_the_end(tmp_path, suffix, comment):
     path = tmp_path / f"table{suffix}"
     if suffix == ".csv":
         path.write_text(

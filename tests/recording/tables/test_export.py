@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from pyarrow import parquet
 from rosbags.highlevel import AnyReader
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
@@ -20,11 +20,6 @@ from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
-
-
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory):
-    return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +114,7 @@ def test_values_are_the_recorded_ones_to_the_last_bit(sound, messages, tmp_path,
             assert units[f"{field}_{joint}"] == unit
 
 
-def test_commands_of_a_driven_run_are_exported_with_nan_where_nothing_was_given(tmp_path):
+def test_commands_are_exported_with_nan_where_none_was_given(tmp_path):
     step, torque = 0.01, [63.0, 62.0, 61.0]
     plan = Plan(pt.load_scene("paper"), len(torque) * step, 10_000.0, 1e-3)
     machine = record_plan(plan, tmp_path / "machine").parent
@@ -137,7 +132,7 @@ def test_commands_of_a_driven_run_are_exported_with_nan_where_nothing_was_given(
     assert all(np.isnan(given[name]).all() for name in missing)
 
 
-def test_messages_of_other_joints_are_left_out_of_a_table_with_a_warning():
+def test_messages_of_other_joints_are_left_out_of_a_table():
     def message(*joints):
         stamp = SimpleNamespace(sec=1, nanosec=0)
         values = np.ones(len(joints))

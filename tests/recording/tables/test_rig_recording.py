@@ -44,7 +44,7 @@ def bring_in(folder, columns, *more, name="rig.csv"):
 
 
 @pytest.mark.parametrize("name", ["rig.csv", "rig.parquet"])
-def test_columns_become_fields_in_si_and_unmeasured_quantities_are_nan(tmp_path, name):
+def test_columns_become_fields_in_si_others_are_nan(tmp_path, name):
     done = bring_in(tmp_path, SOUND, name=name)
     assert done.exit_code == 0, done.output
     assert "3 rows, one every 0.1 s" in done.output
@@ -67,7 +67,7 @@ def test_columns_become_fields_in_si_and_unmeasured_quantities_are_nan(tmp_path,
     assert all(np.isnan([s.output_torque, s.tolerance, s.sun_angle]).all() for s in states)
 
 
-def test_the_operating_point_is_the_mean_of_its_rows_or_that_of_the_scene_if_unmeasured(
+def test_the_operating_point_is_the_mean_of_its_rows(
     tmp_path,
 ):
     bring_in(tmp_path, SOUND, "--set", "backlash=0.3um")
@@ -197,7 +197,7 @@ def with_time(*time):
         ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
     ],
 )
-def test_an_invalid_table_is_refused_in_one_line_and_nothing_is_written(tmp_path, columns, reason):
+def test_an_invalid_table_is_refused_in_one_line(tmp_path, columns, reason):
     done = bring_in(tmp_path, columns)
     assert done.exit_code == 2, done.output
     assert reason in done.output and done.output.count("\n") == 1
@@ -292,6 +292,6 @@ def test_losses_within_the_errors_of_the_sensors_are_accepted(tmp_path, loss, ef
     assert bring_in(tmp_path, columns).exit_code == 0
 
 
-def test_the_output_may_drive_and_its_loss_exceed_the_power_at_the_input(tmp_path):
+def test_an_output_that_drives_may_lose_more_than_the_input(tmp_path):
     columns = {"input_torque": np.full(8, -0.1), "power_loss": np.full(8, 75.0)}
     assert bring_in(tmp_path, RIG | columns).exit_code == 0

@@ -15,7 +15,7 @@ def rounded(time):
 
 
 @pytest.mark.parametrize("begin", [0.0, 0.007, 1234.5])
-def test_the_grid_of_rounded_stamps_is_within_half_a_digit_and_has_their_step(begin):
+def test_the_grid_of_rounded_stamps_is_within_half_a_digit(begin):
     stamps = rounded(begin + EVEN)
     grid = rounded_grid(stamps)
     assert grid.digit == pytest.approx(0.01)
@@ -32,7 +32,7 @@ def test_a_missing_or_a_doubled_row_is_no_rounding(row):
             time_step(rounded(stamps))
 
 
-def test_a_digit_as_coarse_as_the_steps_does_not_show_a_missing_row_and_is_refused():
+def test_a_digit_as_coarse_as_the_steps_is_refused():
     assert rounded_grid(np.round(0.07 * np.arange(5000), 1)) is None
 
 

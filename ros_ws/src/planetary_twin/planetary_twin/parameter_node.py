@@ -8,7 +8,6 @@ from typing import Any
 
 from lifecycle_msgs.srv import GetAvailableTransitions, GetState
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
-from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.lifecycle import LifecycleNode
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
@@ -18,7 +17,6 @@ from .parameters import brief, check_settable, coerce, fixed_at, is_fixed, is_nu
 
 _OF_ROS = ("use_sim_time", "start_type_description_service")
 _QOS = "qos_overrides."  # of topics; ROS declares them
-_MAX_PARAMETERS = 200  # in a request: more than the nodes have
 _REQUESTS = QoSProfile(depth=100)
 
 
@@ -38,8 +36,6 @@ class ParameterNode(LifecycleNode):
         )
         self.given: dict[str, Any] = self._take_overrides()
         """Start values of parameters that are not declared yet, by name."""
-        self.service_of(SetParameters).callback = self._set_each
-        self.service_of(SetParametersAtomically).callback = self._set_all
         self.add_pre_set_parameters_callback(self._coerced)
 
     @property
@@ -114,32 +110,3 @@ class ParameterNode(LifecycleNode):
         # The only callback of this kind: with several, rclpy 7.1 duplicates parameters.
         numbers = {p.name for p in parameters if is_number(self, p.name)}
         return coerce(parameters, numbers)
-
-    # rclpy's callbacks end the node if a value has an unknown type.
-
-    def _set_each(
-        self, request: SetParameters.Request, response: SetParameters.Response
-    ) -> SetParameters.Response:
-        messages = request.parameters
-        if len(messages) > _MAX_PARAMETERS:
-            response.results = [self._set(messages)] * len(messages)
-        else:
-            response.results = [self._set([message]) for message in messages]
-        return response
-
-    def _set_all(
-        self, request: SetParametersAtomically.Request, response: SetParametersAtomically.Response
-    ) -> SetParametersAtomically.Response:
-        response.result = self._set(request.parameters)
-        return response
-
-    def _set(self, messages: list[Any]) -> SetParametersResult:
-        if len(messages) > _MAX_PARAMETERS:
-            reason = f"{len(messages)} parameters: at most {_MAX_PARAMETERS} at once"
-            return SetParametersResult(successful=False, reason=reason)
-        try:
-            parameters = [Parameter.from_parameter_msg(message) for message in messages]
-        except ValueError as refusal:
-            name = brief(messages[0].name) if len(messages) == 1 else "parameters"
-            return SetParametersResult(successful=False, reason=f"{name}: {refusal}")
-        return self.set_parameters_atomically(parameters)
