@@ -70,8 +70,11 @@ class Energy:
 
     @property
     def driven(self) -> bool:
-        """Whether the driving work exceeds rounding errors, unlike at standstill."""
-        return self.driving_work > ROUNDING * self.stored
+        """Whether work passes through the train, unlike at standstill.
+
+        What is only stored, as where a set-point at rest winds up a shaft, does not pass.
+        """
+        return self.driving_work - max(self.kinetic + self.elastic, 0.0) > ROUNDING * self.stored
 
     @property
     def residual(self) -> float:
@@ -181,7 +184,7 @@ class Result:
 
     @property
     def efficiency(self) -> float:
-        """1 - loss/driving work over `duration`; NaN if no machine drives, as at standstill.
+        """1 - loss/driving work over `duration`; NaN unless `Energy.driven`, as at standstill.
 
         Work counts where it is put in, at any shaft, so a reversal of the power does not cancel it.
         """

@@ -156,11 +156,12 @@ class Window:
         """1 - power_loss/power of the driving machines; NaN if no machine drives, as at standstill.
 
         A machine drives if its mean power over the window does: divide a window in which power
-        changes direction.
+        changes direction. Power that is only stored does not count, see `Energy.driven`.
         """
         driving = float(np.maximum(self.machine_power, 0.0).sum())
         least = ROUNDING * self.stored_energy / (self.end - self.start)
-        return 1.0 - self.power_loss / driving if driving > least else math.nan
+        passing = driving - max(self.stored_power, 0.0)
+        return 1.0 - self.power_loss / driving if passing > least else math.nan
 
     def __repr__(self) -> str:
         """One line."""

@@ -1,5 +1,7 @@
 """Standing still, and starting from there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from stability.sound import (
@@ -15,6 +17,7 @@ from stability.sound import (
 )
 
 import planetary_twin_py as pt
+from planetary_twin_py.result import Energy
 
 EITHER_LAW = pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
 
@@ -45,6 +48,23 @@ def test_standing_still_there_is_no_efficiency(torque):
     scene = PAPER.replace(input_speed=0.0, input_torque=torque)
     assert np.isnan(pt.simulate(scene, 0.1).efficiency)
     assert np.isnan(pt.Twin(scene).advance(0.1).efficiency)
+
+
+def test_at_rest_work_that_is_only_stored_has_no_efficiency():
+    """A ring rocks in its clearance, and winds up the shaft of a motor that holds speed zero."""
+    rocking = Energy(
+        machines=(6.044e-8, 0.0),
+        kinetic=2.7e-11,
+        elastic=5.985e-8,
+        friction=7.5e-11,
+        damping=4.8e-10,
+        bearing=0.0,
+        churning=0.0,
+        stiffness_work=0.0,
+        stored=12.99,
+    )
+    assert not rocking.driven
+    assert replace(rocking, elastic=0.0, machines=(6.044e-8, -5.9e-8)).driven
 
 
 @EITHER_LAW

@@ -17,6 +17,7 @@ namespace gearbox {
 namespace {
 
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
+constexpr std::int64_t CLOSER = 3;             // intervals for each one where peaks are sought
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 
 // Films at two nodes of a step without friction, where nothing else depends on them.
@@ -57,15 +58,17 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
         add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
 }
 
-// Fill the series at `intervals` + 1 equidistant times of a collocation step.
+// Fill the series at `intervals` + 1 equidistant times from `begin` to `end` [s] after the start of
+// a collocation step.
 template <int L>
-void fill_at_even_times(const Model& model, Integrator& integrator, std::int64_t intervals) {
+void fill_at_even_times(const Model& model, Integrator& integrator, double begin, double end,
+                        std::int64_t intervals) {
     Series& series = integrator.sums.series;
     Node& node = integrator.run.shown[0];
-    set_even_times(series, 0.0, integrator.control.step, intervals);
+    set_even_times(series, begin, end, intervals);
     const ModalMotion& motion = integrator.run.motion;
-    const Waves<L> gap = waves_at<L>(motion, series.at[1]);
-    Waves<L> now{1.0, 0.0};
+    const Waves<L> gap = waves_at<L>(motion, series.at[1] - begin);
+    Waves<L> now = waves_at<L>(motion, begin);
     for (std::int64_t k = 0; k < series.count; ++k) {
         move_node<L>(model, integrator, series.at[k], now.cosine, now.sine, node);
         find_forces_at_node<L>(model, integrator, node, series.at[k]);
@@ -163,31 +166,80 @@ ALWAYS_INLINE void add_integrals(const StepConstants& constants, const Values& v
     (V(constants.side) * force_sum).store(step.integral[MESH_FORCE]);
 }
 
-// Largest values, and vertices of the parabolas through three neighbouring ones.
+// Largest values, and the largest vertices of parabolas through three neighbouring ones, which are
+// at least as large.
+template <int L>
+struct Peaks {
+    Row<L> value, vertex;
+
+    ALWAYS_INLINE void add(const Row<L>& next) {
+        value = larger(value, next);
+        vertex = larger(vertex, next);
+    }
+    // Whether the motion may exceed both values and `yet` between them by more than the share
+    // `allowed`: a vertex errs by less than its rise above them.
+    ALWAYS_INLINE bool may_exceed(const double* yet, double allowed) const {
+        const Row<L> rise = vertex - value;
+        return !none((rise > allowed * vertex) & (vertex + rise > Row<L>(yet)));
+    }
+};
+
+template <int L>
+struct MeshPeaks {
+    Peaks<L> dte, force;
+};
+
 template <int L, class Values>
-ALWAYS_INLINE void find_peaks(const Values& values, MeshSums& step) {
+ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values) {
     using V = Row<L>;
     V d(values.d(0)), force(values.normal_force(0));
-    V dte = absolute(d), peak = larger(V(0.0), force);
+    const V first_d = absolute(d), first_force = larger(V(0.0), force);
+    MeshPeaks<L> peaks{{first_d, first_d}, {first_force, first_force}};
     for (std::int64_t n = 1; n < values.count(); ++n) {
         V next_d(values.d(n)), next_force(values.normal_force(n));
-        dte = larger(dte, absolute(next_d));
-        peak = larger(peak, next_force);
+        peaks.dte.add(absolute(next_d));
+        peaks.force.add(next_force);
         if (n == values.count() - 1) break;
         const Neighbours& around = values.around(n);
-        dte = larger(dte, absolute(vertex(around, d, next_d, V(values.d(n + 1)))));
-        peak = larger(peak, vertex(around, force, next_force, V(values.normal_force(n + 1))));
+        const V top_d = vertex(around, d, next_d, V(values.d(n + 1)));
+        const V top_force = vertex(around, force, next_force, V(values.normal_force(n + 1)));
+        peaks.dte.vertex = larger(peaks.dte.vertex, absolute(top_d));
+        peaks.force.vertex = larger(peaks.force.vertex, top_force);
         d = next_d;
         force = next_force;
     }
-    dte.store(step.dte_peak);
-    peak.store(step.force_peak);
+    return peaks;
 }
 
+template <int L>
+ALWAYS_INLINE void put_vertices(const MeshPeaks<L>& peaks, MeshSums& step) {
+    peaks.dte.vertex.store(step.dte_peak);
+    peaks.force.vertex.store(step.force_peak);
+}
+
+// Integrals of a part of a collocation step from `begin` to `end` [s], and its peaks.
+//
+// Nodes are too far apart for the vertices of parabolas. Where these may be the largest ones yet,
+// the motion is evaluated at closer times.
 template <int L, class Values>
-void add_values(const StepConstants& constants, const Values& values, MeshSums& step) {
-    add_integrals<L>(constants, values, step);
-    find_peaks<L>(values, step);
+void add_collocated_values(const Model& model, Integrator& integrator, const Values& values,
+                           double begin, double end, MeshSums& step) {
+    constexpr int M = MESH_LANES<L>;
+    StepSums& sums = integrator.sums;
+    add_integrals<M>(integrator.constants, values, step);
+    const MeshPeaks<M> peaks = find_peaks<M>(values);
+    put_vertices(peaks, step);
+    // A recorded step is repeated in later windows.
+    static constexpr MeshSums NOTHING{};
+    const bool first = integrator.periodic.recording || sums.total.time == 0.0;
+    const MeshSums& yet = first ? NOTHING : sums.total;
+    const double allowed = integrator.control.tolerance;
+    if (!peaks.dte.may_exceed(yet.dte_peak, allowed) &&
+        !peaks.force.may_exceed(yet.force_peak, allowed))
+        return;
+    const std::int64_t closer = CLOSER * std::max(values.count() - 1, FEWEST);
+    fill_at_even_times<L>(model, integrator, begin, end, std::min(closer, MOST_EVEN_TIMES - 1));
+    put_vertices(find_peaks<M>(AtEvenTimes{sums.series}), step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
@@ -209,7 +261,6 @@ void add_contacts_of_nodes(const Model& model, Integrator& integrator, bool cut)
 // Sum up a collocation step.
 template <int L>
 void add_collocated(const Model& model, Integrator& integrator) {
-    const StepConstants& constants = integrator.constants;
     const Propagation& run = integrator.run;
     StepSums& sums = integrator.sums;
     const double h = integrator.control.step;
@@ -217,9 +268,9 @@ void add_collocated(const Model& model, Integrator& integrator) {
     add_contacts_of_nodes<L>(model, integrator, cut);
     std::int64_t intervals = even_intervals(integrator, model.train, h);
     if (intervals == 0 && !cut)
-        return add_values<MESH_LANES<L>>(constants, AtNodes{run}, sums.step);
-    fill_at_even_times<L>(model, integrator, std::max(intervals, FEWEST));
-    add_series(model.train, constants, sums.series, sums.step);
+        return add_collocated_values<L>(model, integrator, AtNodes{run}, 0.0, h, sums.step);
+    fill_at_even_times<L>(model, integrator, 0.0, h, std::max(intervals, FEWEST));
+    add_series(model, integrator, sums.step);
 }
 
 }  // namespace
@@ -230,7 +281,7 @@ void sum_step(const Model& model, Integrator& integrator) {
         with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, integrator); });
     } else {
         add_ends(model, integrator);
-        add_series(model.train, integrator.constants, integrator.sums.series, integrator.sums.step);
+        add_series(model, integrator, integrator.sums.step);
     }
 }
 
@@ -270,10 +321,16 @@ void set_even_times(Series& series, double begin, double end, std::int64_t inter
     series.weight[0] = series.weight[intervals] = gap / 3.0;
 }
 
-void add_series(const Train& train, const StepConstants& constants, const Series& series,
-                MeshSums& step) {
-    with_mesh_lanes(train,
-                    [&](auto lanes) { add_values<lanes>(constants, AtEvenTimes{series}, step); });
+void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
+    const Series& series = integrator.sums.series;
+    const double begin = series.at[0], end = series.at[series.count - 1];
+    with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
+        const AtEvenTimes values{series};
+        if (integrator.control.collocated)
+            return add_collocated_values<L>(model, integrator, values, begin, end, step);
+        add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
+        put_vertices(find_peaks<MESH_LANES<L>>(values), step);
+    });
 }
 
 }  // namespace gearbox

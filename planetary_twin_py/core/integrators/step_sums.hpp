@@ -24,7 +24,6 @@ std::int64_t even_intervals(const Integrator& integrator, const Train& train, do
 void set_even_times(Series& series, double begin, double end, std::int64_t intervals);
 
 // Integrals and extremes of transmission errors and forces, from the series.
-void add_series(const Train& train, const StepConstants& constants, const Series& series,
-                MeshSums& step);
+void add_series(const Model& model, Integrator& integrator, MeshSums& step);
 
 }  // namespace gearbox

@@ -38,7 +38,7 @@ void count_part(const Model& model, Integrator& integrator, double begin, double
     }
     sums.part.time = end - begin;
     put_contacts(train, model.oil, contacts, sums.part.integral);
-    add_series(train, integrator.constants, series, sums.part);
+    add_series(model, integrator, sums.part);
     add_sums(sums.part, sums.total, mesh_lanes(train));
 }
 

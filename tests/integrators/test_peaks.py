@@ -1,0 +1,54 @@
+"""Peaks between the nodes of steps are those that dense samples show."""
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+
+PAPER = pt.load_scene("paper")
+TOLERANCE, RATE = 1e-4, 1e7  # [-], [Hz]
+PEAKS = ("dte_peak", "mesh_force_peak")
+
+
+def scene_at(speed, ramp):
+    """At a speed [rpm], with this share of a mesh cycle between stiffnesses."""
+    return PAPER.replace(**{"input_speed": pt.rpm(speed), "mesh.ramp": ramp})
+
+
+def assert_equals_samples(statistics, dte, force):
+    """Peaks of every mesh differ by less than the tolerance of the largest one."""
+    for name, samples in zip(PEAKS, (dte, force), strict=True):
+        dense = np.abs(samples).max(axis=0)
+        assert statistics[name] == pytest.approx(dense, abs=TOLERANCE * dense.max())
+
+
+@pytest.mark.parametrize(("speed", "ramp"), [(300.0, 0.03), (1000.0, 0.03), (1000.0, 0.1)])
+def test_peaks_are_those_of_dense_samples_within_the_tolerance(speed, ramp):
+    run = pt.simulate(scene_at(speed, ramp), 0.004, RATE, "march", TOLERANCE)
+    assert_equals_samples(run.mesh, run.dte, run.mesh_force)
+
+
+def test_peaks_of_short_windows_are_those_of_dense_samples():
+    twin = pt.Twin(scene_at(1000.0, 0.03), sample_rate=RATE, tolerance=TOLERANCE)
+    before = twin.advance(5e-4).waveform
+    for _ in range(8):
+        window = twin.advance(5e-4)
+        now = window.waveform
+        # The last sample before is that of the start.
+        dte, force = (
+            np.vstack([old[-1:], new])
+            for old, new in ((before.dte, now.dte), (before.mesh_force, now.mesh_force))
+        )
+        assert_equals_samples(window.mesh, dte, force)
+        before = now
+
+
+def test_peaks_of_repeated_mesh_cycles_are_those_of_computed_ones():
+    repeated, computed = (
+        pt.simulate(scene_at(1000.0, 0.1), 0.05, 50_000.0, method, TOLERANCE, settling=4.0)
+        for method in ("auto", "march")
+    )
+    assert repeated.stats.repeated_steps > 0
+    for name in PEAKS:
+        largest = computed.mesh[name].max()
+        assert repeated.mesh[name] == pytest.approx(computed.mesh[name], abs=TOLERANCE * largest)
