@@ -37,7 +37,6 @@ def test_the_page_shows_speeds_and_ratios():
     page = equal_error_markdown(ROWS, [minute])
     for error, bare, sampled in (
         ("1e-03", "20 | 10 (2) | 1 (20) | - | 300", "10 | 5 (2) | 0.5 (20) | -"),
-        ("1e-04", "16 | - | 1 (16) | - | 300", "8 | - | 0.5 (16) | -"),
         ("1e-06", "- | - | - | - | -", "- | - | - | -"),
     ):
         section = page.split(f"### DTE error at most {error}\n")[1].split("###")[0]
