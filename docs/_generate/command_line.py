@@ -54,14 +54,12 @@ def _section(command: str, many: set[str]) -> str:
     usage = _USAGE.search(command)
     assert usage is not None
     found = list(_OPTION.finditer(command))
-    own = "".join(match[0] for match in found if match[0] not in many)
+    rows = [match[0] for match in found if match[0] not in many]
     names = [match["name"].split()[0] for match in found if match[0] in many]
     also = ", ".join(f"`{name}`" for name in names if name.startswith("--") and name != "--help")
-    return (
-        f"\n## `{usage[1].replace(' [OPTIONS]', '')}`\n\n{_words(command)}"
-        + (f"\n{own}" if own else "")
-        + (f"\nAlso {also}.\n" if also else "")
-    )
+    rows += [f"* also {also}\n"] if also else []
+    listed = "\n" + "".join(rows) if rows else ""
+    return f"\n## `{usage[1].replace(' [OPTIONS]', '')}`\n\n{_words(command)}{listed}"
 
 
 def _words(command: str) -> str:
