@@ -132,7 +132,7 @@ def _entry(entry: Entry, folder: str, suffix: str) -> str:
             ("statement of the paper", "default", "as printed"),
             [_claim(claim) for claim in entry.claims],
         ),
-        f"Verdict: {_verdict(entry)}.",
+        f"Verdict: {_verdict(entry)}." if entry.reason else "",
         entry.remarks,
     ]
     if entry.picture is not None:
