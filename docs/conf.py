@@ -26,6 +26,7 @@ myst_heading_anchors = 4
 
 autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"
+autodoc_default_options = {"members": True}
 autodoc_member_order = "bysource"
 autodoc_inherit_docstrings = False
 

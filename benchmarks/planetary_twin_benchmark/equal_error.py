@@ -10,7 +10,7 @@ from .steady import Steady
 from .table import Row
 from .timing import METHOD, SAMPLE_RATE
 
-ERRORS = (1e-3, 1e-4, 1e-6)
+ERRORS = (1e-3, 1e-6)
 # Off-the-shelf solvers, by the first letters of their names.
 KINDS = {
     "CVODE": ("cvode",),

@@ -122,7 +122,7 @@ def _verdict(entry: Entry) -> str:
 def _summary(entry: Entry) -> tuple[str, str, str]:
     anchor = f"{entry.number} {entry.title}".lower()
     anchor = "".join(c for c in anchor if c.isalnum() or c in " -").replace(" ", "-")
-    return f"[{entry.number}](#{anchor})", entry.title, _verdict(entry)
+    return f"[{entry.number}](#{anchor})", entry.title, f"**{entry.verdict.text}**"
 
 
 def _entry(entry: Entry, folder: str, suffix: str) -> str:
@@ -132,7 +132,7 @@ def _entry(entry: Entry, folder: str, suffix: str) -> str:
             ("statement of the paper", "default", "as printed"),
             [_claim(claim) for claim in entry.claims],
         ),
-        f"Verdict: {_verdict(entry)}.",
+        f"Verdict: {_verdict(entry)}." if entry.reason else "",
         entry.remarks,
     ]
     if entry.picture is not None:

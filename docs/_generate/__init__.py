@@ -1,6 +1,6 @@
 """Pages of the reference that are generated from the code, each by a module of its own."""
 
-from . import command_line, hidden_fields, interfaces, nodes, scene_fields, topics_and_services
+from . import command_line, hidden_fields, interfaces, nodes, scene_fields
 
 PAGES = {
     "command-line.md": command_line.page,
@@ -8,5 +8,4 @@ PAGES = {
     "messages.md": interfaces.page,
     "nodes.md": nodes.page,
     "scene-fields.md": scene_fields.page,
-    "topics-and-services.md": topics_and_services.page,
 }

@@ -1,18 +1,69 @@
 """The command line, from the Typer application."""
 
 import re
+from collections import Counter
 
 import typer
 from typer.cli import get_docs_for_click
 
 from planetary_twin_py.cli import build_app
 
-_TITLE = "# Command line\n\nGenerated from the application that `planetary-twin --help` shows.\n"
+_MANY = 3
+"""An option that is the same in so many commands is explained once."""
+_OPTION = re.compile(r"^\* `(?P<name>[^`]+)`: .*\n", re.MULTILINE)
+_USAGE = re.compile(r"\*\*Usage\*\*:\n\n```console\n\$ (.*)\n```\n")
+_HEAD = """# Command line
+
+Generated from the application that `planetary-twin --help` shows. `[SCENE]` may be left out,
+`{SCENE}` may not.
+
+"""
+_COMMON = """
+## Options of several commands
+
+A command below names those that it has. `--help` shows the explanations of all options.
+
+"""
 
 
 def page() -> str:
-    """A section for every command, as `--help` has it."""
-    command = typer.main.get_command(build_app())
-    context = typer.Context(command, info_name="planetary-twin")
-    text = get_docs_for_click(obj=command, ctx=context, name="planetary-twin")
-    return _TITLE + re.sub(r"^(#+ )", r"#\1", text, flags=re.MULTILINE)
+    """Options of several commands, then a section for every command."""
+    application = typer.main.get_command(build_app())
+    context = typer.Context(application, info_name="planetary-twin")
+    text = get_docs_for_click(obj=application, ctx=context, name="planetary-twin")
+    # Lists of commands are left out: the sections have the same sentences.
+    text = re.sub(r"\*\*Commands\*\*:\n\n(\* .*\n)+", "", text)
+    first, *commands = re.split(r"^##+ .*\n", text.split("\n", 1)[1], flags=re.MULTILINE)
+    lines = [match for command in commands for match in _OPTION.finditer(command)]
+    counts = Counter(line[0] for line in lines)
+    many = {line for line, count in counts.items() if count >= _MANY}
+    named = sorted(many)
+    return (
+        _HEAD
+        + _words(first)
+        + "\n"
+        + "".join(match[0] for match in _OPTION.finditer(first))
+        + _COMMON
+        + "".join(line for line in named if "`--help`" not in line)
+        + "".join(_section(command, many) for command in commands)
+    )
+
+
+def _section(command: str, many: set[str]) -> str:
+    """Usage, words, own arguments and options, and names of those that are explained above."""
+    usage = _USAGE.search(command)
+    assert usage is not None
+    found = list(_OPTION.finditer(command))
+    rows = [match[0] for match in found if match[0] not in many]
+    names = [match["name"].split()[0] for match in found if match[0] in many]
+    also = ", ".join(f"`{name}`" for name in names if name.startswith("--") and name != "--help")
+    rows += [f"* also {also}\n"] if also else []
+    listed = "\n" + "".join(rows) if rows else ""
+    return f"\n## `{usage[1].replace(' [OPTIONS]', '')}`\n\n{_words(command)}{listed}"
+
+
+def _words(command: str) -> str:
+    """What a command prints as help besides usage, arguments and options."""
+    text = _OPTION.sub("", _USAGE.sub("", command))
+    text = re.sub(r"^\*\*(Arguments|Options)\*\*:\n", "", text, flags=re.MULTILINE)
+    return re.sub(r"\n{3,}", "\n\n", text).strip() + "\n"

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from tempfile import TemporaryDirectory
+from textwrap import fill
 
 # The nodes exist in this process only; no other process should discover them.
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "OFF"
@@ -32,12 +33,13 @@ _TYPES = {
     if name.startswith("PARAMETER_")
 }
 _OF_ROS = {"use_sim_time", "start_type_description_service"}
+_OF_SCENE = "| `{0}.*` | as in the scene | with scene | [its fields](scene-fields.md#{0}) |\n"
 _TITLES = "parameter", "type = default; range", "changes", "meaning"
-_HEAD = """# Nodes
+_HEAD = """# Parameters of the nodes
 
-Generated from the nodes, with the scene `paper`. Names are relative to the namespace
-`/planetary_twin` unless they start with a slash. [Topics and services](topics-and-services.md)
-explains their use. The parameter and lifecycle services of every node are left out.
+Generated from the nodes, with the scene `paper`. [Topics and services](topics-and-services.md)
+explains what they publish and serve. Names are relative to the namespace `/planetary_twin` unless
+they start with a slash.
 
 | parameters change | when |
 |---|---|
@@ -60,18 +62,18 @@ def page() -> str:
 def _section(name: str, kind: type[Node]) -> str:
     node = kind()
     try:
-        rest = _table("service", "type", _services(node)) + _parameters(node)
-        return f"\n## Node `{name}`\n" + _table("topic", "type", _topics(node)) + rest
+        rest = _names("Serves", _services(node)) + _parameters(node)  # before topics change them
+        return f"\n## Node `{name}`\n{_names('Publishes', _topics(node))}{rest}"
     finally:
         node.destroy_node()
 
 
-def _table(title: str, second: str, rows: Iterator[tuple[str, str]]) -> str:
-    lines = [f"| `{name}` | {kind} |\n" for name, kind in sorted(rows)]
-    return f"\n| {title} | {second} |\n|---|---|\n" + "".join(lines) if lines else ""
+def _names(verb: str, names: Iterator[str]) -> str:
+    listed = ", ".join(f"`{name}`" for name in sorted(names))
+    return f"\n{fill(f'{verb} {listed}.', 100, break_on_hyphens=False)}\n" if listed else ""
 
 
-def _topics(node: Node) -> Iterator[tuple[str, str]]:
+def _topics(node: Node) -> Iterator[str]:
     """Topics of a configured node; those of a replay depend on its recording."""
     if isinstance(node, Replay):
         return
@@ -82,30 +84,32 @@ def _topics(node: Node) -> Iterator[tuple[str, str]]:
         for publisher in node.publishers:
             name = publisher.topic_name
             if not name.endswith(("/transition_event", "rosout", "parameter_events")):
-                yield _short(name), _type(publisher.msg_type)
+                yield _short(name)
         node.close()
 
 
-def _services(node: Node) -> Iterator[tuple[str, str]]:
+def _services(node: Node) -> Iterator[str]:
     for service in node.services:
-        kind = _type(service.srv_type)
-        if not kind.startswith(("rcl_interfaces/", "lifecycle_msgs/", "type_description_")):
-            yield _short(service.service_name), kind
+        package = service.srv_type.__module__.split(".")[0]
+        if package not in ("rcl_interfaces", "lifecycle_msgs", "type_description_interfaces"):
+            yield _short(service.service_name)
 
 
 def _short(name: str) -> str:
     return name.removeprefix("/planetary_twin/")
 
 
-def _type(kind: type) -> str:
-    return f"{kind.__module__.split('.')[0]}/{kind.__name__}"
-
-
 def _parameters(node: Node) -> str:
     lines = [f"\n| {' | '.join(_TITLES)} |\n", "|---" * len(_TITLES), "|\n"]
     for name, parameter in sorted(node.get_parameters_by_prefix("").items()):
-        if not name.startswith("qos_overrides") and name not in _OF_ROS:
-            lines.append(_parameter(node.describe_parameter(name), parameter.value))
+        if name.startswith("qos_overrides") or name in _OF_ROS:
+            continue
+        descriptor = node.describe_parameter(name)
+        section = name.split(".")[0]
+        if changes(descriptor) != "with scene":
+            lines.append(_parameter(descriptor, parameter.value))
+        elif (row := _OF_SCENE.format(section)) not in lines:
+            lines.append(row)
     return "".join(lines)
 
 

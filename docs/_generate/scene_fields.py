@@ -1,5 +1,7 @@
 """The fields of a scene, from the schema that checks it."""
 
+from collections.abc import Iterable
+
 from planetary_twin_py.scene.fields import SceneField, SceneSection, scene_sections
 
 _HEAD = """# Fields of a scene
@@ -19,14 +21,35 @@ _COLUMNS = "| field | default; range | meaning |\n|---|---|---|\n"
 
 def page() -> str:
     """A section for every section of a scene."""
-    return _HEAD + "".join(section_text(one, "The scene") for one in scene_sections())
+    return _HEAD + sections_text(scene_sections(), "The scene")
 
 
-def section_text(section: SceneSection, whole: str) -> str:
-    """Heading, meaning and table of a section; `whole` is the heading of one without a name."""
+def sections_text(sections: Iterable[SceneSection], whole: str) -> str:
+    """Heading, meaning and table of each section; sections with the same fields share one table.
+
+    Args:
+        sections: of a file.
+        whole: heading of a section without a name.
+    """
+    groups: dict[tuple[object, ...], list[SceneSection]] = {}
+    for section in sections:
+        groups.setdefault(_content(section), []).append(section)
+    return "".join(_section(first, others, whole) for first, *others in groups.values())
+
+
+def _content(section: SceneSection) -> tuple[object, ...]:
+    """What sections with the same fields have in common."""
+    fields = tuple(field._replace(name=field.name.split(".")[-1]) for field in section.fields)
+    return section.kind, section.meaning, fields
+
+
+def _section(section: SceneSection, others: list[SceneSection], whole: str) -> str:
     kind = f", kind {section.kind}" if section.kind else ""
     title = f"`{section.name}`{kind}" if section.name else whole
-    return f"\n## {title}\n\n{section.meaning}\n\n{_COLUMNS}" + "".join(map(_row, section.fields))
+    same = ", ".join(f"`{other.name}`" for other in others)
+    same = f"The same fields: {same}.\n\n" if others else ""
+    rows = "".join(map(_row, section.fields))
+    return f"\n## {title}\n\n{section.meaning}\n\n{same}{_COLUMNS}{rows}"
 
 
 def _row(field: SceneField) -> str:

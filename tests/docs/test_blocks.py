@@ -57,7 +57,8 @@ def test_every_block_states_its_language_and_why_it_is_not_run(page):
 )
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
-    shutil.copytree(ROOT / "tests" / "data", tmp_path / "tests" / "data")
+    for part in ("tests/data", "docs/examples"):
+        shutil.copytree(ROOT / part, tmp_path / part)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
     behind, namespace = [], {"__name__": "__main__"}

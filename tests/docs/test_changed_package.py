@@ -15,7 +15,7 @@ def test_pages_that_change_the_package():
     folder = ROOT / "build" / "changed"  # .ci/run names this path to its compiler cache
     shutil.rmtree(folder, ignore_errors=True)
     ignored = shutil.ignore_patterns("__pycache__", "*.so")
-    for part in ("planetary_twin_py", "tools"):
+    for part in ("planetary_twin_py", "tools", "docs/examples"):
         shutil.copytree(ROOT / part, folder / part, ignore=ignored)
     here = {"PYTHONPATH": str(folder), "VIRTUAL_ENV": sys.prefix}
     here["GIT_CEILING_DIRECTORIES"] = str(folder.parent)  # a patch is for this copy
