@@ -17,7 +17,7 @@ from stability.sound import (
 )
 
 import planetary_twin_py as pt
-from planetary_twin_py.result import Energy
+from planetary_twin_py.run.result import Energy
 
 EITHER_LAW = pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
 
