@@ -17,7 +17,6 @@ from pyarrow import csv, parquet
 from .message_tables import Batch, Column
 from .units_file import write_units
 
-
 _GROUP = 2**15  # rows of a row group, at least: the writer keeps 1 kB of each column of every group
 
 
