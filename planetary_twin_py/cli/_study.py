@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
     from ..scene import Scene
     from ..studies.axes import Axis, Normal, Span
+    from ..studies.plan import Study
+    from ..studies.sweep import Report
+    from ..studies.work import Executor, Failure
 
 TABLES = (".parquet", ".csv")
 PICTURE_DPI = 150  # dots per inch
@@ -84,6 +87,87 @@ def default_speeds(scene: Scene, share: float, count: str) -> str:
     highest = next(part * decade for part in (5.0, 2.0, 1.0) if part * decade <= limit)
     highest = math.copysign(highest, scene.operating_point.input_speed)
     return f"{share * highest:.10g}rpm:{highest:.10g}rpm:{count}"
+
+
+@contextmanager
+def computed(study: Study, out: Path, scheduler: str | None = None) -> Iterator[pa.Table]:
+    """Compute a study, with a progress bar.
+
+    Args:
+        study: points to compute.
+        out: file that the results are for. Completed points are kept in a journal beside it, until
+            the block ends without an error.
+        scheduler: address of a Dask scheduler, or number of threads; None is a thread per core.
+
+    Yields:
+        The results, a row per point.
+
+    Raises:
+        ValueError: `scheduler` is not a positive number, or the journal is of another study.
+        OSError: the journal cannot be written, or the scheduler cannot be reached.
+    """
+    from ..studies.sweep import sweep
+
+    journal = out.with_name(f"{out.name}.journal")
+    with (
+        _executor(scheduler) as executor,
+        _reported(study) as report,
+        kept(journal, len(study.points)),
+    ):
+        table = sweep(study, executor, journal, report)
+    yield table
+    journal.unlink()
+
+
+@contextmanager
+def kept(journal: Path, points: int) -> Iterator[None]:
+    """Say what is kept if the study is interrupted.
+
+    Args:
+        journal: file with a line for each completed point.
+        points: number of points of the study.
+    """
+    try:
+        yield
+    except KeyboardInterrupt:
+        done = len(journal.read_text().splitlines()) if journal.exists() else 0
+        remark(
+            f"interrupted: {done} of {points} points are kept in {journal}; repeat the command to "
+            "continue, or delete this file to start again"
+        )
+        raise
+
+
+@contextmanager
+def _executor(scheduler: str | None) -> Iterator[Executor]:
+    if scheduler is None or scheduler.isdecimal():
+        if scheduler is not None and int(scheduler) < 1:
+            raise ValueError(f"--scheduler = {scheduler!r}: must be at least 1 thread")
+        from ..studies.local import Threads
+
+        yield Threads(None if scheduler is None else int(scheduler))
+        return
+    need("studies", "distributed")
+    from ..studies.cluster import Cluster
+
+    cluster = Cluster(scheduler)
+    try:
+        yield cluster
+    finally:
+        cluster.close()
+
+
+@contextmanager
+def _reported(study: Study) -> Iterator[Report]:
+    """A progress bar of the points, above which failures are printed."""
+    with progress("points", len(study.points)) as advance:
+
+        def report(done: int, failure: Failure | None) -> None:
+            advance(done)
+            if failure is not None:
+                remark(failure.reason)
+
+        yield report
 
 
 def write_results(

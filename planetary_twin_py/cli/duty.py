@@ -13,8 +13,7 @@ from ..terminal.messages import fail, remark
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
 from ..units.engineering import figure
-from ._study import TABLES, check_suffix, warn, write_results
-from .sweep import _executor, _kept, _progress
+from ._study import TABLES, check_suffix, computed, warn, write_results
 
 if TYPE_CHECKING:
     from ..studies.duty import Summary
@@ -51,22 +50,14 @@ def duty(
     check_suffix(out, TABLES)
     from ..studies.duty import read_duty, summary_of_duty
     from ..studies.plan import Settings
-    from ..studies.sweep import sweep as run
 
     try:
         loaded = changed_scene(scene, settings(set_ or []))
         cycle = read_duty(table)
         study, place = cycle.study(loaded, Settings(duration, settling, tolerance=tolerance))
-        journal = out.with_name(f"{out.name}.journal")
-        with (
-            _executor(None) as executor,
-            _progress(study) as report,
-            _kept(journal, len(study.points)),
-        ):
-            found = run(study, executor, journal, report)
-        write_results(found, out)
-        summary = summary_of_duty(cycle, place, found)
-        journal.unlink()
+        with computed(study, out) as found:
+            write_results(found, out)
+            summary = summary_of_duty(cycle, place, found)
     except (ValueError, OSError) as error:
         fail(error)
     console = console_beside(json_)

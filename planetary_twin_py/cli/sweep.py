@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..terminal.arguments import SceneArgument, ToleranceOption
-from ..terminal.messages import fail, need, remark
+from ..terminal.messages import fail, remark
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
-from ._study import TABLES, axis, check_suffix, progress, warn, write_results
+from ._study import TABLES, axis, check_suffix, computed, warn, write_results
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
     from ..scene import Scene
-    from ..studies.plan import Study
-    from ..studies.sweep import Report
-    from ..studies.work import Executor, Failure
 
 # Options that click does not know are fields of the scene.
 FIXED = "set"  # not a field
@@ -76,7 +72,6 @@ def sweep(  # noqa: PLR0913 - an argument for each option
     from ..studies.axes import Normal, planet_by_planet
     from ..studies.distribution import usual_measures
     from ..studies.plan import Settings, grid, latin_hypercube
-    from ..studies.sweep import sweep as run
 
     try:
         given = list(_fields(context.args))
@@ -93,18 +88,11 @@ def sweep(  # noqa: PLR0913 - an argument for each option
             if samples is None
             else latin_hypercube(loaded, axes, samples, settings=how)
         )
-        journal = out.with_name(f"{out.name}.journal")
-        with (
-            _executor(scheduler) as executor,
-            _progress(study) as report,
-            _kept(journal, len(study.points)),
-        ):
-            table = run(study, executor, journal, report)
         drawn = any(isinstance(each, Normal) for each in axes)
-        if drawn:
-            measures = measures or [*usual_measures(table)]
-        write_results(table, out, measures=measures, kind="histogram" if drawn else None)
-        journal.unlink()
+        with computed(study, out, scheduler) as table:
+            if drawn:
+                measures = measures or [*usual_measures(table)]
+            write_results(table, out, measures=measures, kind="histogram" if drawn else None)
     except (ValueError, OSError) as error:
         fail(error)
     scenes = study.extremes()
@@ -155,20 +143,6 @@ def _without_effect(scenes: Sequence[Scene], names: Iterable[str]) -> Iterator[s
             yield from without_effect(scenes[0], [name])
 
 
-@contextmanager
-def _kept(journal: Path, points: int) -> Iterator[None]:
-    """Say what is kept if the study is interrupted."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        done = len(journal.read_text().splitlines()) if journal.exists() else 0
-        remark(
-            f"interrupted: {done} of {points} points are kept in {journal}; repeat the command to "
-            "continue, or delete this file to start again"
-        )
-        raise
-
-
 def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
     """Print mean, standard deviation and percentiles of results."""
     from rich.console import Console
@@ -192,34 +166,3 @@ def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
     for row in zip(headings, *columns, strict=True):
         shown.add_row(*row)
     Console().print(shown)
-
-
-@contextmanager
-def _executor(scheduler: str | None) -> Iterator[Executor]:
-    if scheduler is None or scheduler.isdecimal():
-        if scheduler is not None and int(scheduler) < 1:
-            raise ValueError(f"--scheduler = {scheduler!r}: must be at least 1 thread")
-        from ..studies.local import Threads
-
-        yield Threads(None if scheduler is None else int(scheduler))
-        return
-    need("studies", "distributed")
-    from ..studies.cluster import Cluster
-
-    cluster = Cluster(scheduler)
-    try:
-        yield cluster
-    finally:
-        cluster.close()
-
-
-@contextmanager
-def _progress(study: Study) -> Iterator[Report]:
-    with progress("points", len(study.points)) as advance:
-
-        def report(done: int, failure: Failure | None) -> None:
-            advance(done)
-            if failure is not None:
-                remark(failure.reason)
-
-        yield report

@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli.sweep import _kept
+from planetary_twin_py.cli._study import kept
 
 QUICK = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
 
@@ -129,7 +129,7 @@ def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):
 def test_an_interrupted_study_says_how_to_continue(tmp_path, capsys):
     journal = tmp_path / "study.parquet.journal"
     journal.write_text('{"key": "a", "figures": {}}\n' * 3)
-    with pytest.raises(KeyboardInterrupt), _kept(journal, 40):
+    with pytest.raises(KeyboardInterrupt), kept(journal, 40):
         raise KeyboardInterrupt
     said = capsys.readouterr().err
     assert f"3 of 40 points are kept in {journal}; repeat the command to continue" in said

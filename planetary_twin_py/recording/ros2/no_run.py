@@ -12,6 +12,7 @@ from .definitions import KINDS, OF_PORTS
 from .topics import ORIGIN, STATE
 
 _OF_A_TWIN = {*KINDS, *OF_PORTS, "tf", "diagnostics"}
+_OF_A_FOLLOWER = "estimate"  # a topic beside measured joint_states
 
 
 def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
@@ -32,7 +33,7 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
     missing = [name for name in (ORIGIN, STATE) if name not in with_messages]
     if STATE in with_messages and ORIGIN not in known:  # of a version without it
         return None
-    of_a_twin = STATE in known or with_messages <= _OF_A_TWIN
+    of_a_twin = STATE in known or (with_messages <= _OF_A_TWIN and _OF_A_FOLLOWER not in known)
     if not (missing and of_a_twin):
         return None
     files = files_of(path)

@@ -39,6 +39,22 @@ class Intervals(Sequence[Interval]):
         for column, value in zip(self._columns, interval, strict=True):
             column.append(value)
 
+    @property
+    def stamps(self) -> Sequence[int]:
+        """ROS times of their ends [ns]."""
+        return self._columns[1]
+
+    def cut(self, place: int) -> Intervals:
+        """Remove the intervals from `place` on, and return them."""
+        rest = Intervals()
+        if place == 0:  # without a copy
+            self._columns, rest._columns = rest._columns, self._columns
+            return rest
+        rest._columns = tuple(column[place:] for column in self._columns)
+        for column in self._columns:
+            del column[place:]
+        return rest
+
     def __len__(self) -> int:
         return len(self._columns[0])
 

@@ -350,7 +350,7 @@ def _series(parts: list[NDArray[Any]], kind: str) -> Series:
     empty = absent(kind, ())
     everywhere = set.intersection(*(set(rows.dtype.names or ()) for rows in parts))
     columns = {
-        name: _column(name, [_values(rows, name, empty) for rows in parts])
+        name: column(name, [_values(rows, name, empty) for rows in parts])
         for name in dict.fromkeys([*(parts[0].dtype.names or ()), *empty])
         if name != "header" and (name in everywhere or name in empty)
     }
@@ -367,11 +367,16 @@ def _values(rows: NDArray[Any], name: str, empty: Mapping[str, Any]) -> NDArray[
     return np.broadcast_to(value, (len(rows), *value.shape))
 
 
-def _column(name: str, parts: list[NDArray[Any]]) -> NDArray[Any]:
+def column(name: str, parts: list[NDArray[Any]]) -> NDArray[Any]:
+    """Values of a field of successive messages; text is decoded.
+
+    Raises:
+        RecordingError: the shapes of the `parts` differ, or a text is not UTF-8.
+    """
     try:
-        column = np.concatenate(parts)
-        if column.dtype.kind == "S":
-            return np.asarray(np.char.decode(column, "utf-8"))
+        values = np.concatenate(parts)
+        if values.dtype.kind == "S":
+            return np.asarray(np.char.decode(values, "utf-8"))
     except ValueError as reason:  # different shapes, or not UTF-8
         raise RecordingError(f"field {name} of a message: {reason}") from None
-    return column.astype(column.dtype.newbyteorder("="), copy=False)
+    return values.astype(values.dtype.newbyteorder("="), copy=False)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from array import array
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections import OrderedDict, deque
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 from ...model.clock import TICKS
@@ -23,8 +22,9 @@ class Resimulation:
     """Recorded runs that are simulated again on demand."""
 
     def __init__(self, runs: list[RecordedRun], remarks: list[str]) -> None:
-        self._stamps = array("q", (each.stamp for run in runs for each in run.intervals))
-        self._begins = array("q", (run.origin.begins for run in runs for _ in run.intervals))
+        self._begins = [run.origin.begins for run in runs]
+        self._stamps = [run.intervals.stamps for run in runs]
+        self._first = [0, *accumulate(map(len, self._stamps))]  # interval of each run
         self._windows = _windows(runs, remarks)
         self._cache: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
         self._count = 0
@@ -32,16 +32,20 @@ class Resimulation:
     def interval_of(self, topic: str, message: Any) -> tuple[Interval, Window] | None:
         """The interval of a message, simulated again; None if that is not possible."""
         stamp = stamp_of(message)
-        place = bisect_left(self._stamps, stamp)
-        if place == len(self._stamps) or stamp < self._begins[place]:
+        run = bisect_right(self._begins, stamp) - 1
+        if run < 0:
             return None
+        within = bisect_left(self._stamps[run], stamp)
+        if within == len(self._stamps[run]):
+            return None
+        place = self._first[run] + within
         if topic in (WAVEFORM, AXES_WAVEFORM):  # stamped with its first sample
             for candidate in (place, place + 1):  # the stamp may be rounded to the interval before
                 simulated = self._simulated(candidate)
                 if simulated and _is_block_of(simulated[1], message):
                     return simulated
             return None
-        return self._simulated(place) if self._stamps[place] == stamp else None
+        return self._simulated(place) if self._stamps[run][within] == stamp else None
 
     def _simulated(self, place: int) -> tuple[Interval, Window] | None:
         while self._count <= place:
@@ -69,12 +73,12 @@ class Step(NamedTuple):
     window: Window
 
 
-def steps(run: RecordedRun) -> Iterator[Step]:
-    """Simulate the intervals of a run in order."""
+def steps(run: RecordedRun, intervals: Iterable[Interval] | None = None) -> Iterator[Step]:
+    """Simulate the intervals of a run in order; or the given ones, from the same start."""
     first = run.intervals[0]
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
     waiting = deque(run.changes)
-    for interval in run.intervals:
+    for interval in run.intervals if intervals is None else intervals:
         changes = []
         while waiting and waiting[0].time <= twin.time:
             changes.append(waiting.popleft())
@@ -89,9 +93,10 @@ def steps(run: RecordedRun) -> Iterator[Step]:
 def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
     """Simulate every recorded interval, run by run."""
     for run in runs:
-        intervals = without_gaps(run, remarks)
-        for interval, _, window in steps(replace(run, intervals=intervals)):
+        reached = None
+        for interval, _, window in steps(run, without_gaps(run, remarks)):
             if interval.recorded:
                 yield interval, window
-        if intervals[-1] != run.intervals[-1]:
+            reached = interval
+        if reached != run.intervals[-1]:
             return

@@ -77,31 +77,31 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
     return collected.runs(path, remarks)
 
 
-def without_gaps(run: RecordedRun, remarks: list[str]) -> Intervals:
+def without_gaps(run: RecordedRun, remarks: list[str]) -> Iterator[Interval]:
     """Intervals of a run, with inferred intervals in place of missing messages.
 
     An inferred interval has the length and settings of the next recorded one. Where that is
     inconsistent, or the settings before were others, the result ends, with a warning in `remarks`.
     """
-    intervals = Intervals()
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
+    settings_before = None
     for interval in run.intervals:
         length, missing = interval.end - interval.begin, interval.number - number - 1
         settings = interval.tolerance, interval.sample_rate
-        unchanged = not intervals or intervals[-1][4:6] == settings
+        unchanged = settings_before in (None, settings)
         if missing * length != interval.begin - reached or (missing and not unchanged):
             remarks.append(
                 f"{missing} messages of {STATE} are missing before {reached / TICKS:g} s, cannot "
                 "be inferred: the rest of the run cannot be simulated again"
             )
-            break
+            return
         for n in range(1, missing + 1):
             end = reached + n * length
             between = stamp + (interval.stamp - stamp) * n // (missing + 1)
-            intervals.append(Interval(number + n, between, end - length, end, *settings, False))
-        intervals.append(interval)
+            yield Interval(number + n, between, end - length, end, *settings, False)
+        yield interval
         number, reached, stamp = interval.number, interval.end, interval.stamp
-    return intervals
+        settings_before = settings
 
 
 def messages_of(
@@ -181,6 +181,7 @@ class _Collector:
         self._commands.append((stamp_of(message), message))
 
     def runs(self, path: Path, remarks: list[str]) -> list[RecordedRun]:
+        found = {ORIGIN: len(self._origins), STATE: len(self._intervals)}
         runs, skipped = self._runs_from_start()
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
@@ -195,7 +196,6 @@ class _Collector:
             run.changes = _with_ports(run)
         runs = [run for run in runs if run.intervals]
         if not runs:
-            found = {ORIGIN: len(self._origins), STATE: len(self._intervals)}
             usual = "recordings started later by ~/start or ~/snapshot have no start of a run"
             raise RecordingError(
                 no_run_yet(path, found)
@@ -206,21 +206,23 @@ class _Collector:
 
     def _runs_from_start(self) -> tuple[list[RecordedRun], int]:
         """Runs that are recorded from their start, and the number of intervals of others."""
-        runs: list[RecordedRun] = []
         begins = sorted(self._origins)
-        skipped, before, run = 0, 0, None
-        for interval in self._intervals:
+        starts: list[tuple[int, Origin | None]] = []
+        before = 0
+        for number, interval in enumerate(self._intervals):
             if interval.begin == 0:  # the newest origin since the previous interval
                 place = bisect_right(begins, interval.stamp)
                 known = place and begins[place - 1] >= before
-                run = RecordedRun(self._origins[begins[place - 1]]) if known else None
-                runs += [run] if run else []
-            if run is None:
-                skipped += 1
-            else:
-                run.intervals.append(interval)
+                starts.append((number, self._origins[begins[place - 1]] if known else None))
             before = interval.stamp
-        return runs, skipped
+        runs, skipped = list[RecordedRun](), 0
+        for number, origin in reversed(starts):
+            intervals = self._intervals.cut(number)
+            if origin is None:
+                skipped += len(intervals)
+            else:
+                runs.append(RecordedRun(origin, intervals))
+        return runs[::-1], skipped + len(self._intervals)
 
     def _assign_commands(self, runs: list[RecordedRun]) -> None:
         """Assign commands to runs by their stamps, which are those of the intervals."""

@@ -181,11 +181,12 @@ def _compare(
     """Compare a message, and add the result."""
     result.messages[topic] = result.messages.get(topic, 0) + 1
     for name, simulated in _expected(topic, message, window).items():
-        recorded = np.atleast_1d(getattr(message, name))
-        simulated = np.atleast_1d(simulated).astype(recorded.dtype)
+        recorded = np.asarray(getattr(message, name))
+        simulated = np.asarray(simulated, recorded.dtype)
         result.values += recorded.size
         if recorded.tobytes() == simulated.tobytes():
             continue
+        recorded, simulated = np.atleast_1d(recorded), np.atleast_1d(simulated)
         size = _size_beside(topic, message, name)
         distance = _distance(recorded, simulated, size)
         result.largest = max(result.largest, distance / interval.tolerance)

@@ -17,6 +17,7 @@ from ..ros2.playback import Playback
 from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
 from .compose import Composer
+from .intervals import Intervals
 from .origin import Measured
 from .reader import SCENE_ATTACHMENT
 from .schedule import RecordedRun, messages_of, read_runs, without_gaps
@@ -69,7 +70,7 @@ def resimulate(
     """
     remarks: list[str] = []
     recorded = _chosen(read_runs(path, namespace, remarks), branch.run, remarks)
-    recorded = replace(recorded, intervals=without_gaps(recorded, remarks))
+    recorded = replace(recorded, intervals=Intervals(without_gaps(recorded, remarks)))
     begins, run = branched(recorded, branch)
     if isinstance(recorded.origin.makers, Measured):
         remarks.append("was measured: the part before the branch is simulated, too")

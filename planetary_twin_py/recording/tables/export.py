@@ -9,8 +9,9 @@ from typing import NamedTuple
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.playback import Playback
-from ..runs.schedule import messages_of, stamp_of
-from .message_tables import TABLES, Batch, Table
+from ..runs.waveform import stamps
+from .message_rows import rows_of
+from .message_tables import TABLES, Rows, Table
 from .table_files import FORMATS, TableFile
 
 Progress = Callable[[int, int], None]
@@ -75,10 +76,11 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     remarks: list[str] = []
     first: int | None = None
     try:
-        for name, message in messages_of(path, namespace, tuple(names), remarks):
-            writers[name].add(message)
-            first = first or stamp_of(message)
-            progress(stamp_of(message) - first, playback.length)
+        for name, parts in rows_of(path, namespace, names, remarks):
+            writers[name].add(parts)
+            begin, *_, end = *stamps(parts[0][:1]), *stamps(parts[-1][-1:])
+            first = int(begin) if first is None else first
+            progress(int(end) - first, playback.length)
     finally:  # incomplete tables are valid, too
         for writer in writers.values():
             writer.close()
@@ -102,17 +104,14 @@ class _Writer:
         """Warning of messages that are not in the table, "" if there are none."""
         return self._table.remark
 
-    def add(self, message: object) -> None:
-        for batch in self._table.add(message):
-            self._write(batch)
-
     def close(self) -> None:
-        for batch in self._table.rest():
-            self._write(batch)
         if self._file is not None:
             self._file.close()
 
-    def _write(self, batch: Batch) -> None:
+    def add(self, parts: list[Rows]) -> None:
+        batch = self._table.batch(parts)
+        if not batch:
+            return
         if self._file is None:
             self._file = FORMATS[self._kind](self.path, self._table.describe(batch))
         self._file.write(batch)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import fields
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,12 +15,13 @@ from ..container.records import RecordingError
 from ..ros2.fields import ROOM
 from ..ros2.message_units import units_of
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, POINT, STATE, WAVEFORM
-from ..runs.schedule import stamp_of
+from ..runs.reader import column
+from ..runs.waveform import stamps
 
 Batch = dict[str, np.ndarray]
+Rows = np.ndarray
+"""Messages with the same layout, as a structured array."""
 STAMP = "stamp"  # ROS time since the epoch [ns]; other columns are in SI
-MESSAGES = 4096  # per batch, at most
-ROWS = 2**17  # per batch, approximately
 TABLES = (STATE, POINT, JOINTS, GIVEN, WAVEFORM, AXES_STATE, AXES_WAVEFORM)
 """Topics that can be exported."""
 OF_JOINTS = {"position": "rad", "velocity": "rad/s", "effort": "N m"}
@@ -39,7 +39,7 @@ class Column(NamedTuple):
 
 
 class Table:
-    """Collects the messages of one topic in batches of columns.
+    """Converts the messages of one topic to columns.
 
     GearboxState, AxesState and OperatingPoint: one row per message; arrays have a column for each
     planet, `name_1`, `name_2`, .... JointState: one row per message, with a column for each
@@ -52,44 +52,44 @@ class Table:
         self._columns = _COLUMNS.get(topic, _rows)
         units = OF_JOINTS if topic in (JOINTS, GIVEN) else units_of(definition)
         self._units = {STAMP: "ns", "time": "s", **units}
-        self._waiting: list[Any] = []
         self._planets: int | None = None
-        self._joints: list[str] | None = None
+        self._joints: tuple[bytes, ...] | None = None
         self._left_out = 0
-        self._count = 0
 
-    def add(self, message: Any) -> Iterator[Batch]:
-        """Add a message; yields a batch when it is full.
+    def batch(self, parts: list[Rows]) -> Batch:
+        """The columns of successive messages, in parts with the same layout; {} if none has rows.
 
         Raises:
-            RecordingError: the number of planets changes.
+            RecordingError: the number of planets changes, or a field has no column.
         """
-        planets, joints = getattr(message, "planets", None), getattr(message, "name", None)
-        if self._planets not in (None, planets):
-            raise RecordingError(
-                f"planets = {planets}: was {self._planets} before; a table takes one gearbox only"
-            )
-        if self._joints not in (None, joints):  # another node publishes on the same topic
-            self._left_out += 1
-            return
-        self._planets, self._joints = planets, joints
-        self._waiting.append(message)
-        self._count += getattr(message, "samples", 1)
-        if self._count >= ROWS or len(self._waiting) >= MESSAGES:
-            yield from self.rest()
+        if self._columns is _joint_rows:
+            parts = [rows for rows in map(self._of_same_joints, parts) if len(rows)]
+        if not parts:
+            return {}
+        for rows in parts if "planets" in (parts[0].dtype.names or ()) else ():
+            for planets in np.unique(rows["planets"]).tolist():
+                if self._planets not in (None, planets):
+                    raise RecordingError(
+                        f"planets = {planets}: was {self._planets} before; a table takes one "
+                        "gearbox only"
+                    )
+                self._planets = planets
+        return self._columns(parts)
 
-    def rest(self) -> Iterator[Batch]:
-        """The last, incomplete batch."""
-        if self._waiting:
-            yield self._columns(self._waiting)
-        self._waiting, self._count = [], 0
+    def _of_same_joints(self, rows: Rows) -> Rows:
+        """The messages of the joints of the first one; another node may publish on the topic."""
+        names = rows["name"].tolist()
+        self._joints = names[0] if self._joints is None else self._joints
+        same = np.array([each == self._joints for each in names])
+        self._left_out += int(np.count_nonzero(~same))
+        return rows[same]
 
     @property
     def remark(self) -> str:
         """Warning of messages that are not in the table, "" if there are none."""
         if not self._left_out:
             return ""
-        joints = one_line(", ".join(self._joints or []), _LONGEST)
+        joints = one_line(", ".join(_texts(self._joints or ())), _LONGEST)
         return f"{self._left_out} messages are left out: their joints are others than {joints}"
 
     def describe(self, batch: Batch) -> list[Column]:
@@ -105,42 +105,54 @@ class Table:
         return next((self._units[stem] for stem in stems if stem in self._units), "")
 
 
-def _rows(messages: list[Any]) -> Batch:
+def _rows(parts: list[Rows]) -> Batch:
     """One row per message."""
-    batch = {STAMP: _stamps(messages)}
-    for name in _names(messages[0]):
-        values = np.array([getattr(message, name) for message in messages])
+    batch = {STAMP: _stamps(parts)}
+    for name in parts[0].dtype.names or ():
+        if name == "header":
+            continue
+        values = column(name, [rows[name] for rows in parts])
+        if values.dtype.names is not None:
+            raise RecordingError(f"field {name} of a message: a table has no column for its type")
+        if values.dtype.kind in "iu":  # without sign, a difference of two could not be negative
+            values = values.astype(np.int64)
         if values.ndim == 1:
             batch[name] = values
             continue
-        for planet in range(messages[0].planets if values.shape[1] == ROOM else values.shape[1]):
-            batch[f"{name}_{planet + 1}"] = values[:, planet]
+        planets = int(parts[0]["planets"][0]) if values.shape[1] == ROOM else values.shape[1]
+        batch |= {f"{name}_{planet + 1}": values[:, planet] for planet in range(planets)}
     return batch
 
 
-def _joint_rows(messages: list[Any]) -> Batch:
+def _joint_rows(parts: list[Rows]) -> Batch:
     """One row per message, a column for each field and joint; missing values are NaN."""
-    joints = messages[0].name
-    batch = {STAMP: _stamps(messages)}
+    joints = _texts(parts[0]["name"][0].item())
+    batch = {STAMP: _stamps(parts)}
     for name in OF_JOINTS:
-        values = np.full((len(messages), len(joints)), np.nan)
-        for row, message in zip(values, messages, strict=True):
-            given = getattr(message, name)[: len(joints)]
-            row[: len(given)] = given
+        filled = []
+        for rows in parts:
+            given = rows[name][:, : len(joints)]
+            filled.append(np.full((len(rows), len(joints)), np.nan))
+            filled[-1][:, : given.shape[1]] = given
+        values = np.concatenate(filled)
         batch |= {f"{name}_{joint}": values[:, n] for n, joint in enumerate(joints)}
     return batch
 
 
-def _waves(messages: list[Any]) -> Batch:
+def _texts(names: Sequence[bytes]) -> list[str]:
+    return [str(name) for name in column("name", [np.array(names, dtype="S")])]
+
+
+def _waves(parts: list[Rows]) -> Batch:
     """One row per sample, a column for each mesh."""
-    planets = messages[0].planets
+    planets = int(parts[0]["planets"][0])
     meshes = [f"{kind}_{n + 1}" for kind in ("sun_planet", "planet_ring") for n in range(planets)]
-    return _sampled(messages, dict.fromkeys(WAVEFORM_QUANTITIES, meshes))
+    return _sampled(parts, dict.fromkeys(WAVEFORM_QUANTITIES, meshes))
 
 
-def _axes_waves(messages: list[Any]) -> Batch:
+def _axes_waves(parts: list[Rows]) -> Batch:
     """One row per sample, a column for each component of a body."""
-    planets = [f"planet_{n + 1}" for n in range(messages[0].planets)]
+    planets = [f"planet_{n + 1}" for n in range(int(parts[0]["planets"][0]))]
     names = {
         body: [f"{body}_{component}" for component in COMPONENTS[kind]]
         for kind, bodies in [*((m, [m]) for m in MEMBERS), ("planet", planets)]
@@ -150,22 +162,25 @@ def _axes_waves(messages: list[Any]) -> Batch:
         [name for body in bodies for name in names[body]] for bodies in (MEMBERS, names)
     )
     return _sampled(
-        messages, {name: of_members if name == "orbit" else of_all for name in AXES_SAMPLES}
+        parts, {name: of_members if name == "orbit" else of_all for name in AXES_SAMPLES}
     )
 
 
-def _sampled(messages: list[Any], series: dict[str, list[str]]) -> Batch:
+def _sampled(parts: list[Rows], series: dict[str, list[str]]) -> Batch:
     """One row per sample, with the columns of each quantity by their names."""
-    counts = [message.samples for message in messages]
-    offset = np.concatenate([np.arange(m.samples) * m.sample_period for m in messages])
-    stamp = np.repeat(_stamps(messages), counts) + np.rint(offset * 1e9).astype(np.int64)
-    start = np.repeat([message.start_time for message in messages], counts)
-    batch = {STAMP: stamp, "time": start + offset}
-    for name, columns in series.items():
-        blocks = [getattr(message, name).reshape(len(columns), -1) for message in messages]
-        samples = np.concatenate(blocks, axis=1)
-        batch |= {f"{name}_{column}": samples[n] for n, column in enumerate(columns)}
-    return batch
+    found: list[Batch] = []
+    for rows in parts:
+        samples = int(rows["samples"][0])
+        offset = np.arange(samples) * rows["sample_period"][:, None]
+        stamp = stamps(rows)[:, None] + np.rint(offset * 1e9).astype(np.int64)
+        batch = {STAMP: stamp, "time": rows["start_time"][:, None] + offset}
+        for name, columns in series.items():
+            if (rows["samples"] * len(columns) != rows[name].shape[1]).any():
+                raise RecordingError(f"{name}: its length must be {len(columns)} x samples")
+            values = rows[name].reshape(len(rows), len(columns), samples)
+            batch |= {f"{name}_{mesh}": values[:, n] for n, mesh in enumerate(columns)}
+        found.append(batch)
+    return {name: column(name, [batch[name].reshape(-1) for batch in found]) for name in found[0]}
 
 
 _COLUMNS = {
@@ -176,9 +191,5 @@ _COLUMNS = {
 }  # of other topics: _rows
 
 
-def _names(message: Any) -> list[str]:
-    return [f.name for f in fields(message) if f.name not in ("header", "__msgtype__")]
-
-
-def _stamps(messages: list[Any]) -> np.ndarray:
-    return np.array([stamp_of(message) for message in messages], dtype=np.int64)
+def _stamps(parts: list[Rows]) -> np.ndarray:
+    return np.concatenate([stamps(rows) for rows in parts])

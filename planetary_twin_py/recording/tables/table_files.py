@@ -17,6 +17,8 @@ from pyarrow import csv, parquet
 from .message_tables import Batch, Column
 from .units_file import write_units
 
+_GROUP = 2**15  # rows of a row group, at least: the writer keeps 1 kB of each column of every group
+
 
 class TableFile(Protocol):
     """A table that is being written; all batches have the same columns."""
@@ -34,14 +36,25 @@ class Parquet:
     def __init__(self, path: Path, columns: Sequence[Column]) -> None:
         self._schema = _schema(columns)
         self._writer = parquet.ParquetWriter(path, self._schema, compression="zstd")
+        self._waiting: list[pa.Table] = []  # of the next row group
+        self._rows = 0
 
     def write(self, batch: Batch) -> None:
-        """Append rows as a row group."""
-        self._writer.write_table(_table(batch, self._schema))
+        """Append rows."""
+        self._waiting.append(_table(batch, self._schema))
+        self._rows += len(self._waiting[-1])
+        if self._rows >= _GROUP:
+            self._write_group()
 
     def close(self) -> None:
         """Finish the file."""
+        self._write_group()
         self._writer.close()
+
+    def _write_group(self) -> None:
+        if self._waiting:
+            self._writer.write_table(pa.concat_tables(self._waiting))
+        self._waiting, self._rows = [], 0
 
 
 class Csv:

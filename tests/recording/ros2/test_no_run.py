@@ -128,3 +128,12 @@ def test_a_finished_recording_without_a_run_is_not_unfinished(tmp_path):
     bag = BagWriter(tmp_path / "bag")
     bag.close()
     assert no_run_yet(bag.file, {}) is None
+
+
+def test_a_follower_that_is_killed_before_its_first_estimate_needs_no_run(tmp_path):
+    file = tmp_path / "cut.mcap"
+    file.write_bytes(SAMPLE.read_bytes()[: SAMPLE.stat().st_size // 2])
+    seen = {"/rig/joint_states": 5, "/twin/follower/estimate": 0, "/diagnostics": 1}
+    assert no_run_yet(file, seen) is None
+    del seen["/twin/follower/estimate"]
+    assert NO_RUN in no_run_yet(file, seen)

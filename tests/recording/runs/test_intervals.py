@@ -29,3 +29,13 @@ def test_an_interval_takes_some_tens_of_bytes():
     taken, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert len(kept) == count and taken < 80 * count
+
+
+def test_intervals_that_are_cut_off_keep_their_values():
+    expected = [interval(n) for n in range(50)]
+    first = Intervals(expected)
+    rest = first.cut(30)
+    assert (list(first), list(rest)) == (expected[:30], expected[30:])
+    whole = first.cut(0)
+    assert not first and list(whole) == expected[:30]
+    assert list(whole.stamps) == [each.stamp for each in expected[:30]]

@@ -2,7 +2,6 @@
 
 import csv
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +16,7 @@ from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.offline import Plan
 from planetary_twin_py.recording.runs.offline import record as record_plan
 from planetary_twin_py.recording.runs.what_if import resimulate
+from planetary_twin_py.recording.tables import message_rows
 from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
@@ -71,7 +71,7 @@ def same(column, expected):
 
 @pytest.mark.parametrize("kind", READ)
 def test_values_are_the_recorded_ones_to_the_last_bit(sound, messages, tmp_path, monkeypatch, kind):
-    monkeypatch.setattr(tables, "MESSAGES", 7)  # per batch, so that there are several
+    monkeypatch.setattr(message_rows, "MESSAGES", 7)  # per batch, so that there are several
     answer = export(sound, "--out", tmp_path / "tables", "--format", kind)
     assert answer.exit_code == 0, answer.output
     state, units = READ[kind](tmp_path / "tables" / f"gearbox_state.{kind}")
@@ -134,20 +134,20 @@ def test_commands_are_exported_with_nan_where_none_was_given(tmp_path):
 
 def test_messages_of_other_joints_are_left_out_of_a_table():
     def message(*joints):
-        stamp = SimpleNamespace(sec=1, nanosec=0)
-        values = np.ones(len(joints))
-        return SimpleNamespace(
-            header=SimpleNamespace(stamp=stamp),
-            name=list(joints),
-            position=[],
-            velocity=values,
-            effort=values[1:],
-        )
+        numbers = len(joints)
+        text = np.dtype([(str(n), f"S{len(joint)}") for n, joint in enumerate(joints)])
+        kind = [
+            ("header", [("stamp", [("sec", "i4"), ("nanosec", "u4")])]),
+            ("name", text),
+            ("position", "f8", (0,)),
+            ("velocity", "f8", (numbers,)),
+            ("effort", "f8", (numbers - 1,)),
+        ]
+        names = tuple(joint.encode() for joint in joints)
+        return np.array([(((1, 0),), names, [], [1.0] * numbers, [1.0] * (numbers - 1))], kind)
 
     table = tables.Table("joint_states", "")
-    for joints in (("sun", "ring"), ("elbow",), ("sun", "ring")):
-        assert not list(table.add(message(*joints)))
-    (batch,) = table.rest()
+    batch = table.batch([message("sun", "ring"), message("elbow"), message("sun", "ring")])
     assert list(batch["velocity_ring"]) == [1.0, 1.0]
     assert list(batch["effort_sun"]) == [1.0, 1.0]
     assert np.isnan(batch["effort_ring"]).all() and np.isnan(batch["position_sun"]).all()
