@@ -275,7 +275,7 @@ def _mesh(name: str, legend: bool = True) -> rrb.TimeSeriesView:
 
 def _train(name: str, several: bool) -> rrb.TimeSeriesView:
     quantity, fields = TRAIN_PLOTS[name]
-    return _plot(f"model/{name}", quantity.heading, legend=several or len(fields) > 1)
+    return _plot(f"train/{name}", quantity.heading, legend=several or len(fields) > 1)
 
 
 def _set_point(name: str, several: bool) -> rrb.TimeSeriesView:

@@ -34,7 +34,7 @@ def log_plots(layer: Layer, recording: Recording) -> None:
         log_series(layer, f"mesh/{name}", index, values, recording.meshes, colours)
     for name, (quantity, fields) in TRAIN_PLOTS.items():
         values = quantity.factor * np.column_stack([state[field] for field in fields])
-        log_series(layer, f"model/{name}", index, values, fields, TRAIN_COLOURS)
+        log_series(layer, f"train/{name}", index, values, fields, TRAIN_COLOURS)
 
 
 def log_plots_of_axes(layer: Layer, recording: Recording) -> None:

@@ -41,7 +41,7 @@ def test_page_figures_and_picture_come_from_one_run(tmp_path):
     ]
     for row in rows:
         assert f" {row['rtf']:.3g} " in answer.stdout
-    assert "| short | 1e-02 | never |" in text
+    assert "| short | 1e-03 |" in text
     assert "(work.png)" in text and picture.read_bytes().startswith(b"\x89PNG")
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)
 

@@ -18,6 +18,8 @@ READMES = [
 PATH = re.compile(r"`((?:[\w.*-]+/)+[\w.*-]*|[\w-]+\.(?:py|hpp|cpp))`")
 MADE = {"recordings", ".venv", "lib"}
 """Folders that a run or an installation makes."""
+NODES = {"simulation"}
+"""Nodes of the name of a folder: their topics and services start with it."""
 
 
 def named(text):
@@ -30,7 +32,7 @@ def is_of_repository(path):
     if first in MADE:
         return False
     source = path.endswith(("/", ".py", ".hpp", ".cpp", ".yaml", ".msg", ".srv"))
-    return source or any((root / first).is_dir() for root in ROOTS)
+    return source or (first not in NODES and any((root / first).is_dir() for root in ROOTS))
 
 
 def exists(path, page, made):

@@ -78,14 +78,6 @@ def test_a_time_whose_sample_has_no_exact_number_is_refused(write):
         read_encoders(write("time,input_counts,output_counts", "0,0,0", "1e15,0,0"), 5e-5)
 
 
-def test_a_table_of_too_many_columns_is_refused(write, tmp_path):
-    names = [f"c{n}" for n in range(3000)]
-    parquet.write_table(pa.table([[0.0]] * 3000, names), file := tmp_path / "rig.parquet")
-    for table in (write(",".join(names), ",".join(["0"] * 3000)), file):
-        with pytest.raises(ValueError, match=r"rig\..*: has 3000 columns: must be at most 2000"):
-            read_readings(table, {})
-
-
 def test_true_is_no_torque(write, tmp_path):
     with pytest.raises(ValueError, match="input_torque: must be numbers, not true or false"):
         read_readings(write("time,input_torque", "0,true", "1,false"), {})

@@ -8,9 +8,9 @@ from planar.moving_scenes import evenly, planar
 from power_flows import FLOWS
 from tiers import first
 
+from planetary_twin_py import natural_modes
 from planetary_twin_py._core import axes
 from planetary_twin_py.run.engine import Engine
-from planetary_twin_py.simulation import natural_modes
 from planetary_twin_py.statics.loaded_planets import carrying
 
 RATE = 200_000.0

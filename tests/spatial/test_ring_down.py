@@ -9,7 +9,7 @@ from planar.test_ring_down import TINY, equations
 from power_flows import FLOWS
 from spatial.tilting_scenes import BODIES, spatial
 
-from planetary_twin_py.simulation import natural_modes
+from planetary_twin_py import natural_modes
 
 SOFT = {"coupling_stiffness": 1e-2, "coupling_damping": 0.0, "inertia": 1.0}
 
