@@ -1,4 +1,4 @@
-"""Energy of a run at one time: what has been added up, and what is stored."""
+"""Integrated powers and stored energy of a run at one time."""
 
 from __future__ import annotations
 

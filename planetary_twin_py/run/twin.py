@@ -313,7 +313,7 @@ class Twin:
         return self._shown
 
     def _driven(self) -> DrivenEngine:
-        """The engine, if its ports can be given."""
+        """The engine; raises SceneError if torque or motion cannot be prescribed."""
         if not isinstance(self._engine, DrivenEngine):
             raise SceneError(
                 f"dynamics = {self.scene.dynamics!r}: does not allow commands at ports"

@@ -1,6 +1,6 @@
 // The core for moving axes, as a part of the module.
 //
-// This file and those it calls are compiled with MOVING_AXES, and `gearbox` by another name, see
+// This file and those it calls are compiled with MOVING_AXES into the namespace gearbox_axes, see
 // CMakeLists.txt: classes and functions have the same names as for fixed axes.
 
 #include "bindings/parts.hpp"

@@ -75,7 +75,7 @@ void bind_oscillator(nb::module_& m) {
         "decay_rates",
         [](double square, double damping) {
             DecayRates rates = decay_rates(square, damping);
-            return std::make_tuple(rates.rate, rates.slow, rates.fast);
+            return std::make_tuple(rates.rate, rates.slow_rate, rates.fast_rate);
         },
         "square"_a, "damping"_a, "Angular frequency and both decay rates [1/s].");
     m.def(

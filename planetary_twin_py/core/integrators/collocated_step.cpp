@@ -207,8 +207,8 @@ void store_last_forces(const Train& train, const Propagation& run, Evaluation& l
         .store(last.friction_force);
     std::memcpy(last.power, node.power, sizeof last.power);
     using OfMeshes = Row<MESH_LANES<L>>;
-    last.power[DAMPING] += sum_of_meshes(train, OfMeshes(node.meshes.lost));
-    last.power[STIFFNESS_WORK] = sum_of_meshes(train, OfMeshes(node.meshes.work));
+    last.power[DAMPING] += sum_of_meshes(train, OfMeshes(node.meshes.damping_power));
+    last.power[STIFFNESS_WORK] = sum_of_meshes(train, OfMeshes(node.meshes.stiffness_power));
     last.power[FRICTION] =
         train.friction ? sum_of_meshes(train, OfMeshes(node.friction.drag.power)) : 0.0;
 }
@@ -220,7 +220,7 @@ std::int64_t make_step(const Model& model, Integrator& integrator, double longes
     Propagation& run = integrator.run;
     enter<L>(model, integrator);
     const bool fresh = control.changed;
-    run.place = fresh ? 0 : run.place + 1;
+    run.steps_in_contact_state = fresh ? 0 : run.steps_in_contact_state + 1;
     double first = first_trial<L>(integrator, model.train.bodies, longest, event.time);
     auto [h, error, fallback_steps, refused] = accepted_step<L>(model, integrator, first, fresh);
     if (h == 0.0) {

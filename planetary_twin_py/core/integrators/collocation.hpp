@@ -51,15 +51,15 @@ void enter(const Model& model, Integrator& integrator) {
     Propagation& run = integrator.run;
     ModalMotion& motion = run.motion;
     Node& start = run.start;
-    motion.modes = find_modes(model, integrator.begin, run.known);
+    motion.contact_state = find_modes(model, integrator.begin, run.known);
     ContactState& contacts = contacts_of(run);
     damp_modes<L>(contacts, integrator.constants.tau);
     motion.fastest_rate = contacts.fastest_rate;
     copy<L>(contacts.square, motion.square);
     copy<L>(contacts.damping, motion.damping);
     copy<L>(contacts.rate, motion.rate);
-    copy<L>(contacts.slow, motion.slow);
-    copy<L>(contacts.fast, motion.fast);
+    copy<L>(contacts.slow_rate, motion.slow_rate);
+    copy<L>(contacts.fast_rate, motion.fast_rate);
     copy<L>(integrator.begin.x, start.x);
     copy<L>(integrator.begin.v, start.v);
     for (int a = 0; a < AXES; ++a) start.trim[a] = integrator.begin.trim[a];
@@ -113,14 +113,14 @@ double difference(const Integrator& integrator) {
     V d = V(node.d) - V(run.before_d), rate = V(node.rate) - V(run.before_rate);
     Row<L> speed = absolute(Row<L>(node.v) - Row<L>(run.before_v));
     double of_meshes =
-        largest(larger(absolute(d), V(integrator.constants.damping) * absolute(rate)));
+        largest(larger(absolute(d), V(integrator.constants.damping_time) * absolute(rate)));
     double change = std::max(of_meshes / integrator.control.tolerance_x,
                              largest(speed) / integrator.control.tolerance_v);
     V sum = d + rate;  // a maximum may lose NaN
     return none(!(sum - sum == 0.0)) ? change : DIVERGED;
 }
 
-// Local error of the speeds of the bodies in tolerances, from that of the modes.
+// Returns the speed error of the bodies in multiples of the tolerance, from the modal errors.
 template <int L>
 double tail_of_speeds(const Integrator& integrator, const Row<L>& error) {
     using V = Row<L>;
@@ -148,7 +148,7 @@ double tail_error(Integrator& integrator) {
     double error = largest(sum_rows<MESH_LANES<L>>(contacts_of(run).matrices.motion_magnitude(),
                                                    missed / stiff)) /
                    integrator.control.tolerance_x;
-    if (!integrator.control.slow) return error;
+    if (!integrator.control.friction_limits_speed) return error;
     V fastest = larger(V(contacts_of(run).natural), V(std::sqrt(settling)));
     return std::max(error, tail_of_speeds<L>(integrator, missed / larger(fastest, damper)));
 }

@@ -142,8 +142,8 @@ struct alignas(64) ContactState {
     double tau[2] = {-1.0, -1.0};  // damping times of both kinds of mesh, below 0: none yet [s]
     alignas(64) double damping[BODIES];  // c [1/s], and below its `decay_rates`
     alignas(64) double rate[BODIES];
-    alignas(64) double slow[BODIES];
-    alignas(64) double fast[BODIES];
+    alignas(64) double slow_rate[BODIES];
+    alignas(64) double fast_rate[BODIES];
     double fastest_rate;                       // largest w + c [1/s]
     WaveBounds bounds;                         // with the damping time of either kind of mesh
     StoredWaves waves[STORED_STEPS];           // of the first steps in such a state

@@ -13,7 +13,7 @@ struct alignas(64) Control {
     double tolerance_x;  // allowed local error of a transmission error in this step [m]
     double tolerance_v;  // and of the speed of a body [m/s]
     bool creeping;  // the gears creep, so tooth pairs have bristles, see `lubrication/bristles.hpp`
-    bool slow;      // the speed range in which friction reverses limits the errors of speeds
+    bool friction_limits_speed;   // errors of speeds, to the range in which friction reverses
     double next_step;             // [s]
     double step;                  // last accepted step [s]
     double longest;               // [s]

@@ -92,7 +92,7 @@ void avoid_reversals(const Model& model, Integrator& integrator) {
     const double* rigid = integrator.constants.rigid;
     if (control.creeping) {
         control.reversals += creep_swings(model, integrator);
-    } else if (control.slow &&
+    } else if (control.friction_limits_speed &&
                !vibration_is_slow(model.train, integrator.begin, integrator.constants) &&
                vibration_slows(model.train, integrator.begin.v, rigid, STICKING)) {
         control.fallback_steps = FALLBACK_STEPS;

@@ -106,7 +106,8 @@ ALWAYS_INLINE Row<M> left_in_rows(const Model& model, const Integrator& integrat
     const StepConstants& constants = integrator.constants;
     const Node& node = integrator.run.node[n];
     const double half = model.load.half_backlash;
-    V tau = model.load.release * V(constants.damping), side = sides_of<M>(model.train, constants);
+    V tau = model.load.release * V(constants.damping_time),
+      side = sides_of<M>(model.train, constants);
     V d = side * V(node.d), normal_force = d + tau * (side * V(node.rate));
     V added = side * (waves.first + tau * waves.second);
     V closed = normal_force - added - half;
@@ -161,7 +162,8 @@ ALWAYS_INLINE Row<M> least_gaps(const Model& model, const Integrator& integrator
     const StepConstants& constants = integrator.constants;
     const Propagation& run = integrator.run;
     const double half = model.load.half_backlash;
-    V tau = model.load.release * V(constants.damping), side = sides_of<M>(model.train, constants);
+    V tau = model.load.release * V(constants.damping_time),
+      side = sides_of<M>(model.train, constants);
     const Mask<M> open = V(constants.side) == 0.0;
     auto gap_at = [&](const Node& node) {
         V d(node.d), gap = side * (d + tau * V(node.rate)) - half;

@@ -78,7 +78,7 @@ void set_tolerances(const Model& model, Integrator& integrator) {
     double share = control.creeping ? CREEPING_SHARE : SLIDING_SHARE;
     double layer = friction_layer(train, model.oil, integrator.constants.cycle_rate);
     double allowed = share * control.tolerance * layer;
-    control.slow = allowed < control.tolerance_v;
+    control.friction_limits_speed = allowed < control.tolerance_v;
     control.tolerance_v = std::min(control.tolerance_v, allowed);
 }
 
@@ -199,7 +199,8 @@ void interrupt(const Model& model, Integrator& integrator, const Instant& until)
     }
     integrator.end.seconds = until.seconds;
     integrator.end.time = until.time;
-    integrator.run.place = STORED_STEPS;  // stored steps start with the contact state
+    integrator.run.steps_in_contact_state =
+        STORED_STEPS;  // stored steps start with the contact state
 }
 
 void cut(const Model& model, Integrator& integrator, const Instant& until) {

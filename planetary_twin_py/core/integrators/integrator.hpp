@@ -27,7 +27,7 @@ void one_step(const Model& model, Integrator& integrator, double longest);
 // Accept the step; the contact of `mesh` changes at its end (NO_MESH: none).
 void accept(const Model& model, Integrator& integrator, std::int64_t mesh);
 
-// Integrate to `until`, and fill `out` with `samples`, none of them later. No step ends after
+// Integrate to `until`, and fill `out` with the samples that are due by then. No step ends after
 // `bound`. Throws NoFiniteState.
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
              Sampling samples, const Samples& out);

@@ -13,6 +13,25 @@
 
 namespace gearbox {
 
+// State of an integrator between two steps. These flags steer the steps:
+//
+// flag                      set by                         cleared by           read by
+// control.changed           accept, pass_edge, end_slews,  make_step,           one_step,
+//                           cut, select_friction_model,    find_first_forces,   make_step,
+//                           Engine._load; one_step, if     interrupt            find_first_forces
+//                           collocation fails
+// control.collocated        make_step                      stiff_step           sum_step, sample
+// control.fallback_steps    make_step, if it does not      stiff_step, by one   one_step
+//                           converge; avoid_reversals
+// control.creeping          select_friction_model          the same             one_step
+// friction_limits_speed     set_tolerances                 the same             avoid_reversals
+// steps_in_contact_state    make_step, interrupt           make_step            increment of the
+//                                                                               predictor
+// sums.not_requested        step_ports, start_neighbour    step_ports           accept
+// sums.known, sums.stale    accept, one_step               the same             add_ends
+// periodic.recording        check_repetition               check_repetition,    record_step
+//                                                          restart_settling
+// periodic.replaying        check_repetition               restart_settling     advance
 struct alignas(64) Integrator {
     State begin;
     State end;

@@ -19,9 +19,9 @@ ALWAYS_INLINE bool is_free(double square, double damping, double h) {
 }
 
 struct DecayRates {
-    double rate;  // angular frequency, or half the difference of both decay rates [1/s]
-    double slow;  // both decay rates, equal if underdamped [1/s]
-    double fast;
+    double rate;       // angular frequency, or half the difference of both decay rates [1/s]
+    double slow_rate;  // both decay rates, equal if underdamped [1/s]
+    double fast_rate;
 };
 
 ALWAYS_INLINE DecayRates decay_rates(double square, double damping) {

@@ -65,7 +65,9 @@ void add_given(const Model& model, const Integrator& integrator, double times,
 
 // Stored increment of the step with this number since the contacts changed; null: not stored.
 inline StoredIncrement* stored_increment(Propagation& run) {
-    return run.place < STORED_STEPS ? &contacts_of(run).increments[run.place] : nullptr;
+    return run.steps_in_contact_state < STORED_STEPS
+               ? &contacts_of(run).increments[run.steps_in_contact_state]
+               : nullptr;
 }
 
 // Predict remainder and friction from the last step with the same number and contacts; whether it

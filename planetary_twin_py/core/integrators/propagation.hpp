@@ -40,10 +40,10 @@ inline constexpr double INVERSE[] = {0.0,       1.0,       1.0 / 2.0,  1.0 / 3.0
                                      1.0 / 8.0, 1.0 / 9.0, 1.0 / 10.0, 1.0 / 11.0};
 
 inline ContactState& contacts_of(Propagation& run) {
-    return run.known.states[run.motion.modes];
+    return run.known.states[run.motion.contact_state];
 }
 inline const ContactState& contacts_of(const Propagation& run) {
-    return run.known.states[run.motion.modes];
+    return run.known.states[run.motion.contact_state];
 }
 
 // Bounds for damping times up to tau, which may change by DAMPING_KEPT without an update.
@@ -53,7 +53,7 @@ template <int L>
 WaveBounds bound_waves(const ContactState& contacts, double tau) {
     using V = Row<L>;
     V square(contacts.square), damping(contacts.damping);
-    Mask<L> underdamped = V(contacts.slow) == V(contacts.fast);
+    Mask<L> underdamped = V(contacts.slow_rate) == V(contacts.fast_rate);
     V longest = 1.0 / square_root(larger(square, V(SMALLEST)));
     V inverse = 1.0 / larger(V(contacts.rate), V(SMALLEST));
     longest = select(underdamped, smaller(longest, inverse), longest);
@@ -91,8 +91,8 @@ void damp_modes(ContactState& contacts, const double* tau) {
         DecayRates rates = decay_rates(contacts.square[m], damping);
         contacts.damping[m] = damping;
         contacts.rate[m] = rates.rate;
-        contacts.slow[m] = rates.slow;
-        contacts.fast[m] = rates.fast;
+        contacts.slow_rate[m] = rates.slow_rate;
+        contacts.fast_rate[m] = rates.fast_rate;
     }
     contacts.fastest_rate = largest(Row<L>(contacts.natural) + Row<L>(contacts.damping));
     contacts.bounds = bound_waves<L>(contacts, std::max(tau[0], tau[1]));
@@ -140,13 +140,14 @@ NOINLINE void waves(const ModalMotion& motion, double t, double* cosine, double*
                               sine);
 #pragma GCC ivdep
     for (int m = 0; m < L; ++m) {
-        Wave at = wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t);
+        Wave at =
+            wave(motion.damping[m], motion.rate[m], motion.slow_rate[m], motion.fast_rate[m], t);
         cosine[m] = at.cosine;
         sine[m] = at.sine;
     }
 }
 
-// Free waves of all modes after the sum of two times, from those after each.
+// Returns the free waves at time t_a + t_b from those at t_a and at t_b (angle-sum formula).
 template <int L>
 struct Waves {
     Row<L> cosine, sine;
@@ -179,7 +180,7 @@ void shift_all_waves(Propagation& run, const StoredWaves& stored, double longer,
 // Free motions at the nodes of a step of h, from those of an equally long step if stored.
 template <int L>
 void find_waves(Propagation& run, double h) {
-    const std::int64_t place = run.place;
+    const std::int64_t place = run.steps_in_contact_state;
     StoredWaves* stored = place < STORED_STEPS ? &contacts_of(run).waves[place] : nullptr;
     if (stored && stored->step > 0.0 && stored->nodes == run.nodes.count) {
         const double longer = h - stored->step, phase = run.motion.fastest_rate * std::fabs(longer);

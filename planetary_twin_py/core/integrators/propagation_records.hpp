@@ -9,15 +9,15 @@
 namespace gearbox {
 
 struct alignas(64) ModalMotion {
-    std::int64_t modes;                  // place in `known`
+    std::int64_t contact_state;          // index in `known`
     double step;                         // [s]
     double per_step;                     // its inverse
     double fastest_rate;                 // largest w + c of the modes [1/s]
     alignas(64) double square[BODIES];   // w^2 [1/s^2]
     alignas(64) double damping[BODIES];  // c [1/s]
     alignas(64) double rate[BODIES];     // see `oscillator.decay_rates`
-    alignas(64) double slow[BODIES];
-    alignas(64) double fast[BODIES];
+    alignas(64) double slow_rate[BODIES];
+    alignas(64) double fast_rate[BODIES];
     alignas(64) double particular[7][BODIES];  // motion under the polynomial, of powers of t/h
     alignas(64) double free[2][BODIES];        // q and q' of the free motion at the start
 };
@@ -36,8 +36,8 @@ struct alignas(64) Propagation {
     Nodes nodes;
     ContactModes known;
     ModalMotion motion;
-    std::int64_t place;                 // number of the step since the contacts changed, from 0
-    alignas(64) double spring[BODIES];  // w^2 and c, 0 for free masses
+    std::int64_t steps_in_contact_state;  // steps since the contacts changed
+    alignas(64) double spring[BODIES];    // w^2 and c, 0 for free masses
     alignas(64) double damper[BODIES];
     alignas(64) double flexibility[BODIES];  // 1/w^2 [s^2]
     Node start;

@@ -86,8 +86,8 @@ void integrate_powers(const Train& train, Integrator& integrator, double h) {
         for (int e = 0; e < LEDGER; ++e) gained[e] += weight * node.power[e];
         V rate(node.p);
         quadrature = fused(weight * rate, rate, quadrature);
-        lost = fused(weight, OfMeshes(node.meshes.lost), lost);
-        work = fused(weight, OfMeshes(node.meshes.work), work);
+        lost = fused(weight, OfMeshes(node.meshes.damping_power), lost);
+        work = fused(weight, OfMeshes(node.meshes.stiffness_power), work);
         friction = fused(weight, OfMeshes(node.friction.drag.power), friction);
     }
     V exact = fused(-V(run.motion.damping), quadrature, damped<L>(run, part));

@@ -296,7 +296,7 @@ static double fastest_wave(const Integrator& integrator, double h, double least)
     V amplitude = absolute(V(motion.free[0])) + absolute(V(motion.free[1])) / rate;
     V d = amplitude * V(contacts_of(integrator.run).bounds.motion);
     Mask<L> counts =
-        fast & (V(motion.slow) == V(motion.fast)) & (d > integrator.control.tolerance_x);
+        fast & (V(motion.slow_rate) == V(motion.fast_rate)) & (d > integrator.control.tolerance_x);
     return largest(select(counts, phase, 0.0));
 }
 

@@ -117,7 +117,7 @@ ALWAYS_INLINE Row<L> inverse_distance(const StepConstants& step, const Oil& oil)
     return oil.line_length / distance_of(V(step.rho1[0]), V(step.rho2[0]), V(step.external));
 }
 
-// Fill radii and columns but `face`, with the results of `inverse_distance`.
+// Fill all columns except `face`. `inverse` comes from `inverse_distance`.
 template <int L, class Number>
 ALWAYS_INLINE void place_pairs(const Train& train, const StepConstants& step,
                                const FrictionInstant& instant, const Row<L>& inverse,

@@ -36,7 +36,7 @@ inline void place_meshes(const Train& train, const State& state, const StepConst
                          const double* x, const double* v, double delay, MeshesNow& now) {
     now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
     now.cycle_rate = step.cycle_rate + cycle_shift(train, v);
-    now.following =
+    now.speed_damping_time =
         train.damping_cycles / at_least(passing_rate(train, step, v), train.lowest_frequency);
     if (train.lines[0] + train.lines[1] > 0) place_errors(train, step, now);
 }
@@ -73,14 +73,14 @@ ALWAYS_INLINE Weights<L> weigh(std::int64_t terms, const double (*coefficient)[M
 inline void add_mesh_power(const Train& train, const MeshesNow& now, double* power) {
     double lost = 0.0, work = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        lost += train.copies[i] * now.lost[i];
-        work += train.copies[i] * now.work[i];
+        lost += train.copies[i] * now.damping_power[i];
+        work += train.copies[i] * now.stiffness_power[i];
     }
     power[DAMPING] += lost;
     power[STIFFNESS_WORK] += work;
 }
 
-// Forces of all meshes without faults at their positions, and their powers.
+// Set normal force, damping and stiffness power of each mesh at its position; healthy teeth only.
 template <int L>
 ALWAYS_INLINE void healthy_mesh_forces(const Model& model, const StepConstants& step,
                                        MeshesNow& now) {
@@ -91,7 +91,7 @@ ALWAYS_INLINE void healthy_mesh_forces(const Model& model, const StepConstants& 
     V side(step.side), closed = absolute(side), gain(step.gain);
     V k = closed * (V(step.base) + gain * weight);
     V deflection = side * V(now.d) - offset, closing = side * V(now.rate);
-    V damped = k * (V(step.fixed) + now.following) * closing;
+    V damped = k * (V(step.fixed_damping_time) + now.speed_damping_time) * closing;
     V normal_force = k * deflection + damped;
     V work = 0.5 * closed * gain * growth;
     work *= (deflection * deflection - inner_squared) * now.cycle_rate;
@@ -100,8 +100,8 @@ ALWAYS_INLINE void healthy_mesh_forces(const Model& model, const StepConstants& 
         k.store(now.stiffness);
         (side * gain * growth * now.cycle_rate).store(now.stiffening);
     }
-    (damped * closing).store(now.lost);
-    (side * (work - normal_force * V(now.error_rate))).store(now.work);
+    (damped * closing).store(now.damping_power);
+    (side * (work - normal_force * V(now.error_rate))).store(now.stiffness_power);
 }
 
 // Distribute the forces to the tooth pairs by their stiffnesses.
@@ -169,14 +169,16 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
                               std::int64_t i, MeshesNow& now) {
     const Train& train = model.train;
     const std::int64_t kind = train.kind[i], segment = state.segment[i];
-    now.normal_force[i] = now.lost[i] = now.work[i] = now.stiffness[i] = now.stiffening[i] = 0.0;
+    now.normal_force[i] = now.damping_power[i] = now.stiffness_power[i] = now.stiffness[i] =
+        now.stiffening[i] = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) now.load[p][i] = 0.0;
     if (state.side[i] == OPEN) return;
     double side = static_cast<double>(state.side[i]);
     double u = step.start[i] - step.low[i] + side * now.advance;
     double deflection = side * now.d[i] - model.load.offset, closing = side * now.rate[i];
     auto [total, fading] = total_weight(train, kind, segment, u);
-    double tau = step.fixed[i] + now.following, per_weight = step.base[i] / total + step.gain[i];
+    double tau = step.fixed_damping_time[i] + now.speed_damping_time,
+           per_weight = step.base[i] / total + step.gain[i];
     double falling = -step.base[i] * fading / (total * total), work = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) {
         FaultEffect effect = fault_effect(train, step, i, segment, p, u);
@@ -191,11 +193,12 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         now.normal_force[i] += force;
         now.stiffness[i] += k;
         now.stiffening[i] += side * dk * now.cycle_rate;
-        now.lost[i] += (force - k * q) * closing;
+        now.damping_power[i] += (force - k * q) * closing;
         work += 0.5 * dk * (q * q - model.load.inner_squared);
         now.load[p][i] = at_least(force, 0.0);
     }
-    now.work[i] = side * (work * now.cycle_rate - now.normal_force[i] * now.error_rate[i]);
+    now.stiffness_power[i] =
+        side * (work * now.cycle_rate - now.normal_force[i] * now.error_rate[i]);
 }
 
 // The same as `healthy_mesh_forces` and `spread_loads`, pair by pair.

@@ -29,11 +29,12 @@ inline void tilt_flanks(const Train& train, const StepConstants& step, const dou
                         const double* v, MeshesNow& now) {
     const double face = train.moving.face_square;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const double k = face * now.stiffness[i], c = k * (step.fixed[i] + now.following);
+        const double k = face * now.stiffness[i],
+                     c = k * (step.fixed_damping_time[i] + now.speed_damping_time);
         const double slope = slope_of(train, i, x), rate = slope_of(train, i, v);
         now.moment[i] = k * slope + c * rate;
-        now.lost[i] += c * rate * rate;
-        now.work[i] += 0.5 * face * now.stiffening[i] * slope * slope;
+        now.damping_power[i] += c * rate * rate;
+        now.stiffness_power[i] += 0.5 * face * now.stiffening[i] * slope * slope;
     }
 }
 

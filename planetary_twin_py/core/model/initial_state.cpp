@@ -140,7 +140,7 @@ void balance_mean_forces(Start& start) {
     displace_by_forces(start);
 }
 
-// Close the flanks that are compressed at x; whether any contact changes.
+// Close flanks that are compressed at x. Returns whether a contact has changed.
 bool touch_flanks(Start& start) {
     const Train& train = start.model.train;
     State& state = start.state;
@@ -234,7 +234,7 @@ void balance_at_angle(Start& start) {
     place_pairs(start);
 }
 
-// Forces without those of a changing speed; into `balance.evaluation`.
+// Write the static forces, without the inertia of a speed ramp, to `balance.evaluation`.
 void forces_at_constant_speed(const Model& model, Start& start) {
     State& state = start.state;
     std::fill(start.step.slew, start.step.slew + AXES, 0.0);

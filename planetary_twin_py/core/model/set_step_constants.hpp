@@ -24,7 +24,7 @@ NOINLINE inline void copy_segment(const Train& train, const State& state, StepCo
     step.segment[i] = segment + 1;
     step.base[i] = train.stiffness_factor[i] * train.stiffness_base[kind];
     step.gain[i] = train.stiffness_factor[i] * train.stiffness_gain[kind];
-    step.fixed[i] = train.damping_time[kind];
+    step.fixed_damping_time[i] = train.damping_time[kind];
     step.external[i] = train.external[kind];
     step.lead[i] = side == COAST_SIDE ? train.coast_lead[kind] : 0.0;
     step.low[i] = train.edge[kind][segment];
@@ -141,7 +141,7 @@ template <int L>
 void place_damping(const Train& train, double rate, StepConstants& step) {
     const double following = train.damping_cycles / at_least(rate, train.lowest_frequency);
     for (int kind = 0; kind < KINDS; ++kind) step.tau[kind] = train.damping_time[kind] + following;
-    (Row<L>(step.fixed) + following).store(step.damping);
+    (Row<L>(step.fixed_damping_time) + following).store(step.damping_time);
 }
 
 // Fill `step` for a step that begins at `state`.

@@ -21,8 +21,8 @@ struct alignas(64) StepConstants {
     alignas(64) double lead[MESHES];  // of coast flanks before drive flanks [cycles]
     alignas(64) double base[MESHES];  // law of stiffness [N/m]
     alignas(64) double gain[MESHES];
-    alignas(64) double fixed[MESHES];     // damping time, if independent of the speed [s]
-    alignas(64) double external[MESHES];  // +1: external mesh, -1: internal
+    alignas(64) double fixed_damping_time[MESHES];        // part independent of the speed [s]
+    alignas(64) double external[MESHES];                  // +1: external mesh, -1: internal
     alignas(64) double weight[PAIRS + 1][TERMS][MESHES];  // polynomials, see `mesh.tooth_pairs`
     alignas(
         64) double rho1[PAIRS][MESHES];  // radii of curvature of the pairs where the cycle is 0 [m]
@@ -30,7 +30,7 @@ struct alignas(64) StepConstants {
     alignas(64) double travel[PAIRS][MESHES];  // of the contact per motion of the teeth
     alignas(64) double face[PAIRS][MESHES];    // part of the face in contact where the cycle is 0
     alignas(64) double face_growth[PAIRS][MESHES];  // per cycle
-    alignas(64) double damping[MESHES];             // damping time of each mesh at the start [s]
+    alignas(64) double damping_time[MESHES];        // of each mesh at the start [s]
     double tau[KINDS];                 // damping time of each kind of mesh at the start [s]
     double cycle_rate;                 // mesh cycles per second of the frame, signed
     alignas(64) double rigid[BODIES];  // speeds of the frame [rad/s]

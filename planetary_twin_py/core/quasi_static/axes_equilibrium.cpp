@@ -236,7 +236,8 @@ public:
             x[j] = start_[j] + fraction_ * direction_[j];
     }
 
-    // Whether the step needs another length, which is then chosen, with these forces at its end.
+    // Line search: given the forces at the end of the step, choose its next length. Returns
+    // false if this length is accepted.
     bool corrects(const Train& train, const double* force) {
         if (!convex_) return false;
         const double work = along(train, force);

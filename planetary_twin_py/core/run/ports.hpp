@@ -59,8 +59,8 @@ Answer check(const Load& load, const PortRanges& ranges, const Command& command)
 void approach(const Model& model, Integrator& integrator, const Instant& now, double duration,
               const double* position, Command& command);
 
-// Apply a command from `now` on, the end of the last window: at once, or, if `reaching` is not 0,
-// as a linear change to its values over that time [s]. The sums of the meshes include the last step
+// Apply a command from `now` on, the end of the last window: as a step, or as a ramp over
+// `reaching` seconds if that is not 0. The sums of the meshes include the last step
 // up to `now`. Throws NoFiniteState.
 void apply_command(Model& model, Integrator& integrator, const Instant& now, const Command& command,
                    double reaching);

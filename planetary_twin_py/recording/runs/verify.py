@@ -207,7 +207,7 @@ def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
 
 
 def _axes(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
-    """Fields of a message about axes; nothing of it is simulated where they are held."""
+    """Fields of an AxesState message; empty if the axes are fixed."""
     if window.axes is None:
         raise RecordingError(f"{topic}: recorded of a scene whose axes are held")
     if topic == AXES_WAVEFORM:
