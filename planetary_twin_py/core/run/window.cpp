@@ -20,7 +20,8 @@ namespace gearbox {
 namespace {
 
 constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
-constexpr std::int64_t WAVES = VISCOUS + 1;  // number of quantities of `observe` in a waveform
+// Number of rows of `observe` that a waveform needs.
+constexpr std::int64_t WAVES = 1 + std::ranges::max(WAVEFORM, {}, &WaveQuantity::last).last;
 
 // Reorder samples of the meshes of the train (rows, WAVES, meshes) as in the report.
 void put_waveform(const Report& report, const Train& train, const double* mesh,
