@@ -12,7 +12,6 @@ from planetary_twin_py.following.balance_filter import (
     Measured,
     alarm_memory,
 )
-from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
@@ -47,11 +46,6 @@ def test_steady_running_does_not_show_the_cause_of_a_step():
     assert set(follower.events[0].causes) == set(CAUSES)
 
 
-def test_a_moved_zero_is_distinguished_from_friction_where_the_torque_reverses():
-    _, follower = balance_of("reversing", {}, 90.0, 1, ({"at": 40.0, "torque_zero": 0.3},))
-    assert "friction" not in follower.events[0].causes
-
-
 @pytest.mark.parametrize("law", first(1, reversed(LAWS)))
 def test_a_reversing_duty_determines_friction_to_some_percent(law):
     plant, follower = balance_of("reversing", LAWS[law], 60.0, 5)
@@ -84,14 +78,6 @@ def test_the_inertia_is_not_biased_by_accelerations_that_change_within_a_bin():
     assert abs(np.mean(errors)) < 5e-3  # of one run: 1e-2
 
 
-@pytest.mark.exhaustive
-def test_inertia_is_not_distinguished_from_the_noise_of_a_steady_speed():
-    _, follower = balance_of("reversing", {}, 200.0, 5)
-    inertia = named(follower)["inertia"]
-    assert inertia.status == "NOT_IDENTIFIABLE"
-    assert inertia.sd > 0.9 * 0.1 * follower.train.inertia
-
-
 def test_the_loss_torque_is_that_of_the_plant():
     plant, follower = balance_of("steady", LAWS["another friction"], 30.0, 2)
     loss = named(follower)["loss_torque"]
@@ -104,28 +90,14 @@ def test_before_readings_everything_is_being_learned():
     assert {one.status for one in found} == {"LEARNING"}
 
 
-def test_readings_of_another_machine_are_an_event():
-    _, time, columns = played("steady", {}, 60.0, 4)
-    columns["output_torque"] = np.where(
-        time > 30.0, 0.97 * columns["output_torque"], columns["output_torque"]
-    )
-    follower = BalanceFollower(paper())
-    follower.add(time, columns)
-    assert any(30.0 <= event.found < 34.0 for event in follower.events)
-
-
 WRONG = {  # sensors far out of their stated accuracy, and a true cause
     "gain +10 %": ({"input_torque": {"noise": 0.1, "gain": 0.1}}, "gain of a torque sensor"),
-    "output gain -10 %": ({"output_torque": {"noise": 0.25, "gain": -0.1}},
-                          "gain of a torque sensor"),
-    "gain +3 %": ({"input_torque": {"noise": 0.1, "gain": 0.03}}, "gain of a torque sensor"),
-    "gain +5 %": ({"input_torque": {"noise": 0.1, "gain": 0.05}}, "gain of a torque sensor"),
     "zero +2 N m": ({"input_torque": {"noise": 0.1, "zero": 2.0}}, "zero of a torque sensor"),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", first(1, DELAYS))
-@pytest.mark.parametrize("wrong", first(2, WRONG))
+@pytest.mark.parametrize("wrong", WRONG)
 def test_a_sensor_that_is_wrong_from_the_start_is_one_finding_with_its_cause(kind, wrong):
     sensors, cause = WRONG[wrong]
     plant, time, columns = played(kind, {}, 60.0, 1, sensors=sensors)
@@ -152,16 +124,6 @@ def test_a_gain_that_changes_during_the_run_is_one_event(kind):
     assert "gain of a torque sensor" in event.causes
 
 
-@pytest.mark.parametrize("kind", first(1, ["varied", "reversing"]))
-def test_a_dead_torque_sensor_is_named_and_gives_no_event(kind):
-    _, time, columns = played(kind, {}, 120.0, 4)
-    columns["input_torque"] = np.where(time > 30.0, 0.0, columns["input_torque"])
-    follower = BalanceFollower(paper())
-    follower.add(time, columns)
-    assert not follower.events
-    assert any("input_torque: left out" in line for line in follower.remarks())
-
-
 def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
     _, time, columns = played("steady", {}, 100.0, 4)
     gain = 1.0 + 0.04 * np.sign(np.sin(2.0 * np.pi * (time - 30.0) / 30.0)) * (time > 30.0)
@@ -170,15 +132,6 @@ def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
     follower.add(time, columns)
     *_, last = follower.events
     assert len(follower.events) == 3 and last.causes == () and "stepped 3 times" in last.what
-
-
-def test_a_gain_that_makes_the_loss_negative_is_named():
-    _, time, columns = played(
-        "steady", {}, 10.0, 1, sensors={"input_torque": {"noise": 0.1, "gain": -0.1}}
-    )
-    follower = BalanceFollower(paper())
-    with pytest.raises(InputError, match=r"loss torque = -.*gains of both torques right"):
-        follower.add(time, columns)
 
 
 @pytest.mark.parametrize("channel", ["input_speed", "oil_temperature"])

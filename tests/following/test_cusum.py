@@ -59,10 +59,3 @@ def test_a_wave_has_the_correlation_of_its_closed_form():
     step = 2.0 * np.pi / 100.0
     _, cusum = steps(0.9 * np.sin(step * np.arange(4000)))
     assert cusum.correlation == pytest.approx(np.cos(step), abs=0.01)
-
-
-def test_a_restart_before_a_reading_of_a_whole_term_is_accepted():
-    cusum = Cusum()
-    cusum.add(0.0, 0.0, 1.0)
-    cusum.restart(0.5)
-    assert cusum.add(1.5, 0.0, 1.0) is None

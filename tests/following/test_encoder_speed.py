@@ -57,12 +57,6 @@ def test_encoders_that_turn_with_the_measured_speed_pass(speed, cuts):
     assert not any("not checked" in line for line in remarks)
 
 
-@pytest.mark.exhaustive
-@pytest.mark.parametrize("duration", [3.0, 6.0])
-def test_clocks_that_differ_during_a_run_up_are_no_wrong_encoder(duration):
-    followed(late=0.05, speed=lambda time: TRAIN.speed * np.minimum((time + 0.1) / duration, 1.0))
-
-
 def test_a_lost_turn_is_no_wrong_encoder():
     followed(lost=1.5, speed=lambda time: 0.1 * TRAIN.speed)
 

@@ -16,19 +16,6 @@ from planetary_twin_py.following.vibration_growth import LearnedBaseline
 SCENE = pt.load_scene("paper")
 
 
-def written(path, **teeth):
-    about = {"version": VERSION, "scene": _digest(SCENE), "teeth": teeth}
-    np.savez(path, about=np.array(json.dumps(about)), **{"teeth/9/mean": np.zeros(3)})
-    return path
-
-
-@pytest.mark.parametrize("cells", [-1, 2, 10**12, "many", None])
-def test_a_number_of_cells_that_the_file_does_not_have_is_refused(tmp_path, cells):
-    path = written(tmp_path / "b.npz", cells=cells, counts_per_turn=[1, 1], period=1e-4)
-    with pytest.raises(ValueError, match="is incomplete"):
-        read_baseline(path, SCENE)
-
-
 @pytest.fixture(scope="module")
 def sound():
     """Arrays of a file with a baseline of the teeth and one of the vibration, by name."""

@@ -13,7 +13,6 @@ from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, 
 from planetary_twin_py.following.hunting_blocks import BINS, MARGIN, MOST, HuntingBlocks
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.teeth import WAITING
-from planetary_twin_py.following.tooth_kind import ToothKind
 from planetary_twin_py.following.vibration import VibrationFollower
 
 RATE = 2000.0  # [Hz] of the encoders
@@ -139,12 +138,3 @@ def test_a_block_of_a_slow_train_is_thinned_evenly():
     assert thinned.measured.all()
     # The error of a bin goes with its samples: that of the mean angle of 12 of them.
     assert np.max(np.abs(thinned.deviation - whole.deviation)) < 4e-9
-
-
-def test_the_kind_of_a_tooth_needs_sums_only():
-    kind = ToothKind(24)
-    kind.add(0, 60.0, 0.01, 1e-3)
-    before = held(kind)
-    for _ in range(1000):
-        kind.add(0, 60.0, 0.01, 1e-3)
-    assert held(kind) - before < 10

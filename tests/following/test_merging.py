@@ -56,18 +56,6 @@ def test_the_same_bits_while_messages_of_a_sender_arrive_a_second_later(late, be
     assert all({"input_torque", "output_torque", "oil_temperature"} == {*b.means} for b in found)
 
 
-def test_bins_follow_readings_at_once_while_all_senders_send():
-    merge, newest = Merge(0.1, {}), -1
-    for n, time in enumerate(TIME):
-        for name in ("motor", "load"):
-            times, columns = SENT[name]
-            row = np.flatnonzero(times == time)
-            for found in merge.add(time[None][: len(row)], _rows(columns, row), name):
-                newest = found.number
-        if n > 100 * (START + 0.3):
-            assert 0.1 * (newest + 1) >= time - 0.31
-
-
 def _rows(columns, rows):
     return {name: values[rows] for name, values in columns.items()}
 

@@ -6,7 +6,6 @@ from following.plants import paper, played
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.checked_bins import checked_table
-from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.reading_check import ReadingCheck
@@ -52,24 +51,6 @@ def test_a_code_or_a_value_beyond_the_scene_is_left_out_and_named(channel, value
     assert np.array_equal(np.flatnonzero(np.isnan(kept)), np.arange(700, 720))
     assert line.startswith(f"{channel}: left out, because ") and f": {value:.6g} " in line
     assert "from 7.01 to 7.20 s (20 readings, rows 701 to 720)" in line
-
-
-def test_a_torque_that_passes_the_value_of_a_code_is_used():
-    ramp = np.arange(2000.0)
-    kept, lines = judged("input_torque", ramp)
-    assert np.array_equal(kept, ramp) and not lines
-
-
-def test_a_code_is_recognised_before_the_factor_of_its_channel():
-    values = steady("input_torque") * 8.8507
-    values[700:720] = -999.0
-    kept, (line,) = judged("input_torque", 0.112985 * values, scale={"input_torque": 0.112985})
-    assert np.isnan(kept[700:720]).all() and "code" in line
-
-
-def test_a_channel_that_is_beyond_the_scene_from_the_start_is_refused_with_its_unit():
-    with pytest.raises(InputError, match=r"is it in rad/s\? A heading states another unit \(rad/s"):
-        judged("input_speed", steady("input_speed") * 20.0)
 
 
 @pytest.mark.parametrize("factor", [2.0, 3.0, 0.5])

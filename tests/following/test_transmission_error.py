@@ -26,18 +26,6 @@ def test_counts_give_the_twist_at_any_age(turns):
     assert found.cycle + found.part == pytest.approx(place, rel=1e-12)
 
 
-def test_a_carrier_output_counts_too():
-    scene = pt.load_scene("wind_turbine_stage")
-    train = followed_train(scene)
-    convert = ErrorOfCounts(train, (N, 4096))
-    turned = np.arange(6) * 4096
-    output = np.round(turned * train.ratio).astype(np.int64)
-    exact = np.abs(turned * train.ratio - output) < 1e-9
-    counts = np.stack([turned * (N // 4096), output], axis=1)[exact]
-    assert exact.sum() >= 1
-    assert convert(counts, (0, 0)).error == pytest.approx(0.0, abs=1e-15)
-
-
 def test_the_error_of_the_model_grows_with_the_torque_as_the_teeth_yield():
     scene = pt.load_scene("paper")
     light, heavy = (

@@ -1,7 +1,6 @@
 """Remedies are those that the readings lack."""
 
 import numpy as np
-import pytest
 from following.plants import balance_of, paper, played
 
 from planetary_twin_py.following.balance import BalanceFollower
@@ -11,9 +10,7 @@ from planetary_twin_py.following.variety import (
     LONGER,
     ROTATION_REVERSAL,
     SPEED_CHANGE,
-    SPEEDS,
     TORQUE_REVERSAL,
-    TORQUES,
     WITHOUT_LOAD,
     Variety,
 )
@@ -29,22 +26,6 @@ def seen(*points, step=0.1):
         torque, speed = torque * train.torque, speed * train.speed
         found.add(Measured(step * number, torque, -torque, (1, 1), speed, 0.0, 0.0, 343.0))
     return found
-
-
-@pytest.mark.parametrize(
-    ("points", "contained"),
-    [
-        ([(1.0, 1.0)], set()),
-        ([(1.0, 1.0), (-0.5, 1.0)], {TORQUE_REVERSAL, TORQUES}),
-        ([(1.0, 1.0), (-0.05, 1.0)], {TORQUES}),
-        ([(1.0, 1.0), (1.0, -1.0)], {ROTATION_REVERSAL, WITHOUT_LOAD}),
-        ([(1.0, 1.0), (1.0, 1.3)], {SPEEDS, SPEED_CHANGE}),
-        ([(0.6, 1.0), (1.0, 1.0)], {TORQUES}),
-    ],
-)
-def test_reversals_and_several_points_are_recognised(points, contained):
-    every = TORQUE_REVERSAL, ROTATION_REVERSAL, WITHOUT_LOAD, TORQUES, SPEEDS, SPEED_CHANGE
-    assert {one for one in every if seen(*points).contains(one)} == contained
 
 
 def test_readings_before_a_step_and_of_many_hours_ago_do_not_count():
