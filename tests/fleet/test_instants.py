@@ -5,7 +5,7 @@ import csv
 import numpy as np
 import pytest
 from command_line import run
-from fleet.fleets import Played, paper
+from fleet.fleets import Played
 from fleet.instants import Wandering
 from tiers import first_rows
 
@@ -64,39 +64,6 @@ def test_the_gain_of_a_sensor_is_no_scatter_and_noise_is():
         fleet.add(10.0 * number, row)
     assert np.flatnonzero(fleet.scatter.excessive).tolist() == [5, 6, 7, 8, 9]
     assert fleet.scatter.measured[5:10] == pytest.approx(0.62, rel=0.5)
-
-
-def test_a_steady_torque_does_not_hide_the_scatter():
-    fleet, chance = Fleet(paper(), 2, 10.0), np.random.default_rng(6)
-    for number in range(1, BALANCES + 1):
-        torque = np.full(2, 63.0) + 1.0 * chance.standard_normal(2) * [0.0, 1.0]
-        fleet.add(
-            10.0 * number,
-            {
-                "input_torque": torque,
-                "output_torque": np.full(2, 145.0) + 0.2 * chance.standard_normal(2),
-                "input_speed": np.full(2, 104.7),
-            },
-        )
-    assert fleet.scatter.excessive.tolist() == [False, True]
-    assert fleet.scatter.measured[1] == pytest.approx(0.9, rel=0.4)
-
-
-def test_a_wild_row_is_no_scatter():
-    played = Played(3, 7, period=10.0)
-    fleet = Fleet(played.scene, 3, 10.0)
-    for number in range(1, BALANCES + 1):
-        row = played.row(10.0 * number)
-        if number == 7:
-            row["input_torque"][1] = 1e4
-        fleet.add(10.0 * number, row)
-    assert not fleet.scatter.excessive.any()
-
-
-def test_a_short_table_is_judged_at_its_end():
-    fleet = followed(Wandering(3, 8, 0.01), 10.0, 120.0)
-    assert fleet.scatter.excessive.all()
-    assert np.isnan(fleet.estimate("friction_level").value).all() and not fleet.readings.any()
 
 
 def write(path, rows):

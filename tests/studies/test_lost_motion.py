@@ -134,13 +134,6 @@ def test_friction_opens_a_loop_that_takes_energy():
     assert taken(rough) > 1e-3 * stored
 
 
-def test_more_play_is_more_lost_motion_by_as_much():
-    small, large = (
-        lost_motion(SMOOTH.replace(backlash=play), TORQUE, levels=10) for play in (PLAY, 3 * PLAY)
-    )
-    assert large.lost_motion - small.lost_motion == pytest.approx(2.0 * FREE_PLAY, rel=2e-3)
-
-
 def with_oil_and(play, share):
     oil = {"lubrication.friction": True, "lubrication.boundary": "load_sharing"}
     return lost_motion(SMOOTH.replace(**oil, backlash=play), TORQUE, share, levels=10)
@@ -210,11 +203,8 @@ def test_the_largest_torque_may_be_that_of_the_limit_to_the_last_bit():
     ("arguments", "words"),
     [
         (("paper", "--torque", "-1 N m"), "--torque = -1.0 N m: must be above 0 and at most"),
-        (("paper", "--torque", "0"), "--torque = 0.0 N m: must be above 0 and at most"),
-        (("paper", "--torque", "nan"), "--torque = "),
         (("paper", "--torque", "20 m"), "--torque = '20 m'"),
         (("paper", "--share", "0.7"), "--share = 0.7: must be above 0 and below 0.5"),
-        (("paper", "--share", "0"), "--share = 0.0: must be above 0 and below 0.5"),
         (("differential",), "drive.second_input"),
         (
             ("paper", "--torque", "100", "--set", "drive.torque_limit=15 N m", "--set", SMALL),

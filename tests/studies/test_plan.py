@@ -64,8 +64,6 @@ def test_a_key_depends_on_all_inputs_of_the_figures_and_on_nothing_else():
         (lambda: grid(PAPER, [Span("backlash", 1e-7, 2e-7)]), "backlash: a range without a count"),
         (lambda: grid(PAPER, [Axis("backlash", (1e-7,) * 2000)] * 3), "8000000000 points"),
         (lambda: grid(PAPER, [FILMS], Settings(duration=0.0)), r"duration = 0\.0 s"),
-        (lambda: grid(PAPER, [FILMS], Settings(settling=-1.0)), r"settling = -1\.0 s"),
-        (lambda: grid(PAPER, [FILMS], Settings(tolerance=1.0)), r"tolerance = 1\.0"),
         (lambda: latin_hypercube(PAPER, [FILMS], 0), "samples = 0"),
     ],
 )

@@ -113,12 +113,6 @@ def test_a_point_that_fails_is_reported_and_stops_no_other(tmp_path, measured):
     assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
 
 
-def test_a_defect_of_the_program_is_not_reported_as_a_failed_point(monkeypatch):
-    monkeypatch.setattr(work, "measure", lambda *_: {}["defect"])
-    with pytest.raises(KeyError):
-        sweep(STUDY, Threads())
-
-
 def test_only_a_few_points_are_computed_ahead():
     started = threading.Semaphore(0)
     asked = iter(range(1000))

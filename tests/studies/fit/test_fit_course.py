@@ -58,16 +58,6 @@ def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
     assert list(course_remarks(found)) == []
 
 
-@pytest.mark.exhaustive
-@pytest.mark.slow
-def test_a_run_up_determines_friction_and_drag(tmp_path):
-    path = manoeuvre(tmp_path / "rig.mat", "run-up")
-    found = fit_course(path, SCENE.replace(**{MOTOR: 3e-3}), (FRICTION, DRAG))
-    for (low, high, _), true in zip(found.estimate.intervals, (0.5, 0.05), strict=True):
-        assert low < true < high
-    assert found.estimate.values[1] == pytest.approx(0.05, rel=0.2)
-
-
 @pytest.mark.slow
 def test_codes_for_missing_readings_are_left_out_of_a_fit(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "run-up")
@@ -137,23 +127,6 @@ def test_a_part_that_overlaps_is_refused(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "run-up")
     with pytest.raises(ValueError, match="overlaps the fitted part"):
         fit_course(path, SCENE, (DRAG,), span=(0.0, 15.0), hold_out=(10.0, 20.0))
-
-
-@pytest.mark.exhaustive
-def test_a_drag_that_starts_at_zero_is_found_as_from_another_start(tmp_path):
-    scene = pt.load_scene("paper")
-    true = scene.replace(**{DRAG: 0.03})
-    train, losses = followed_train(true), LossMap(true)
-    time = np.arange(1, 501) / RATE
-    torque, speed = np.full(len(time), 63.0), np.full(len(time), pt.rpm(1000))
-    lost = sum(losses(63.0, pt.rpm(1000), train.oil_temperature)[::2])
-    table = {"time": time, "input_speed": speed}
-    table["input_torque"] = torque + NOISE * np.random.default_rng(1).standard_normal(len(time))
-    table["output_torque"] = (lost - torque) / train.ratio
-    savemat(tmp_path / "rig.mat", table)
-    for start in (None, {DRAG: 0.2}):
-        (drag,) = fit_course(tmp_path / "rig.mat", scene, (DRAG,), start=start).estimate.values
-        assert drag == pytest.approx(0.03, abs=0.004)
 
 
 @pytest.mark.filterwarnings("error")

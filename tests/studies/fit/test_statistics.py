@@ -111,13 +111,6 @@ def test_a_search_that_starts_at_zero_finds_the_magnitude(truth):
     assert found.values == pytest.approx([truth], rel=1e-5)
 
 
-def test_a_zero_parameter_stays_within_the_noise():
-    free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
-    residuals = residuals_of(lambda v: decay([v[0], 0.7]), noise_of(0))
-    free = with_initial_magnitudes(residuals, free)
-    assert 1e-4 <= free[0].start <= NOISE
-
-
 def test_without_its_range_an_estimate_at_the_end_is_that_of_the_model_without_one():
     short = (Parameter("height", "m", 0.0, 1.5, 1.0),)
     found = estimate(lambda v: decay([v[0], TRUTH[1]]), decay(TRUTH), short)
