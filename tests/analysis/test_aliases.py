@@ -1,7 +1,6 @@
 """Tones above half the sample rate: where they stand, and that readers are warned."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,11 +10,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.analysis.aliases import (
     NEGLIGIBLE,
     alias_frequency,
-    alias_remark,
     alias_share,
     aliased_harmonic,
     edge_amplitude,
-    recommended_rate,
 )
 from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
 from planetary_twin_py.analysis.signals import Signal
@@ -89,18 +86,3 @@ def test_samples_that_carry_a_signal_are_not_remarked_upon():
     assert edge_amplitude(frequency, amplitude) == pytest.approx(math.exp(-8.0))
     assert alias_share(frequency, amplitude) <= NEGLIGIBLE < alias_share(frequency, amplitude + 0.1)
     assert alias_share(frequency, np.zeros(101)) == 0.0
-
-
-def test_the_remark_names_rates_heights_and_harmonics():
-    line = alias_remark(20_000.0, 0.034, 11_000.0, 500.0)
-    assert "sample rate of 20000 Hz is too low" in line and "3.4 %" in line
-    assert "mesh harmonics from 20 on" in line and "4.4e+04 Hz" in line
-    assert "harmonics" not in alias_remark(20_000.0, 0.034, None, None)
-    assert recommended_rate(20_000.0, None) == 40_000.0
-
-
-def test_a_line_above_the_aliases_is_none(fast):
-    found = frequency_spectrum_of(fast, 30)
-    first = found.lines(1)[0]
-    assert found.alias(first) is None
-    assert replace(found, mesh=None).alias(first) is None

@@ -117,24 +117,14 @@ BACK = np.concatenate((ANGLE[:500], ANGLE[499::-1]))
     [
         (lambda: pt.order_spectrum(TIME, ANGLE[1:]), "angle: 39999 values for 40000 samples"),
         (lambda: pt.order_spectrum(BACK, BACK), "reverses or stands still after sample"),
-        (lambda: pt.order_spectrum(TIME, 0.0 * ANGLE), "stands still after sample 0"),
         (lambda: pt.order_spectrum(TIME, np.append(ANGLE[1:], np.nan)), "angle: not finite at"),
-        (lambda: pt.order_spectrum(np.append(TIME[1:], np.nan), ANGLE), "samples: not finite at"),
         (lambda: pt.order_spectrum(TIME, ANGLE, 2), "samples_per_turn = 2"),
-        (lambda: pt.order_spectrum(TIME[:9], 1e-6 * ANGLE[:9]), "must be at least 0.0245"),
         (lambda: pt.order_spectrum(TIME, TIME**4 + 1e-9 * TIME), "exclude standstill"),
         (lambda: pt.order_map(TIME, TIME, ANGLE, turns=99.0), "turns = 99"),
         (lambda: pt.order_map(np.ones((40000, 2)), TIME, ANGLE), "must be one channel"),
-        (lambda: pt.order_spectrum(TIME, np.ones((40000, 2))), "must be that of one shaft"),
     ],
 )
 def test_misuse_ends_in_one_line_that_names_it(call, reason):
     with pytest.raises(ValueError, match=reason) as caught:
         call()
     assert "\n" not in str(caught.value)
-
-
-def test_the_sample_of_a_reversal_is_named_also_if_more_samples_turn_backwards():
-    angle = np.concatenate((np.arange(300.0), 298.0 - np.arange(700.0)))
-    with pytest.raises(ValueError, match="after sample 299"):
-        pt.order_spectrum(np.sin(angle), 0.1 * angle)

@@ -62,11 +62,6 @@ def test_a_tone_with_part_of_a_cycle_has_no_second_line_in_the_first_bin(cycles)
     assert amplitude[1] < 4.0 / (np.pi * (cycles - 1.0) ** 3)
 
 
-def test_the_nyquist_line_counts_once():
-    samples = np.tile([1.0, -1.0], 50)
-    assert pt.amplitude_spectrum(samples, RATE, "boxcar").amplitude[-1] == pytest.approx(1.0)
-
-
 @pytest.mark.parametrize("count", [1023, 1024])
 def test_squares_of_amplitudes_add_up_to_the_power(count):
     samples = np.random.default_rng(1).normal(0.5, 2.0, count)
@@ -101,14 +96,10 @@ def test_channels_are_columns():
             lambda s: pt.amplitude_spectrum([1.0, 2.0], RATE),
             "samples: 2 values: must be at least 8",
         ),
-        (lambda s: pt.amplitude_spectrum(1.0, RATE), "samples: 1 values"),
         (lambda s: pt.amplitude_spectrum([*s[:5], np.nan, *s], RATE), "not finite at index 5"),
-        (lambda s: pt.amplitude_spectrum([*s, np.inf], RATE), "not finite at index 100"),
         (lambda s: pt.amplitude_spectrum(s, 0.0), "sample_rate = 0: must be positive"),
-        (lambda s: pt.amplitude_spectrum(s, np.nan), "sample_rate = nan"),
         (lambda s: pt.amplitude_spectrum(s, RATE, "hanning?"), "window = 'hanning.': must be"),
         (lambda s: pt.power_density(s, RATE, 101), "segment = 101: must be within 8 and 100"),
-        (lambda s: pt.strongest_lines(s, s[1:]), "amplitude: shape"),
         (lambda s: pt.strongest_lines(s, s, 0), "count = 0"),
     ],
 )

@@ -90,17 +90,6 @@ def test_creeping_gears_vibrate_and_are_warned_of_where_friction_falls_with_the_
     assert (planet.std() > 0.05 * abs(planet.mean())) == vibrates
 
 
-def test_a_differential_that_turns_as_a_block_is_not_warned_of():
-    speed = pt.rpm(1000.0)
-    scene = pt.load_scene("differential").replace(input_speed=speed, second_input_speed=speed)
-    assert pt.simulate(scene, 0.02).stats.reversals == 0
-
-
-def test_steps_in_which_both_flanks_touch_are_warned_of_and_no_others():
-    assert "both flanks" in next(course_warnings(Course(both_flanks=1)))
-    assert not list(course_warnings(Course()))
-
-
 @pytest.mark.parametrize("changes", [{"mesh.runout.sun": 4e-5}, {"input_torque": 1.0}])
 def test_runout_that_closes_the_backlash_by_more_than_the_load_opens_is_refused(changes):
     with pytest.raises(pt.SceneError, match=r"backlash = 2e-07: must be at least .* mesh.runout"):
@@ -114,12 +103,6 @@ def test_creeping_gears_are_not_warned_of_once_they_have_rolled_far_enough():
         pt.simulate(scene, 0.1)
     with pytest.warns(pt.AccuracyWarning, match=r"simulate 0\.\d+ s"):
         pt.simulate(scene, 0.001)
-
-
-def test_the_time_of_settling_counts_as_rolled():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", pt.AccuracyWarning)
-        pt.simulate(PAPER.replace(input_speed=pt.rpm(5)), 0.001, settling=0.1)
 
 
 def test_windows_of_a_twin_add_up_to_the_course_of_the_run():

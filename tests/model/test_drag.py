@@ -67,14 +67,6 @@ def test_a_run_with_losses_begins_steady():
     assert np.ptp(speeds) < 0.01 * pt.rpm(1000)
 
 
-def test_drag_brakes_in_both_directions_and_rests_at_rest():
-    for speed in (1000.0, -1000.0):
-        scene = scene_of(FLOWS[0], losses=LOSSES, input_speed=pt.rpm(speed), input_torque=0.0)
-        assert pt.simulate(scene, 0.02).energy.bearing > 0.0
-    still = pt.simulate(scene_of(FLOWS[0], losses=LOSSES, input_speed=0.0, input_torque=0.0), 0.02)
-    assert still.churning_loss.max() < 1e-12
-
-
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 @ALL_FLOWS
 def test_drag_of_a_member_takes_coulomb_and_viscous_torque_times_its_speed(flow, dynamics):

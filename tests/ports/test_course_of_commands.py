@@ -81,23 +81,6 @@ def test_steps_that_are_kept_are_repeated(interpolation):
     assert np.array_equal(run.mesh_force[last], window.waveform.mesh_force)
 
 
-def test_a_command_that_changes_nothing_has_no_effect():
-    """Steps of any length with the torques that act already leave the motion as it is."""
-    plain, driven_on = pt.Twin(driven("torque", "torque")), pt.Twin(driven("torque", "torque"))
-    plain.advance(0.01, input_torque=50.0, output_torque=120.0)
-    for _ in range(25):
-        driven_on.step(4e-4, input_torque=50.0, output_torque=120.0)
-    parts = [twin.advance(2e-3).waveform.dte for twin in (plain, driven_on)]
-    assert np.array_equal(*parts)
-
-
-def test_statistics_of_a_run_cover_what_lies_between_commands():
-    scene, commands = commanded("hold")
-    run = pt.simulate(scene, SPAN, 1e6, tolerance=1e-3, commands=commands)
-    assert run.mesh["dte_mean"] == pytest.approx(run.dte.mean(axis=0), rel=2e-3)
-    assert run.mesh["mesh_force_mean"] == pytest.approx(run.mesh_force.mean(axis=0), rel=2e-3)
-
-
 def test_a_twin_keeps_commands_only_if_asked():
     with pytest.raises(ValueError, match="keep_commands"):
         _ = pt.Twin(PAPER).commands

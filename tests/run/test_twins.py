@@ -42,11 +42,6 @@ def test_windows_are_those_of_twins_alone_to_the_last_bit_in_any_number_of_threa
             assert_same(found, one.advance(duration))
 
 
-def test_copies_of_one_scene_are_the_same():
-    first, second = pt.Twins([PAPER, PAPER], workers=2).advance(0.02)
-    assert_same(first, second)
-
-
 def test_a_copy_that_fails_is_named_and_left_out_and_stops_no_other():
     twins, alone = pt.Twins([PAPER, SOFT, PAPER], workers=2), pt.Twin(PAPER)
     assert all(window is not None for window in twins.advance(0.01)) and not twins.failures
@@ -60,14 +55,6 @@ def test_a_copy_that_fails_is_named_and_left_out_and_stops_no_other():
         assert_same(last, expected)
     assert list(twins.failures) == [1] and "deflection of" in str(twins.failures[1])
     assert [twin.time for twin in twins] == [0.03, 0.01, 0.03]
-
-
-def test_a_state_that_is_not_finite_is_the_failure_of_its_copy():
-    twins = pt.Twins([PAPER, PAPER], workers=2)
-    twins[0]._engine.integrator.end.v[:] = np.nan
-    broken, sound = twins.advance(0.01)
-    assert broken is None and list(twins.failures) == [0]
-    assert_same(sound, pt.Twin(PAPER).advance(0.01))
 
 
 @pytest.mark.parametrize("duration", [0.0, 61.0, 1e-14])

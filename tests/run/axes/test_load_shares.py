@@ -100,18 +100,6 @@ def test_the_ripple_of_the_tooth_pairs_has_no_share_in_the_means(per_cycle, sign
     assert shares.largest() == pytest.approx([1.1, 1.1], abs=0.012)
 
 
-@pytest.mark.parametrize("column", ["cycles", "load"])
-@pytest.mark.parametrize("part", [slice(0, 70), slice(3000, 3070), slice(7930, 8000)])
-def test_cycles_with_samples_that_are_nan_are_left_out(column, part):
-    cycles = np.linspace(0.0, 40.0, 8000)
-    load = ripple(cycles)
-    (cycles if column == "cycles" else load)[part] = np.nan
-    shares = CycleShares(2)
-    for some in np.array_split(np.arange(8000), 200):
-        shares.add(cycles[some], load[some])
-    assert shares.largest() == pytest.approx([1.1, 1.1], abs=0.012)
-
-
 def test_there_is_no_largest_share_before_a_cycle_is_complete_or_without_load():
     assert CycleShares(2).largest() is None
     for cycles, load in ((np.linspace(0.0, 0.9, 99), 1.0), (np.linspace(0.0, 9.0, 999), 0.0)):
