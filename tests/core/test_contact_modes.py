@@ -81,11 +81,6 @@ def test_nodes_give_legendre_coefficients_of_the_polynomial_through_their_values
     assert found == pytest.approx(expected, abs=1e-12)
 
 
-def test_no_more_nodes_than_there_is_room_for():
-    with pytest.raises(ValueError, match="points"):
-        radau(6)
-
-
 def test_the_mean_film_of_steps_that_flanks_cut_is_that_of_dense_samples():
     begin, duration, rate = 0.01, 0.004, 2e6
     engine = run(begin, 1e-4, **CHAOS)

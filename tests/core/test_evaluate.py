@@ -8,7 +8,6 @@ from lubrication.friction_laws import FRICTION_LAWS
 
 from planetary_twin_py._core import (
     CREEPING,
-    PAIR_CAPACITY,
     SLOWEST_ROLLING,
     Model,
     ToothPairs,
@@ -156,10 +155,3 @@ def test_slope_is_the_growth_of_friction_with_sliding_at_the_same_rolling(tracti
     _, slope = friction(sliding)
     high, low = friction(sliding + step)[0], friction(sliding - step)[0]
     assert (high - low) / (2 * step) == pytest.approx(slope, rel=1e-5, abs=slope.max() * 1e-6)
-
-
-def test_as_many_pairs_as_there_is_room_for():
-    model, values = model_of(*LAWS[0]), random_pairs(PAIR_CAPACITY, np.random.default_rng(6))
-    pairs = pairs_of(values)
-    evaluate(model, pairs)
-    assert np.isfinite(pairs.friction).all()

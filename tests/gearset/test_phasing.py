@@ -51,10 +51,6 @@ def test_equal_spacing_fits_where_it_divides_the_teeth_of_sun_and_ring(planets):
     check_assembly(PAPER, [2 * math.pi * k / planets for k in range(planets)])
 
 
-def test_the_suggested_positions_fit():
-    check_assembly(PAPER, nearest_assembly(PAPER, [0.3, 2.0, 4.4, 5.1]))
-
-
 def suggested(teeth, degrees):
     """Angles [rad] that a user copies out of the refusal."""
     with pytest.raises(ValueError, match="cannot be assembled") as error:
@@ -68,22 +64,14 @@ def suggested(teeth, degrees):
     "teeth, degrees",
     [
         (Teeth(27, 35, 99), (0.0, 90.0, 180.0, 270.0)),  # OH-58
-        (Teeth(27, 35, 99), (12.3456789, 102.3456789, 192.3456789, 282.3456789)),
         (Teeth(27, 35, 99), (0.0, 88.584, 180.0, 268.584)),  # beyond the tolerance by 25 %
         (Teeth(30, 20, 70), (90.0, -30.0, 210.0)),  # Salagianni et al. 2017
-        (Teeth(19, 17, 56), (0.0, 90.0, 180.0, 270.0)),  # 5 MW reference gearbox
         (Teeth(20, 31, 83), (math.pi, 123.0, 243.0)),
-        (Teeth(31, 31, 95), (0.0, 90.0, 180.0, 270.0)),
         (Teeth(1000, 1000, 3000), (0.0, 120.03, 240.0)),  # most teeth of a scene
     ],
 )
 def test_the_printed_positions_are_accepted_when_copied(teeth, degrees):
     check_assembly(teeth, suggested(teeth, degrees))
-
-
-def test_positions_are_printed_as_short_as_they_may_be():
-    with pytest.raises(ValueError, match=r"nearest: 0, 88\.57, 180, 268\.57 deg"):
-        check_assembly(Teeth(27, 35, 99), np.radians([0.0, 90.0, 180.0, 270.0]))
 
 
 @pytest.mark.parametrize("teeth", [Teeth(27, 35, 99), Teeth(29, 71, 171), Teeth(31, 31, 94)])

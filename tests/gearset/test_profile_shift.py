@@ -7,7 +7,6 @@ import pytest
 from tiers import first
 
 from planetary_twin_py.gearset.gear_set import Sizes, build_gear_set, distance_without_play
-from planetary_twin_py.gearset.geometry import planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.gearset.mount import mount
 from planetary_twin_py.gearset.phasing import mesh_phases
@@ -83,19 +82,6 @@ def test_contact_ratio_of_iso_6336(name, kind):
     second = outer.teeth * (tips[1] - math.tan(working)) * (-1 if kind else 1)
     assert mesh.path.recess == pytest.approx(first / (2.0 * math.pi), rel=1e-9)
     assert mesh.path.approach == pytest.approx(second / (2.0 * math.pi), rel=1e-9)
-
-
-def test_gears_without_shift_are_as_before_to_the_last_bit():
-    sizes = SETS["paper"]
-    for mesh, path in zip(
-        build_gear_set(sizes).meshes, (sun_planet_path, planet_ring_path), strict=True
-    ):
-        assert mesh.path == path(sizes.teeth, sizes.pressure_angle, 1.0)
-        assert (mesh.pressure_angle, mesh.backlash, mesh.coast_lead) == (
-            sizes.pressure_angle,
-            0.0,
-            0.5,
-        )
 
 
 def unwound(gear, count=20001):

@@ -99,12 +99,6 @@ def test_its_slope_is_that_of_the_friction_over_the_sliding_speed():
         assert slope == pytest.approx((after - before) / (high - low), rel=1e-4, abs=1e-6)
 
 
-def shared(lambda_ratio, sliding_speed):
-    """Load sharing of a film whose coefficient grows with the sliding speed."""
-    share = min(0.82 * lambda_ratio**0.28, 1.0)
-    return share * 0.02 * (1.0 + math.log1p(sliding_speed)) + (1.0 - share) * 0.11
-
-
 def built_in_law():
     """The coefficient of the built-in law at a lambda ratio, pressure and speeds."""
     oils = {
@@ -143,14 +137,6 @@ def test_a_table_of_the_built_in_law_gives_its_losses_within_the_error_of_interp
         assert runs[1].energy.residual == pytest.approx(0.0, abs=1e-4 * runs[1].energy.input)
 
 
-def test_coefficients_of_a_run_are_within_those_of_the_table():
-    scene = with_table(pt.friction_table(shared, lambda_ratio=RATIOS, sliding_speed=SPEEDS))
-    run = pt.simulate(scene, 0.02, 20_000.0)
-    coefficient = (run.viscous_friction / np.abs(run.mesh_force))[run.mesh_force != 0.0]
-    assert np.nanmin(coefficient) > 0.02 * 0.9 and np.nanmax(coefficient) < 0.11
-    assert not np.any(run.boundary_friction)
-
-
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 def test_coefficients_of_a_constant_are_seen_in_the_losses(dynamics):
     runs = [
@@ -159,13 +145,6 @@ def test_coefficients_of_a_constant_are_seen_in_the_losses(dynamics):
     ]
     once, twice = (run.energy.friction for run in runs)
     assert twice == pytest.approx(2.0 * once, rel=0.02)
-
-
-def test_a_scene_keeps_its_table_as_text():
-    from planetary_twin_py.recording.runs.origin import Origin, makers_here, read_origin
-
-    scene = with_table(pt.friction_table(shared, lambda_ratio=RATIOS, sliding_speed=SPEEDS))
-    assert read_origin(Origin(scene, 0, makers_here()).text()).scene == scene
 
 
 @pytest.mark.parametrize(

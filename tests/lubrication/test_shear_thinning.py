@@ -62,22 +62,6 @@ def test_heavy_load_and_fast_sliding_end_at_the_limiting_stress():
     assert friction(1.0, load, COOL) == pytest.approx(LIMIT * load, rel=1e-12)
 
 
-@pytest.mark.parametrize("mesh, rpm", CASES)
-@pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1, 1.0])
-@pytest.mark.parametrize("slide_to_roll", [0.01, 0.1, 0.5])
-def test_two_points_represent_the_pressure_over_the_contact(mesh, rpm, share, slide_to_roll):
-    load, speed = share * LOAD, slide_to_roll * pitch_point(mesh, rpm).speed
-    area, log_film, _ = contact(load, mesh, rpm)
-
-    def stress(p):
-        x = VISCOSITY * math.exp(ALPHA * p - log_film) * speed / EYRING_STRESS
-        return min(EYRING_STRESS * math.asinh(x), LIMIT * p)
-
-    expected = over_the_contact(stress, load, area)
-    found = friction(speed, load, COOL, mesh=mesh, rpm=rpm)
-    assert found == pytest.approx(expected, rel=0.1, abs=2e-3 * load)
-
-
 def contacts_by_chance(count, oils):
     """Two points and the integral [N] of cool films, with the load [N] and the slide-to-roll."""
     random = np.random.default_rng(4)

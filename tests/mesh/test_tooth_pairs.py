@@ -42,17 +42,6 @@ def test_every_pair_has_the_trapezoid_of_its_position(path, ramp):
         assert weight[present] == pytest.approx(expected, abs=1e-9)
 
 
-@PATHS
-@RAMPS
-def test_mean_number_of_pairs_is_the_contact_ratio_minus_the_ramp(path, ramp):
-    table = pair_table(path, ramp)
-    mean = 0.0
-    for j in range(table.segments):
-        low, high = table.edge[j], table.edge[j + 1]
-        mean += (high - low) * weights(table, 0.5 * (low + high), j)[1].sum()
-    assert mean == pytest.approx(path.contact_ratio - ramp, abs=1e-9)
-
-
 @pytest.mark.parametrize("missing", [0.0, 1e-13, -1e-13])
 def test_a_path_that_ends_a_base_pitch_from_the_pitch_point_has_no_empty_segment(missing):
     """Its end is at the edge of the pitch point, also if it misses it by rounding."""
