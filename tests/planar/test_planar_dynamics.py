@@ -1,6 +1,5 @@
 """Runs with moving axes against torsion, statics, natural modes and balances."""
 
-import math
 import re
 
 import numpy as np
@@ -8,6 +7,7 @@ import pytest
 from planar.moving_scenes import MASSES, evenly, planar
 from planar.published_set import scene as published
 from power_flows import DIFFERENTIALS, FLOWS, flow_name
+from spatial.tilting_scenes import spatial
 from tiers import first
 
 from planetary_twin_py import SceneError, Twin, load_scene, simulate
@@ -139,31 +139,25 @@ def test_windows_that_repeat_mesh_cycles_have_the_samples_of_a_run():
         assert (shown == getattr(run.axes, field)).all(), field
 
 
-def test_windows_of_any_length_give_the_same_samples():
-    scene = planar(FLOWS[2], **RATTLE, **PIN)
-    whole = Twin(scene).advance(0.01).waveform
-    twin = Twin(scene)
-    parts = [twin.advance(length).waveform for length in (0.0013, 0.0047, 0.004)]
-    for name in ("dte", "mesh_force", "friction"):
-        pieces = np.concatenate([getattr(part, name) for part in parts])
-        assert (pieces == getattr(whole, name)).all()
+@pytest.mark.parametrize(
+    "scene",
+    [planar(FLOWS[2], **RATTLE, **PIN, **{"supports.gravity": 9.81}), spatial(FLOWS[2])],
+    ids=["planar", "spatial"],
+)
+def test_windows_of_any_length_give_the_same_samples(scene):
+    whole, twin = Twin(scene).advance(0.01), Twin(scene)
+    parts = [twin.advance(length) for length in (0.0013, 0.0047, 0.004)]
 
+    def assert_joined(of, names):
+        for name in names:
+            pieces = np.concatenate([getattr(of(part), name) for part in parts])
+            assert (pieces == getattr(of(whole), name)).all(), name
 
-def test_turning_the_whole_set_turns_displacements_and_nothing_else():
-    angle = 0.7
-    scene = planar(FLOWS[0], **PIN)
-    turned = scene.replace(
-        **{"gearset.planet_angles": [a + angle for a in scene.gearset.planet_angles]}
-    )
-    one, other = (simulate(each, 0.01, tolerance=1e-6) for each in (scene, turned))
-    assert other.mesh_force == pytest.approx(one.mesh_force, rel=1e-6)
-    rotation = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-    assert other.axes.displacement[:, :3] == pytest.approx(
-        one.axes.displacement[:, :3] @ rotation, rel=1e-4, abs=1e-11
-    )
-    assert other.axes.displacement[:, 3:] == pytest.approx(
-        one.axes.displacement[:, 3:], rel=1e-4, abs=1e-11
-    )
+    assert_joined(lambda window: window.waveform, ("dte", "mesh_force", "friction"))
+    assert_joined(lambda window: window.axes, ("displacement", "bearing_force", "orbit"))
+    if whole.axes.tilting is not None:
+        names = ("axial_displacement", "tilt", "axial_force", "tilting_moment")
+        assert_joined(lambda window: window.axes.tilting, names)
 
 
 def test_renumbered_planets_are_the_same_planets():

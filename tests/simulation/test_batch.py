@@ -49,15 +49,6 @@ def test_a_scene_that_fails_is_named_with_its_place_and_stops_no_other(workers):
     assert "\n" not in str(error.value) and error.value.__cause__ is failed.found
 
 
-def test_a_defect_is_not_taken_for_a_scene_that_fails(monkeypatch):
-    def defect(*_):
-        raise TypeError
-
-    monkeypatch.setattr(batch, "simulate", defect)
-    with pytest.raises(TypeError):
-        list(pt.simulate_many([PAPER], 0.001))
-
-
 @pytest.fixture
 def small_heap():
     """What is there already need not be searched for garbage, again and again."""
@@ -90,10 +81,6 @@ def test_who_stops_taking_stops_the_work():
     next(outcomes)
     outcomes.close()
     assert threading.active_count() == before
-
-
-def test_an_empty_batch_gives_nothing():
-    assert list(pt.simulate_many([], 0.01)) == []
 
 
 @pytest.mark.parametrize(

