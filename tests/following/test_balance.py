@@ -8,13 +8,7 @@ from tiers import first
 from planetary_twin_py.following.balance import BalanceFollower
 from planetary_twin_py.following.balance_filter import (
     CAUSES,
-    BalanceFilter,
-    Measured,
-    alarm_memory,
 )
-from planetary_twin_py.following.loss_map import loss_map
-from planetary_twin_py.following.sensors import Sensors
-from planetary_twin_py.following.train import followed_train
 
 RPM = 30.0 / np.pi
 DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found
@@ -186,34 +180,6 @@ def test_no_false_alarm_in_ten_minutes_of_each_duty():
         assert not follower.events
 
 
-def test_the_balance_of_readings_changes_nothing_and_a_reading_without_noise_explains_it():
-    """i T_l = -T + L(T, w): the readings are computed from the loss map, not by the filter."""
-    train, losses = followed_train(paper()), loss_map(paper())
-    oil = paper().operating_point.oil_temperature
-    balances = BalanceFilter(train, losses, Sensors(), alarm_memory(train))
-    for time, torque in enumerate((63.0, 50.0)):
-        loss = losses(torque, train.speed, oil)
-        read = Measured(
-            float(time), torque, (loss.teeth + loss.rest - torque) / train.ratio, (10, 10),
-            train.speed, 0.0, 0.0, oil,
-        )  # fmt: skip
-        before = balances.x.copy(), balances.p.copy()
-        found = balances.balance(read)
-        assert (balances.x == before[0]).all() and (balances.p == before[1]).all()
-        assert found.value == pytest.approx(0.0, abs=1e-6 * torque)
-        assert found.added[0] == pytest.approx(loss.teeth)
-        balances.update(read)
-
-
-def test_a_decrease_by_more_than_all_friction_is_not_one_of_friction():
-    _, time, columns = played("steady", {}, 60.0, 1)
-    columns["input_torque"] = columns["input_torque"] - np.where(time > 30.0, 1.5, 0.0)
-    follower = BalanceFollower(paper())
-    follower.add(time, columns)
-    (event,) = follower.events
-    assert event.size.value < -1.2 and event.causes and "friction" not in event.causes
-
-
 @pytest.mark.parametrize(
     "factors, question",
     [
@@ -235,16 +201,6 @@ def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
     lines = [line for line in follower.remarks() if "unit" in line]
     assert len(lines) == (question is not None)
     assert all(question in line for line in lines)
-
-
-def test_a_gearbox_at_standstill_and_a_scene_without_load_cause_no_question_about_units():
-    _, time, columns = played("steady", {}, 8.0, 1)
-    zero = {name: 0.0 * values for name, values in columns.items() if name != "oil_temperature"}
-    unloaded = paper().replace(input_torque=0.0, input_speed=0.0)
-    for scene, readings in ((paper(), columns | zero), (unloaded, columns)):
-        follower = BalanceFollower(scene)
-        follower.add(time, readings)
-        assert not any("unit" in line for line in follower.remarks())
 
 
 @pytest.mark.exhaustive

@@ -97,16 +97,6 @@ def test_a_baseline_learned_again_contains_the_changed_tooth(played, file):
 
 
 @pytest.mark.exhaustive
-def test_the_same_baseline_is_saved_again(file, played, tmp_path):
-    follower = Follower(SCENE, SENSORS, FORMAT)
-    follower.load_baseline(file)
-    follower.save_baseline(tmp_path / "again.npz")
-    one, other = (np.load(path) for path in (file, tmp_path / "again.npz"))
-    assert sorted(one.files) == sorted(other.files)
-    assert all(np.array_equal(one[name], other[name]) for name in one.files)
-
-
-@pytest.mark.exhaustive
 def test_invalid_files_are_refused(file, tmp_path):
     with pytest.raises(ValueError, match="no baseline has been learned yet"):
         Follower(SCENE).save_baseline(tmp_path / "none.npz")

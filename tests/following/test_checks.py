@@ -47,18 +47,6 @@ def test_it_is_refused_in_one_line(readings, what):
     assert "\n" not in str(error.value)
 
 
-def test_a_coasting_train_is_no_reversed_one():
-    speed = np.linspace(104.7, 60.0, 700)  # the motor brakes and the load gives its inertia
-    follower = Follower(paper())
-    torque = 0.4 + follower._balance.train.inertia * np.gradient(speed, 0.01)
-    columns = {
-        "input_torque": torque,
-        "output_torque": np.zeros(len(speed)),
-        "input_speed": speed,
-    }
-    follower.add(Readings(np.arange(1, 701) / 100.0, columns))
-
-
 def test_a_recording_shorter_than_the_check_is_checked_at_its_end(readings):
     time, columns = readings
     short = {name: values[:300] for name, values in columns.items()}

@@ -77,19 +77,6 @@ def test_packets_out_of_order_are_put_in_order():
     assert np.array_equal(blocks[0].deviation, blocks_of(counts)[0][0].deviation)
 
 
-def test_doubled_and_late_packets_are_counted():
-    counts = counts_of(wave)
-    found = HuntingBlocks(TRAIN, (N, N), 1.0 / RATE)
-    rows = np.arange(len(counts))
-    list(found.add(rows[:20_000], counts[:20_000]))
-    list(found.add(rows[19_900:20_000], counts[19_900:20_000]))
-    list(found.add(rows[:100], counts[:100]))
-    list(found.add(rows[20_000:], counts[20_000:]))
-    list(found.finish())
-    assert found.counters.doubled == 100 and found.counters.late == 100
-    assert found.counters.used == len(counts)
-
-
 def test_a_gap_masks_the_bins_near_it():
     missing = np.arange(20_000, 20_200)  # 5 mesh cycles
     (block, *_), counters = blocks_of(counts_of(wave), missing=[missing])

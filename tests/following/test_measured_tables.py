@@ -163,12 +163,6 @@ def test_rows_in_any_order_give_the_readings_of_the_rows_in_order(write):
         assert values.tobytes() == other.readings.columns[name].tobytes()
 
 
-def test_vibration_is_in_the_order_of_its_stamps(write):
-    rows = [f"{n / 1000},{n}" for n in range(500)]
-    found = read_vibration(write("time,a", *shuffled(rows)), {})
-    assert found.values[:, 0].tolist() == list(range(500)) and found.period == pytest.approx(1e-3)
-
-
 @pytest.mark.parametrize(
     ("headings", "lacking"),
     [
@@ -217,11 +211,6 @@ def test_day_numbers_of_a_spreadsheet_are_named(write):
     rig = write("time,input_torque", *[f"{day},60" for day in days], name="import.csv")
     with pytest.raises(ValueError, match=advice):
         read_measurements(rig, {"input_torque": "N m"})
-
-
-def test_seconds_of_a_day_are_no_day_numbers(write):
-    table = write(HEADING, *[f"A,{43200 + n / 100},60,-140,100" for n in range(4)])
-    assert read_readings(table, {}).remarks == ()
 
 
 @pytest.mark.parametrize(

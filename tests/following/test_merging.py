@@ -77,16 +77,6 @@ def test_a_sender_that_falls_silent_holds_the_others_up_for_a_short_time_only():
     assert merge.counters.late == pytest.approx(np.sum(~half), abs=30)  # the rest is in open bins
 
 
-def test_of_two_senders_of_a_channel_the_first_by_name_is_used():
-    merge, found = Merge(0.1, {}), []
-    for rows in np.array_split(np.arange(2000), 50):
-        for name, value in (("two", 2.0), ("one", 1.0)):
-            found += merge.add(TIME[rows], {"input_torque": np.full(len(rows), value)}, name)
-    found += merge.finish()
-    assert [one.means["input_torque"].value for one in found] == pytest.approx([1.0] * 200)
-    assert merge.counters.doubled == merge.counters.used == 2000
-
-
 def test_an_oil_temperature_is_used_five_seconds_after_its_stamp_and_the_first_at_once():
     found, _ = merged(dict.fromkeys(SENT, at_once))
     oil = np.array([one.means["oil_temperature"].value for one in found])

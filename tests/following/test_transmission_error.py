@@ -52,10 +52,3 @@ def test_the_model_is_sampled_by_the_angle_of_its_sun():
     assert first == pytest.approx(50 * 30 * (0.1 * 1000 / 60 - twisted), abs=3)
     lever = followed_train(scene).lever
     assert error == pytest.approx(lever * own, abs=1e-7)  # linear between points
-
-
-def test_where_the_sun_turns_back_cycles_are_negative():
-    scene = pt.load_scene("paper").replace(input_speed=-104.72, input_torque=-63.0)
-    first, _ = model_error(scene, 4, 50, 0.1, 1e-4)
-    ahead, _ = model_error(pt.load_scene("paper"), 4, 50, 0.1, 1e-4)
-    assert first + 199 == pytest.approx(-ahead, abs=1)

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 from following.plants import paper
-from scipy.io import savemat
 from tiers import first
 
 from planetary_twin_py.following.follower import Follower, Readings
-from planetary_twin_py.following.measured_tables import read_readings, read_vibration
 from planetary_twin_py.following.play_back import play_back
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
@@ -100,25 +98,6 @@ def test_the_same_bits_however_samples_are_cut():
 
     one, other = (followed(20.0, grown, cuts=cuts) for cuts in (40, 130))
     assert repr(one.events) == repr(other.events) and one.events
-
-
-def test_a_table_has_the_events_of_the_same_blocks(tmp_path):
-    def grown(time):
-        return {"ring": (2.0, time > 12.0)}
-
-    time, load, values = signals(20.0, grown)
-    table = tmp_path / "rig.mat"  # readings in every row, as one device logs them
-    columns = {
-        "input_torque": TRAIN.torque * load,
-        "output_torque": -(TRAIN.torque * load - 0.8) / TRAIN.ratio,
-        "input_speed": np.full(len(time), TRAIN.speed),
-    }
-    savemat(table, {"time": time} | columns | dict(zip(NAMES, values.T, strict=True)))
-    follower = Follower(paper(), Sensors(learning=8))
-    readings, vibration = read_readings(table, {}), read_vibration(table, {})
-    assert set(readings.ignored) == set(vibration.names) == set(NAMES)
-    *_, last = play_back(follower, [readings.readings], [vibration])
-    assert vibration_events(last).keys() == vibration_events(followed(20.0, grown)).keys() != set()
 
 
 def test_lines_that_the_sample_rate_does_not_resolve_are_left_out():
