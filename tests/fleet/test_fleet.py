@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-from fleet.fleets import Alternating, Played, paper
+from fleet.fleets import Played, paper
 from tiers import first
 
-import planetary_twin_py as pt
 from planetary_twin_py.fleet.cusums import Cusums, limit
 from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
-from planetary_twin_py.fleet.loss_table import loss_table
 
 OTHER = {"losses.planet_bearing": {"mean_diameter": 0.012}}
 
@@ -41,16 +39,6 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
     for event in fleet.events:
         assert 1200.0 < event.found < 1900.0 and event.size > 0.0
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
-
-
-def test_the_share_of_a_step_and_the_smallest_step_do_not_depend_on_the_phase_of_the_duty():
-    played = Alternating(20, 8)
-    played.friction[:] = 1.0
-    fleet = followed(played, 2400, 1200)
-    shares = [event.share for event in fleet.events]
-    assert {event.gearbox for event in fleet.events} == set(range(10))
-    assert min(shares) > 0.0 and np.median(shares) > 0.06 and max(shares) < 0.11
-    assert np.ptp(fleet.scatter.step) < 0.03 * np.mean(fleet.scatter.step)
 
 
 @pytest.mark.exhaustive
@@ -199,21 +187,3 @@ def test_readings_that_no_machine_has_are_left_out_and_change_nothing(channel, v
     (line,) = fleet.remarks(1)
     assert line.startswith(f"{channel}: left out, because ")
     assert "from 201.00 to 220.00 s (20 readings, rows 201 to 220)" in line
-
-
-def test_a_fleet_keeps_growth_of_a_loss_of_half_the_torque():
-    """The scene alone loses 54 % of this torque; two of three gearboxes lose 72 %."""
-    scene = pt.load_scene("compact_actuator").replace(input_torque=0.2)
-    table, fleet, chance = loss_table(scene), Fleet(scene, 3), np.random.default_rng(3)
-    torque, speed, oil = np.full(3, 0.2), np.full(3, 15.08), np.full(3, 298.0)
-    lost = sum(table(torque, speed, oil)) + np.array([0.0, 0.036, 0.036])
-    for time in range(1, 121):
-        noise = 1e-3 * chance.standard_normal((2, 3))
-        row = {"input_torque": torque + noise[0], "input_speed": speed, "oil_temperature": oil}
-        output = (lost - torque) / fleet.train.ratio + noise[1]
-        output[2] *= not 60 < time <= 70
-        fleet.add(float(time), row | {"output_torque": output})
-    fleet.finish()
-    assert not fleet.faults and fleet.missing.tolist() == [0, 0, 10]
-    assert not any("left out" in line for n in (0, 1) for line in fleet.remarks(n))
-    assert any("0 N m from 61.00 to 70.00 s" in line for line in fleet.remarks(2))

@@ -9,7 +9,6 @@ from fleet.fleets import Played
 from fleet.instants import Wandering
 from tiers import first_rows
 
-from planetary_twin_py import load_scene
 from planetary_twin_py.fleet.fleet import Fleet
 from planetary_twin_py.fleet.scatter import BALANCES, RARE
 from planetary_twin_py.fleet.tables import read_fleet
@@ -98,17 +97,3 @@ def test_gearboxes_with_rows_at_different_times_are_refused(tmp_path):
     with pytest.raises(ValueError, match=r"rows at different times: .* multiples of 10 s"):
         read_fleet(path, ("A", "B"))
     assert len(read_fleet(path, ("B",)).time) == 9
-
-
-def test_the_smallest_step_follows_from_the_stated_noise_where_the_balances_scatter_less():
-    fleet = Fleet(load_scene("paper"), 1)
-    for second in range(1, 121):  # the same readings again and again: no scatter
-        ends = {"input_torque": np.array([63.0]), "output_torque": np.array([144.8])}
-        fleet.add(float(second), ends | {"input_speed": np.array([104.72])})
-    scatter = fleet.scatter
-    losses = fleet.table(
-        np.array([63.0]), np.array([104.72]), np.array([fleet.train.oil_temperature])
-    )
-    assert scatter.measured < 1e-6 * scatter.stated
-    loss = losses.teeth + losses.rest
-    assert scatter.step == pytest.approx(3.0 * scatter.stated / np.sqrt(60.0) / loss, rel=1e-6)

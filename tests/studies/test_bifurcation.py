@@ -5,10 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.studies.bifurcation import DOWN, UP, Dwell, bifurcation
 
 PAPER = pt.load_scene("paper")
@@ -80,27 +78,6 @@ def test_the_table_contains_units_and_provenance():
     assert table.schema.metadata[b"study"] == b"bifurcation"
     assert json.loads(table.schema.metadata[b"settings"])["cycles"] == 2
     assert pt.parse_scene(table.schema.metadata[b"scene"].decode()) == PAPER
-
-
-@pytest.mark.parametrize(
-    ("changes", "speed", "warned"),
-    [
-        ("input_torque=63 mesh.damping.law=viscous", 1000, False),
-        (
-            "input_torque=260 mesh.damping.law=viscous mesh.ramp=0 mesh.double_pair_ratio=1.9",
-            100,
-            1,
-        ),
-    ],
-)
-def test_speeds_at_which_vibration_stops_gears_cause_a_warning(changes, speed, warned, tmp_path):
-    options = [word for change in changes.split() for word in ("--set", change)]
-    speeds = f"{speed}rpm:{1.1 * speed}rpm:2"
-    out = ["--settling", "0.05", "--cycles", "2", "--out", str(tmp_path / "jumps.csv")]
-    arguments = ["bifurcation", "paper", *options, "--input-speed", speeds, *out]
-    done = CliRunner().invoke(build_app(), arguments)
-    assert done.exit_code == 0, done.output
-    assert ("points (reversals), at worst: vibration stops gears" in done.stderr) == warned
 
 
 @pytest.mark.parametrize(

@@ -80,10 +80,3 @@ def test_default_speeds_are_round_and_within_the_limit_of_the_drive(name):
     backwards = scene.replace(input_speed=-scene.operating_point.input_speed)
     opposite = read_axis(backwards, "input_speed", default_speeds(backwards, 1e-4, "41:log"))
     assert opposite.values == pytest.approx([-value for value in axis.values])
-
-
-def test_a_slow_machine_needs_no_speeds(tmp_path):
-    out = tmp_path / "curve.csv"
-    done = CliRunner().invoke(build_app(), ["stribeck", "wind_turbine_stage", "--out", str(out)])
-    assert done.exit_code == 0, done.output
-    assert read(out)["failure"].null_count == 41

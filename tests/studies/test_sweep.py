@@ -1,7 +1,5 @@
 """A study gives the same table with any workers; finished points survive; failures are reported."""
 
-import threading
-
 import numpy as np
 import pyarrow.parquet
 import pytest
@@ -12,7 +10,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.studies import work
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.journal import Journal
-from planetary_twin_py.studies.local import AHEAD, Threads
+from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import grid
 from planetary_twin_py.studies.sweep import sweep
@@ -111,15 +109,6 @@ def test_a_point_that_fails_is_reported_and_stops_no_other(tmp_path, measured):
     bad, good = table.to_pylist()
     assert bad["failure"].startswith("gearset.addendum = 0.3: ") and bad["efficiency"] is None
     assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
-
-
-def test_only_a_few_points_are_computed_ahead():
-    started = threading.Semaphore(0)
-    asked = iter(range(1000))
-    found = Threads(2).run(lambda point: started.release(), (next(asked) for _ in range(1000)))
-    next(found)
-    assert next(asked) <= AHEAD * 2 + 1
-    found.close()
 
 
 def test_zero_workers_are_refused():

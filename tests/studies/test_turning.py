@@ -2,7 +2,6 @@
 
 import math
 
-import pyarrow as pa
 import pytest
 from studies.small import PAPER
 
@@ -42,18 +41,6 @@ def test_points_with_a_few_mesh_cycles_and_a_part_of_one_are_reported_as_a_run_o
     reason = "means of losses, forces and DTE depend on where the teeth are, unless the number"
     assert reason in line and reason in of_run
     assert list(turning_of_study(of_speeds(0.2))) == []
-
-
-def test_points_at_another_speed_than_asked_for_are_reported_with_the_worst():
-    table = of_speeds(0.3)
-    place = table.column_names.index("speed_share")
-    shares = table["speed_share"].to_pylist()
-    assert math.isnan(shares[0]) and shares[1:] == pytest.approx([1.0, 1.0], abs=0.05)
-    # As where friction stops one of the two.
-    found = pa.chunked_array([[math.nan, 1.04, 0.3]])
-    table = table.set_column(place, "speed_share", found)
-    (line,) = turning_of_study(table)
-    assert line.startswith("at 1 of 3 points (speed_share)") and "at worst 0.3 times it" in line
 
 
 def test_gears_that_stick_show_in_the_table_of_a_sweep():

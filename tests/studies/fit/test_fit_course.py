@@ -4,12 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.io import loadmat, savemat
+from scipy.io import savemat
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.loss_map import LossMap
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.studies.fit.course import read_course
 from planetary_twin_py.studies.fit.fit_course import course_remarks, fit_course
 
 RIG = Path(__file__).parents[2] / "data/compact"
@@ -58,25 +57,6 @@ def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
     assert list(course_remarks(found)) == []
 
 
-@pytest.mark.slow
-def test_codes_for_missing_readings_are_left_out_of_a_fit(tmp_path):
-    path = manoeuvre(tmp_path / "rig.mat", "run-up")
-    spoilt, found = loadmat(path, squeeze_me=True), []
-    columns = {
-        name: spoilt[name].copy()
-        for name in ("input_torque", "output_torque", "input_speed", "time")
-    }
-    columns["input_torque"][500:510] = -9999.0
-    savemat(tmp_path / "spoilt.mat", columns)
-    for file in (path, tmp_path / "spoilt.mat"):
-        found.append(fit_course(file, SCENE.replace(**{MOTOR: 3e-3}), (DRAG,)))
-    value, expected = (float(one.estimate.values[0]) for one in reversed(found))
-    low, high, _ = found[0].estimate.intervals[0]
-    assert value == pytest.approx(expected, abs=0.05 * (high - low))
-    (line,) = (one for one in course_remarks(found[1]) if "left out" in one)
-    assert "input_torque" in line and "10 readings, rows 501 to 510" in line
-
-
 @pytest.mark.exhaustive
 def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
     clean, wrong = (
@@ -90,14 +70,6 @@ def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
 
 
 @pytest.mark.exhaustive
-def test_an_estimate_at_the_end_of_its_range_is_remarked_upon(tmp_path):
-    path = manoeuvre(tmp_path / "rig.mat", "run-up")
-    dragging = SCENE.replace(**{DRAG: 0.2, MOTOR: 3e-3})  # more than the whole loss
-    found = fit_course(path, dragging, (FRICTION,))
-    assert any("is at the end of its range, 0" in line for line in course_remarks(found))
-
-
-@pytest.mark.exhaustive
 def test_a_run_of_the_rig_predicts_its_end_within_a_second_of_processor_time_per_second():
     scene = pt.load_scene("compact_actuator")
     found = fit_course(
@@ -108,19 +80,6 @@ def test_a_run_of_the_rig_predicts_its_end_within_a_second_of_processor_time_per
     assert low < scene.losses.sun_drag.coulomb < high  # estimated from steady runs
     assert found.estimate.values[0] == pytest.approx(0.825, rel=0.1)
     assert found.simulations < 60
-
-
-def test_files_that_are_no_manoeuvre_are_refused_in_one_line(tmp_path):
-    train = followed_train(SCENE)
-    (tmp_path / "no.mat").write_text("text")
-    with pytest.raises(ValueError, match="not a MAT file"):
-        read_course(tmp_path / "no.mat", train)
-    savemat(tmp_path / "short.mat", {"time": np.arange(3.0), "input_torque": np.zeros(3)})
-    with pytest.raises(ValueError, match="column 'output_torque': missing"):
-        read_course(tmp_path / "short.mat", train)
-    savemat(tmp_path / "uneven.mat", {"time": np.arange(3.0), "input_torque": np.zeros(4)})
-    with pytest.raises(ValueError, match="must be a vector as long as time"):
-        read_course(tmp_path / "uneven.mat", train)
 
 
 def test_a_part_that_overlaps_is_refused(tmp_path):

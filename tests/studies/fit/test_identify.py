@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from studies.fit.rig import LIGHT, PAPER, record
 
-from planetary_twin_py.studies.fit import excerpt
 from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
 from planetary_twin_py.studies.fit.remarks import remarks
@@ -49,13 +48,6 @@ def test_steady_load_identifies_torque_and_film_and_reports_that_backlash_is_not
     assert np.isnan(found.estimate.correlation[0]).all()
 
 
-def test_the_zero_of_the_encoders_would_identify_it(tmp_path):
-    path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.001)
-    found = find(path, "backlash", observe=("dte_mean",), confidence=0.999)
-    low, high, _ = found.estimate.intervals[0]
-    assert low < 2e-7 < high
-
-
 @pytest.mark.exhaustive
 @pytest.mark.slow
 def test_without_noise_the_truth_is_found_through_a_change_that_still_rings(tmp_path):
@@ -86,15 +78,6 @@ def test_the_longest_interval_without_a_change_is_used(tmp_path):
     found = read_excerpt(path, begin=0.05, end=0.15)
     assert (found.start, found.end) == (0.05, 0.15)
     assert found.segments == pytest.approx((0.08, 0.09))
-
-
-def test_late_in_a_run_the_simulation_starts_at_the_recorded_angles(tmp_path, monkeypatch):
-    path = record(tmp_path / "bag", PAPER.replace(input_speed=91.0), 0.3)
-    monkeypatch.setattr(excerpt, "HISTORY", 0.1)
-    found = find(path, "lambda_ratio", begin=0.2, end=0.3, observe=("power_loss", "dte_waveform"))
-    period = 2.0 * np.pi / 91.0
-    assert found.excerpt.begins == pytest.approx(period, rel=1e-3)
-    assert found.estimate.values == pytest.approx([1.0], rel=0.05)
 
 
 @pytest.mark.parametrize(

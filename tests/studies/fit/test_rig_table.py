@@ -3,13 +3,11 @@
 import numpy as np
 import pyarrow as pa
 import pytest
-from pyarrow import csv, parquet
+from pyarrow import csv
 from studies.fit.rig import PAPER, record
 
-import planetary_twin_py as pt
 from planetary_twin_py.recording.tables.export import Export, export
 from planetary_twin_py.recording.tables.rig_recording import write_measured
-from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
 
 FREE = ("lambda_ratio", "input_torque")
@@ -55,26 +53,6 @@ def test_an_unmeasured_quantity_cannot_be_observed(tmp_path, observe, reason):
     write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
     with pytest.raises(ValueError, match=reason):
         identify(tmp_path / "rig", Search(("lambda_ratio",), (observe,)))
-
-
-def test_a_late_interval_of_a_table_starts_in_steady_running(exported, tmp_path):
-    table = parquet.read_table(exported).select(["simulated_time", "power_loss", "input_torque"])
-    parquet.write_table(table, tmp_path / "rig.parquet")
-    write_measured(tmp_path / "rig.parquet", PAPER, tmp_path / "rig")
-    found = identify(
-        tmp_path / "rig", Search(("lambda_ratio",), ("power_loss",), confidence=0.999),
-        begin=0.2, end=0.3,
-    )  # fmt: skip
-    assert found.excerpt.before == ()  # nothing earlier is simulated
-    assert_identified(found, lambda_ratio=0.7)
-
-
-def test_enough_slow_readings_are_used_to_estimate_their_noise(tmp_path):
-    table = pa.table({"time": np.arange(60.0), "power_loss": np.full(60, 75.0)})
-    csv.write_csv(table, tmp_path / "rig.csv")
-    write_measured(tmp_path / "rig.csv", pt.load_scene("paper"), tmp_path / "rig")
-    found = read_excerpt(tmp_path / "rig")
-    assert (found.start, found.end) == (0.0, 5.0)
 
 
 def test_by_default_what_was_recorded_is_observed(tmp_path):
