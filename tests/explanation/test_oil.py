@@ -51,14 +51,6 @@ def test_the_regression_falls_with_its_published_exponent():
     assert oil_figures(STAGE).laws[1].viscosity_exponent == pytest.approx(-0.05, abs=1e-9)
 
 
-def test_where_the_law_of_the_scene_favours_thick_oils_a_sentence_says_so():
-    own, other = oil_figures(STAGE).laws
-    assert own.viscosity_exponent < other.viscosity_exponent - 0.1
-    assert "likely too thick" in [*oil_figures(STAGE).lines][-1]
-    by_regression = STAGE.replace(**{"lubrication.traction": "schlenk"})
-    assert not any("too thick" in line for line in oil_figures(by_regression).lines)
-
-
 @pytest.mark.parametrize("traction", MORE)
 def test_losses_of_meshes_are_beside_those_of_another_program_as_the_page_says(traction):
     changes = {"lubrication.traction": traction, "input_torque": 3.94599e6}

@@ -135,27 +135,3 @@ def test_crossings_that_phasing_suppresses_are_open_circles():
     excited = [r.frequency for r in found if r.excitation == EXCITED]
     assert filled.get_offsets()[:, 1].tolist() == pytest.approx(excited)
     assert len(hollow.get_offsets()) == len(found) - len(excited) > 0
-
-
-@pytest.mark.parametrize(
-    ("name", "limit"),
-    [("reference_gearbox_stage", 3.0), ("paper", 10_000.0), ("paper", 1e3)],
-)
-def test_labels_of_harmonics_do_not_overlap_and_are_at_their_own_lines(name, limit):
-    """Slow gears crowd them at the right edge, and a high limit of the speed at the upper edge."""
-    scene = pt.load_scene(name)
-    modes = pt.natural_modes(scene, stiffness="mean")
-    figure = campbell_diagram(scene, modes, (), limit)
-    figure.draw_without_rendering()
-    (axes,) = figure.axes
-    boxes = [label.get_window_extent() for label in axes.texts]
-    assert len(boxes) == 5
-    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
-    edge = axes.get_window_extent()
-    for label, box in zip(axes.texts, boxes, strict=True):
-        ray = axes.lines[int(label.get_text()) - 1]
-        x, y = axes.transData.transform(ray.get_xydata()).T
-        if box.x0 > edge.x1:
-            assert 0.5 * (box.y0 + box.y1) == pytest.approx(np.interp(edge.x1, x, y), abs=3.0)
-        else:
-            assert 0.5 * (box.x0 + box.x1) == pytest.approx(np.interp(edge.y1, y, x), abs=3.0)

@@ -58,16 +58,6 @@ def test_beyond_three_sigma_no_asperity_touches_and_the_film_alone_takes_power()
     assert runs[2].power_loss.mean() == pytest.approx(runs[1].power_loss.mean(), rel=1e-6)
 
 
-def test_the_printed_asperity_functions_may_jump_at_three_and_nothing_else_does():
-    twin = pt.Twin(PAPER.replace(lambda_ratio=3.0, **{"lubrication.asperities": "printed"}))
-    before = twin.advance(0.01).waveform
-    twin.set(lambda_ratio=float(np.nextafter(3.0, 4.0)))
-    after = twin.advance(0.01).waveform
-    assert np.isfinite(after.mesh_force).all()
-    step = np.abs(np.diff(np.vstack([before.dte, after.dte]), axis=0)).max(axis=1)
-    assert step[len(before.dte) - 1] <= 1.1 * step[: len(before.dte) - 1].max()
-
-
 @pytest.mark.parametrize("film", ["dowson_higginson", "dowson_toyoda", "salagianni"])
 @pytest.mark.parametrize("boundary", ["greenwood_tripp", "load_sharing"])
 def test_a_set_that_turns_as_a_block_draws_in_no_oil_and_loses_nothing(film, boundary):

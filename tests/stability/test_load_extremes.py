@@ -68,13 +68,3 @@ def test_a_hundred_times_the_load_at_once_is_the_step_response_of_the_linear_tra
 def test_a_hundredth_of_the_load_at_once_has_the_teeth_part_and_settle(torque):
     scene = PLAIN.replace(**DAMPED, **FREE)
     assert_carries(settled_after(scene, torque), scene, torque)
-
-
-@pytest.mark.parametrize("tolerance", [1e-4, 5e-3])
-def test_accelerating_without_load_costs_no_more_steps_than_under_load(tolerance):
-    """Meshes carry 12 kN while the speed rises, whatever the torque of steady running is."""
-    up = {"drive.speed_control.start_speed": 0.0, "drive.speed_control.slew_rate": 5e4}
-    scene = PAPER.replace(input_speed=500.0, backlash=0.0, **up)
-    loaded = pt.simulate(scene, 0.01, tolerance=tolerance)
-    idle = pt.simulate(scene.replace(input_torque=0.01), 0.01, tolerance=tolerance)
-    assert idle.stats.steps < 3 * loaded.stats.steps

@@ -46,14 +46,6 @@ def test_beside_it_the_power_lost_is_friction_times_the_sliding_of_the_flanks(sp
     assert run.power_loss[plateau, 0] == pytest.approx((friction * sliding)[plateau], rel=1e-4)
 
 
-def test_friction_that_reverses_at_the_pitch_point_needs_few_steps():
-    with_friction = sound_run(PAPER, 0.02, tolerance=1e-4).stats
-    without = sound_run(
-        PAPER.replace(**{"lubrication.friction": False}), 0.02, tolerance=1e-4
-    ).stats
-    assert with_friction.steps < 2 * without.steps
-
-
 @pytest.mark.parametrize("threshold", [1e-12, 1e-6, 1e-3, 1.0])
 def test_friction_as_steep_as_a_step_is_integrated(threshold):
     scene = PAPER.replace(**{"lubrication.sliding_threshold": threshold})

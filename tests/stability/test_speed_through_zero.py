@@ -65,12 +65,3 @@ def test_damping_that_grows_without_bound_towards_standstill_is_passed(direction
     run = sound_run(ramp(PAPER.replace(**FLOOR), direction, law), 2 * CROSSING)
     assert run.mesh_force.min() > 0.0
     assert run.stats.steps < 40_000  # most resolve how friction reverses, see below
-
-
-@BOTH_WAYS
-@pytest.mark.parametrize("law", ["meshing_frequency", "printed_meshing_frequency"])
-def test_without_friction_that_damping_is_passed_in_few_steps(direction, law):
-    scene = PAPER.replace(**FLOOR, **{"lubrication.friction": False})
-    run = sound_run(ramp(scene, direction, law), 2 * CROSSING)
-    assert run.mesh_force.min() > 0.0
-    assert run.stats.steps < 10_000
