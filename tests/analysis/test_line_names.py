@@ -8,7 +8,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.analysis.distinct_lines import DISTINCT, over_noise
 from planetary_twin_py.analysis.line_names import LineNames
-from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of
 from planetary_twin_py.analysis.sensor import sensor_signal
 from planetary_twin_py.analysis.shaft_lines import ShaftLine, ShaftLines
 from planetary_twin_py.analysis.sidebands import MOST, Sidebands, sideband_text
@@ -126,18 +126,6 @@ def test_an_alias_of_a_mesh_harmonic_in_a_table_is_named():
     assert [line.text for line in found] == [
         "mesh harmonic 1", "alias of mesh harmonic 13, if it was not filtered",
     ]  # fmt: skip
-
-
-@pytest.mark.parametrize(("rate", "tone"), [(10_000.0, 500.0), (2560.0, 500.0), (2560.0, 1100.0)])
-def test_products_of_the_interpolation_of_an_order_spectrum_have_no_names(rate, tone):
-    time = np.arange(0.0, 2.0, 1.0 / rate)
-    angle = PAPER.operating_point.input_speed * time
-    weak = 0.01 * np.sin(2.0 * np.pi * 750.0 * time)
-    for beside, distinct in ((0.0 * time, 1), (weak, 2)):
-        signal = Signal(np.sin(2.0 * np.pi * tone * time) + beside, time, angle, None)
-        found = LineNames(order_spectrum_of(signal, 30), PAPER, True).named(12)
-        assert [line.over_noise >= DISTINCT for line in found[:12]].count(True) == distinct
-        assert not any(line.text for line in found[distinct:])
 
 
 @pytest.mark.parametrize(("drift", "names"), [(0.0, 2), (1e-3, 1)])

@@ -53,18 +53,6 @@ def test_a_brake_stops_the_shaft_at_the_slew_rate_from_any_speed(
     assert twin.port_states.input_angle == pytest.approx(end.input_angle, abs=1e-9)
 
 
-def test_a_brake_does_not_depend_on_the_lengths_of_windows() -> None:
-    long, short = driven(("torque", "torque"), 1.3 * LIMIT), driven(("torque", "torque"), 260.0)
-    for twin in (long, short):
-        twin.set_ports("brake")
-    long.advance(0.3)
-    for _ in range(30):
-        short.advance(0.01)
-    for name in ("input_angle", "output_angle", "output_speed"):
-        shown = getattr(short.port_states, name), getattr(long.port_states, name)
-        assert shown[0] == pytest.approx(shown[1], rel=1e-6, abs=1e-6)
-
-
 def test_a_brake_ends_the_torque_of_the_output_and_takes_no_command() -> None:
     twin = driven(("torque", "torque"), 2.0 * LIMIT)
     twin.set_ports("brake")

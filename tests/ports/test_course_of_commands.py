@@ -64,23 +64,6 @@ def test_straight_lines_have_the_same_samples_in_simulate_and_twin():
     assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
 
 
-@pytest.mark.parametrize("interpolation", ["hold", "linear"])
-def test_steps_that_are_kept_are_repeated(interpolation):
-    scene = driven("torque", "torque", **{"drive.interpolation": interpolation})
-    twin = pt.Twin(scene, tolerance=1e-3, keep_commands=True)
-    rng = np.random.default_rng(1)
-    for _ in range(15):
-        command = {"input_torque": 63.0 + 9.0 * rng.standard_normal()}
-        if rng.random() < 0.5:
-            command["output_torque"] = 147.0 + 20.0 * rng.standard_normal()
-        twin.step(float(rng.choice([1e-3, 4e-4, 1.7e-3])), **command if rng.random() < 0.8 else {})
-    window = twin.advance(2e-3)
-    run = pt.simulate(scene, window.end, tolerance=1e-3, commands=twin.commands)
-    last = run.time > window.start + 1e-12
-    assert np.array_equal(run.dte[last], window.waveform.dte)
-    assert np.array_equal(run.mesh_force[last], window.waveform.mesh_force)
-
-
 def test_a_twin_keeps_commands_only_if_asked():
     with pytest.raises(ValueError, match="keep_commands"):
         _ = pt.Twin(PAPER).commands

@@ -109,21 +109,6 @@ def test_steps_with_positions_are_repeated_bit_for_bit(interpolation, seed):
 
 
 @pytest.mark.parametrize("interpolation", ["hold", "linear"])
-def test_windows_and_steps_reach_the_same_positions(interpolation):
-    scene = driven("torque", "motion", **{"drive.interpolation": interpolation})
-    stepped, advanced = (pt.Twin(scene, tolerance=1e-3) for _ in range(2))
-    for n in range(10):
-        command = {
-            "input_torque": 63.0 + n,
-            "output_position": stepped.port_states.output_angle - 0.0449,
-        }
-        stepped.step(1e-3, **command)
-        advanced.advance(1e-3, **command)
-    parts = [twin.advance(2e-3).waveform.dte for twin in (stepped, advanced)]
-    assert np.array_equal(*parts)
-
-
-@pytest.mark.parametrize("interpolation", ["hold", "linear"])
 def test_the_ledger_closes_under_positions(interpolation):
     scene = driven("torque", "motion", **{"drive.interpolation": interpolation})
     twin = pt.Twin(scene, tolerance=1e-5, keep_commands=True)

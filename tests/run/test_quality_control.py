@@ -210,12 +210,6 @@ def test_other_processes_that_hold_windows_up_but_not_beyond_their_time_loosen_n
         assert policy.setting.tolerance <= LIVE_TOLERANCE and policy.setting.sample_rate == FULL
 
 
-def test_a_new_choice_of_tolerances_begins_with_the_waveform_as_it_is():
-    ladder = settings_of(ladder_of(2e-5), FULL)
-    policy = QualityControl(ladder, SHARE, PERIOD, Setting(1e-2, 12.5e3))
-    assert policy.setting == Setting(2e-5, 12.5e3)
-
-
 @pytest.mark.parametrize(("tolerance", "used"), [(0.0, LIVE_TOLERANCE), (1e-5, 1e-5)])
 def test_without_a_deadline_the_setting_does_not_depend_on_the_load(tolerance, used):
     policy = of(tolerance, begin=1e-2).without_deadline()

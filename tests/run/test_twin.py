@@ -181,17 +181,6 @@ def test_a_tolerance_set_holds_from_its_instant_and_is_logged():
     assert after[0] == pytest.approx(after[1], rel=1e-2)
 
 
-def test_a_tighter_tolerance_during_a_run_reduces_the_error():
-    changed, loose, exact = (pt.Twin(PAPER, tolerance=t) for t in (1e-2, 1e-2, 1e-7))
-    for twin in (changed, loose, exact):
-        twin.advance(0.01)
-    changed.set_tolerance(1e-6)
-    # What the loose start has left behind dies away before it is looked at.
-    dte = [[t.advance(0.5), t.advance(0.05)][1].waveform.dte for t in (changed, loose, exact)]
-    errors = [np.abs(wave - dte[2]).max() for wave in dte[:2]]
-    assert errors[0] < 0.1 * errors[1]
-
-
 def test_a_run_is_made_again_bit_by_bit_from_its_log():
     twin, samples = pt.Twin(PAPER, tolerance=1e-2), []
     for k in range(30):
