@@ -31,7 +31,7 @@ def test_a_sampled_tone_appears_at_its_alias(tone):
     assert line.amplitude == pytest.approx(1.0, rel=1e-3)
 
 
-def test_the_harmonic_behind_an_alias_is_found_and_none_elsewhere():
+def test_harmonic_behind_an_alias_is_found_and_none_elsewhere():
     # 2700 Hz: 4 x is 10 800 and folds to 9200, 5 x is 13 500 and folds to 6500
     assert aliased_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
     assert aliased_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
@@ -51,7 +51,7 @@ def fast():
 
 
 @pytest.mark.parametrize("spectrum_of", first(1, [order_spectrum_of, frequency_spectrum_of]))
-def test_lines_of_a_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectrum_of):
+def test_lines_of_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectrum_of):
     """Against the same run at 1 MHz, which has no line there."""
     found = spectrum_of(fast, 30)
     foreign = [line for line in found.lines(12) if found.harmonic(line.place) is None]

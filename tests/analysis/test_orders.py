@@ -53,7 +53,7 @@ def test_the_map_keeps_each_order_in_place_while_the_speed_rises():
     assert found.amplitude[:, found.order == 60.0] == pytest.approx(0.4, rel=0.01)
 
 
-def test_the_map_has_no_more_windows_than_asked_for_and_reaches_both_ends():
+def test_the_map_has_the_windows_asked_for_and_both_ends():
     found = pt.order_map(vibration(ANGLE), TIME, ANGLE, turns=2.0, most_windows=7)
     assert found.amplitude.shape == (7, len(found.order))
     assert found.time[0] < 0.15
@@ -71,7 +71,7 @@ def test_resampling_follows_the_signal_between_its_samples():
 
 @pytest.mark.parametrize("share", [0.25, 0.4, 0.469])
 @pytest.mark.parametrize("acceleration", [0.0, 15.0])
-def test_a_line_of_a_spectrum_of_orders_is_exact_up_to_the_end_of_its_band(share, acceleration):
+def test_an_order_line_is_exact_up_to_the_end_of_its_band(share, acceleration):
     angle = 2.0 * np.pi * (10.0 * TIME + 0.5 * acceleration * TIME**2)
     order = share * RATE / (10.0 + acceleration * TIME[-1])
     signal = Signal(0.5 * np.sin(order * angle + 0.3), TIME, angle, None)
@@ -80,7 +80,7 @@ def test_a_line_of_a_spectrum_of_orders_is_exact_up_to_the_end_of_its_band(share
     assert line.amplitude == pytest.approx(0.5, rel=0.01)
 
 
-def test_what_is_beyond_half_the_samples_per_turn_does_not_fold_back():
+def test_what_is_beyond_half_samples_per_turn_does_not_fold_back():
     signal = np.sin(60 * ANGLE)
     for samples_per_turn, kept in ((150, 1.0), (100, 0.0)):
         amplitude = pt.order_spectrum(signal, ANGLE, samples_per_turn, "flattop").amplitude
@@ -99,7 +99,7 @@ def test_orders_of_the_meshing_follow_from_the_teeth():
         pt.mesh_order(TEETH, "carrier", "carrier")
 
 
-def test_a_simulated_run_has_its_lines_at_the_orders_of_its_meshing():
+def test_simulated_run_has_its_lines_at_orders_of_its_meshing():
     scene = pt.load_scene("paper").replace(input_speed=pt.rpm(1000))
     result = pt.simulate(scene, duration=0.3, sample_rate=20_000)
     sun = result.angle[:, result.bodies.index("sun")]

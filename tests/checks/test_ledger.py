@@ -59,7 +59,7 @@ def test_a_train_without_losses_is_judged_by_its_energy_turnover():
     assert "no loss" in ledger_warning(balance_of_run(off_by(1.02 * limit, smooth)), 1e-4)
 
 
-def test_rounding_of_the_stored_energy_of_a_train_at_rest_is_no_residual():
+def test_rounding_of_stored_energy_at_rest_is_no_residual():
     still = Balance(residual=4e-10, turnover=4e-10, stored=1.0)
     assert ledger_warning(still, 1e-4) is None
     assert ledger_warning(still._replace(residual=2e-9), 1e-4) is not None

@@ -73,7 +73,7 @@ def test_nodes_are_radaus_points(points):
 
 
 @pytest.mark.parametrize("points", [2, 3, 4, 5])
-def test_nodes_give_legendre_coefficients_of_the_polynomial_through_their_values(points):
+def test_nodes_give_the_legendre_coefficients(points):
     nodes = radau(points)
     expected = np.random.default_rng(points).standard_normal(points)
     values = Legendre(expected, domain=[0.0, 1.0])(nodes.abscissa[:points])
@@ -81,7 +81,7 @@ def test_nodes_give_legendre_coefficients_of_the_polynomial_through_their_values
     assert found == pytest.approx(expected, abs=1e-12)
 
 
-def test_the_mean_film_of_steps_that_flanks_cut_is_that_of_dense_samples():
+def test_the_mean_film_of_cut_steps_is_that_of_dense_samples():
     begin, duration, rate = 0.01, 0.004, 2e6
     engine = run(begin, 1e-4, **CHAOS)
     engine.pop_mesh_sums(begin)

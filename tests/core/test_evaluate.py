@@ -75,7 +75,7 @@ def pairs_of(values, slowest_rolling=SLOWEST_ROLLING):
 
 
 @pytest.mark.parametrize("laws", LAWS, ids="-".join)
-def test_pairs_side_by_side_have_the_friction_of_each_to_the_last_bit(laws):
+def test_pairs_side_by_side_have_friction_of_each_to_last_bit(laws):
     model, random = model_of(*laws), np.random.default_rng(len("-".join(laws)))
     for count in (1, 5, 8, 12, 48):
         values = random_pairs(count, random)
@@ -111,7 +111,7 @@ def test_nan_stays_visible_in_its_pair_alone(laws, name):
     assert np.flatnonzero(np.isnan(pairs.friction[:16])).tolist() == [5]
 
 
-def test_friction_vanishes_with_the_load_and_turns_with_the_sliding():
+def test_friction_vanishes_with_load_and_turns_with_the_sliding():
     model = model_of("evans_johnson", "greenwood_tripp", "exact", "prescribed", "none")
     values = random_pairs(32, np.random.default_rng(5))
     values["load"][:16], values["load"][16:] = 0.0, 500.0
@@ -129,7 +129,7 @@ def test_friction_vanishes_with_the_load_and_turns_with_the_sliding():
 
 
 @pytest.mark.parametrize("traction", ["evans_johnson", "schlenk"])
-def test_slope_is_the_growth_of_friction_with_sliding_at_the_same_rolling(traction):
+def test_slope_is_the_growth_of_friction_with_sliding(traction):
     """Near the pitch point, where the tanh layer decides; magnitudes hardly follow the sliding."""
     model = model_of(traction, "greenwood_tripp", "exact", "prescribed", "none")
     rolling, rho = 2.0, 5e-3

@@ -53,7 +53,7 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
     assert limits(pt.load_scene("paper")) == limits(still)[1:]
 
 
-def test_a_scene_with_a_helix_names_the_effects_that_are_not_modelled():
+def test_scene_with_helix_names_effects_that_are_not_modelled():
     straight = pt.load_scene("paper")
     helical = straight.replace(**{"gearset.helix_angle": "-15 deg"})
     further = [limit.name for limit in limits(helical) if limit not in limits(straight)]
@@ -80,7 +80,7 @@ def test_the_effect_of_friction_is_the_difference_of_two_runs():
 
 
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "lightly_loaded"])
-def test_explain_and_simulate_print_the_same_figures_of_the_same_run(name):
+def test_explain_and_simulate_print_same_figures_of_the_same_run(name):
     explained = [
         json.loads(CliRunner().invoke(build_app(), [*command, "--json", "-"]).stdout)
         for command in (
@@ -101,7 +101,7 @@ def test_explain_and_simulate_print_the_same_figures_of_the_same_run(name):
 
 
 @pytest.mark.exhaustive
-def test_a_crack_shows_in_the_peaks_of_a_turn_that_means_do_not_show():
+def test_crack_shows_in_peaks_of_a_turn_that_means_do_not_show():
     """The cracked tooth yields more, in one of thirty mesh cycles of each planet."""
     found = explain(pt.load_scene("cracked_tooth"), 0.06)
     healthy = next(e for e in found.effects if e.term.name == "faulty teeth").without
@@ -142,7 +142,7 @@ def test_losses_that_a_scene_leaves_out_are_named(changes, missing, words):
     assert all(words in limit.meaning for limit in named)
 
 
-def test_the_command_prints_terms_and_limits_and_figures_for_machines():
+def test_the_command_prints_terms_and_limits_and_figures():
     runner = CliRunner()
     shown = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005"])
     assert shown.exit_code == 0

@@ -56,7 +56,7 @@ def test_damping_ratio_is_half_of_tau_times_omega_by_every_law(kind):
 
 @BOTH
 @pytest.mark.parametrize("ramp", [0.0, 0.03, 0.1])
-def test_mean_of_a_given_stiffness_counts_pairs_by_contact_ratio_less_a_ramp(kind, ramp):
+def test_mean_stiffness_counts_pairs_by_contact_ratio(kind, ramp):
     """A pair takes its ramp to enter and to leave: it carries as for one base pitch less."""
     figures = of(kind, **{"mesh.ramp": ramp})
     pairs = {"sun_planet": 1.5554, "planet_ring": 1.8092}[kind]
@@ -66,7 +66,7 @@ def test_mean_of_a_given_stiffness_counts_pairs_by_contact_ratio_less_a_ramp(kin
 
 
 @pytest.mark.parametrize("kind", [0, 1])
-def test_mean_of_a_computed_stiffness_is_that_of_the_teeth_over_a_cycle(kind):
+def test_mean_of_computed_stiffness_is_that_of_teeth_over_cycle(kind):
     scene = pt.load_scene("cracked_tooth").replace(**{"mesh.ramp": 0.0})
     figures, pair = describe_meshes(scene)[1 + kind], tooth_pairs(scene)[kind]
     width = scene.gearset.face_width
@@ -148,7 +148,7 @@ FROM_SUN = {
 @BOTH
 @pytest.mark.parametrize("flow", FLOWS, ids=flow_name)
 @pytest.mark.parametrize("reverse", ["input_torque", "input_speed", None])
-def test_contact_begins_at_the_tip_of_the_driven_gear_in_every_power_flow(kind, flow, reverse):
+def test_contact_begins_at_the_tip_of_the_driven_gear(kind, flow, reverse):
     scene = scene_of(flow)
     if reverse is not None:
         scene = scene.replace(**{reverse: -getattr(scene.operating_point, reverse)})
@@ -167,7 +167,7 @@ def test_no_gear_drives_without_power(kind, change):
 
 
 @BOTH
-def test_backlash_is_the_way_between_the_flanks_on_the_line_of_action(kind):
+def test_backlash_is_way_between_flanks_on_the_line_of_action(kind):
     assert of(kind, backlash=3e-7).backlash == pytest.approx(3e-7)
     along_arcs = of(kind, backlash=3e-7, **{"mesh.motion": "pitch_arc"})
     assert along_arcs.backlash == pytest.approx(3e-7 * COSINE)
@@ -213,20 +213,20 @@ SEVEN = {"lubrication.traction": "table", "lubrication.friction_table": {"coeffi
 
 @BOTH
 @pytest.mark.parametrize("name", ["paper", "helical_stage", "wind_turbine_stage"])
-def test_mean_friction_of_a_constant_coefficient_is_this_coefficient(kind, name):
+def test_mean_friction_of_a_constant_coefficient_is_it(kind, name):
     """Whatever loads the pairs have: entering teeth carry less, ends of contact lines more."""
     assert of(kind, pt.load_scene(name), **SEVEN).friction == pytest.approx(0.07, rel=1e-8)
 
 
 @BOTH
-def test_loads_that_pairs_share_equally_have_the_loss_factor_of_equal_loads(kind):
+def test_equal_loads_have_the_loss_factor_in_closed_form(kind):
     """As they do with a given stiffness if teeth enter at once."""
     found = of(kind, **{"mesh.ramp": 0.0})
     assert found.loaded_loss_factor == pytest.approx(found.loss_factor, rel=0.01)
 
 
 @BOTH
-def test_loss_factor_of_the_loads_is_that_of_evenly_loaded_lines_of_contact(kind):
+def test_loss_factor_of_loads_is_that_of_even_lines(kind):
     """Mean sliding over all lines of contact of helical teeth, by numbers; integer overlap ratio.
 
     With an overlap ratio of 1, the length of all lines is constant, so each part of the path of

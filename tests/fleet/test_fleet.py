@@ -43,7 +43,7 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("gain", [-0.1, 0.1])
-def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(gain):
+def test_a_wrong_gain_is_one_finding_of_one_gearbox(gain):
     played = Played(20, 1)
     played.gain[1][:5] += gain
     fleet = followed(played, 1800)
@@ -53,13 +53,13 @@ def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(g
     assert np.isnan(level.value[:5]).all() and np.isfinite(level.value[5:]).all()
 
 
-def test_drag_zero_and_gain_are_not_identifiable_from_one_direction():
+def test_one_direction_identifies_neither_drag_nor_zero_nor_gain():
     fleet = followed(Played(20, 4), 300)
     for name in ("drag", "torque_zero", "torque_gain"):
         assert np.isnan(fleet.estimate(name).value).all()
 
 
-def test_missing_readings_of_one_gearbox_leave_the_others_as_they_are():
+def test_missing_readings_of_one_gearbox_change_no_other():
     whole, holes = Fleet(paper(), 5), Fleet(paper(), 5)
     played = Played(5, 5)
     for time in range(1, 200):
@@ -123,7 +123,7 @@ WRONG = {
 
 @pytest.mark.parametrize("begin", first(1, [0, 60]))
 @pytest.mark.parametrize("what", WRONG)
-def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what, begin):
+def test_a_gearbox_with_a_wrong_unit_has_no_estimates(what, begin):
     factors, said = WRONG[what]
     played, good, fleet = Played(4, 9), Fleet(paper(), 4), Fleet(paper(), 4)
     for time in range(1, 201):
@@ -152,7 +152,7 @@ def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what,
         ),
     ],
 )
-def test_a_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
+def test_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
     fleet, played = Fleet(paper(), 3), Played(3, 11)
     for time in range(1, 101):
         row = played.row(float(time))
@@ -169,7 +169,7 @@ def test_a_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said)
     ("channel", "value"),
     [("input_torque", -9999.0), ("output_torque", 0.0), ("input_speed", -9999.0 / RPM)],
 )
-def test_readings_that_no_machine_has_are_left_out_and_change_nothing(channel, value):
+def test_impossible_readings_are_left_out_and_change_nothing(channel, value):
     played, good, fleet = Played(3, 12), Fleet(paper(), 3), Fleet(paper(), 3)
     for time in range(1, 401):
         row = played.row(float(time))

@@ -64,7 +64,7 @@ def test_a_group_that_cannot_be_read_is_named(table, tmp_path):
         follow_groups(work, gearboxes_of(table), Threads(1))
 
 
-def test_the_command_names_contradictions_and_missing_rows_in_valid_json(table, tmp_path):
+def test_the_command_names_what_is_wrong_in_valid_json(table, tmp_path):
     lines = table.read_text().splitlines()
     wrong, state = tmp_path / "wrong.csv", tmp_path / "state.json"
     with wrong.open("w") as file:

@@ -36,7 +36,7 @@ def test_instants_give_no_false_alarm_and_intervals_that_hold(period, wander):
     assert known.all() or period == 10.0  # too few rows for the friction level of some
 
 
-def test_means_over_much_longer_than_the_wander_have_the_stated_scatter():
+def test_means_over_much_longer_than_wander_have_stated_scatter():
     played = Wandering(10, 2, 0.001)
     scatter = followed(played, 60.0, 1800.0, mean=True).scatter
     assert not scatter.excessive.any()
@@ -72,7 +72,7 @@ def write(path, rows):
         table.writerows(rows)
 
 
-def test_the_command_names_the_gearboxes_and_the_steps_that_are_hidden(tmp_path):
+def test_command_names_gearboxes_and_the_steps_that_are_hidden(tmp_path):
     path, played = tmp_path / "scada.csv", Wandering(2, 9, 0.01)
     write(
         path,

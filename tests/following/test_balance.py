@@ -48,7 +48,7 @@ def test_a_reversing_duty_determines_friction_to_some_percent(law):
     assert friction.low < friction_level(plant) < friction.high
 
 
-def test_steady_running_determines_neither_drag_nor_zero_nor_gain_nor_inertia():
+def test_steady_running_does_not_determine_drag_or_gain():
     _, follower = balance_of("steady", {}, 60.0, 5)
     found = named(follower)
     for name in ("drag", "torque_zero", "torque_gain", "inertia"):
@@ -64,7 +64,7 @@ def test_a_changing_speed_determines_the_inertia():
     assert inertia.low < follower.train.inertia < inertia.high
 
 
-def test_the_inertia_is_not_biased_by_accelerations_that_change_within_a_bin():
+def test_accelerations_within_a_bin_do_not_bias_the_inertia():
     errors = []
     for seed in range(24):
         _, follower = balance_of("varied", {}, 60.0, seed)
@@ -92,7 +92,7 @@ WRONG = {  # sensors far out of their stated accuracy, and a true cause
 
 @pytest.mark.parametrize("kind", first(1, DELAYS))
 @pytest.mark.parametrize("wrong", WRONG)
-def test_a_sensor_that_is_wrong_from_the_start_is_one_finding_with_its_cause(kind, wrong):
+def test_a_sensor_wrong_from_the_start_is_one_finding(kind, wrong):
     sensors, cause = WRONG[wrong]
     plant, time, columns = played(kind, {}, 60.0, 1, sensors=sensors)
     follower = BalanceFollower(paper())
@@ -118,7 +118,7 @@ def test_a_gain_that_changes_during_the_run_is_one_event(kind):
     assert "gain of a torque sensor" in event.causes
 
 
-def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
+def test_repeated_steps_give_three_events_at_most():
     _, time, columns = played("steady", {}, 100.0, 4)
     gain = 1.0 + 0.04 * np.sign(np.sin(2.0 * np.pi * (time - 30.0) / 30.0)) * (time > 30.0)
     columns["input_torque"] = gain * columns["input_torque"]
@@ -129,7 +129,7 @@ def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
 
 
 @pytest.mark.parametrize("channel", ["input_speed", "oil_temperature"])
-def test_a_wrong_gain_of_speed_or_temperature_is_no_storm_of_events(channel):
+def test_wrong_gains_of_speed_or_oil_give_no_storm_of_events(channel):
     _, time, columns = played("varied", {}, 60.0, 1)
     columns[channel] = 1.05 * columns[channel]
     del columns["output_speed"]  # with both speeds, their ratio is refused

@@ -64,7 +64,7 @@ def file(played, tmp_path_factory):
 
 
 @pytest.mark.exhaustive
-def test_a_loaded_baseline_finds_a_tooth_that_cracked_before_the_start(played, file):
+def test_loaded_baseline_finds_tooth_that_cracked_before_start(played, file):
     follower = Follower(SCENE, SENSORS)
     follower.load_baseline(file)
     found = fed(played, CRACKED, 16.0, follower=follower)
@@ -110,7 +110,7 @@ def test_invalid_files_are_refused(file, tmp_path):
         other.load_baseline(file)
 
 
-def test_a_baseline_of_vibration_detects_sidebands_that_grew_before_the_start(tmp_path):
+def test_a_loaded_baseline_shows_sidebands_that_grew_before(tmp_path):
     def vibrating(seconds, follower, grown):
         time, load, values = signals(seconds, lambda time: {"sun": (grown, 0.0 * time + 1.0)})
         read = slice(None, None, int(SAMPLED / 100))

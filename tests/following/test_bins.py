@@ -29,7 +29,7 @@ def test_a_bin_is_the_mean_of_its_readings():
 
 
 @pytest.mark.parametrize("first", [1, 6, 7])  # of the readings of the first bin
-def test_the_error_of_an_incomplete_bin_is_that_of_the_mean_of_its_readings(first):
+def test_error_of_incomplete_bin_is_that_of_mean_of_its_readings(first):
     """Without a trend; a line would be wrong by several times the noise at the middle."""
     errors = []
     for seed in range(400):
@@ -40,7 +40,7 @@ def test_the_error_of_an_incomplete_bin_is_that_of_the_mean_of_its_readings(firs
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_the_same_bits_however_readings_are_cut_and_shuffled_within_the_lag(seed):
+def test_the_order_within_the_lag_does_not_change_the_bits(seed):
     chance = np.random.default_rng(seed)
     order = np.argsort(TIME + chance.uniform(0.0, 0.15, 300), kind="stable")
     whole = means(TIME, VALUE)

@@ -47,7 +47,7 @@ def test_it_is_refused_in_one_line(readings, what):
     assert "\n" not in str(error.value)
 
 
-def test_a_recording_shorter_than_the_check_is_checked_at_its_end(readings):
+def test_recording_shorter_than_the_check_is_checked_at_its_end(readings):
     time, columns = readings
     short = {name: values[:300] for name, values in columns.items()}
     follower = Follower(paper())
@@ -81,7 +81,7 @@ LATE = [what for what in WRONG if what != "degrees Celsius"]
 
 
 @pytest.mark.parametrize("what", first(3, LATE))
-def test_it_is_refused_too_if_the_train_turns_only_after_a_minute(readings, what):
+def test_it_is_refused_too_if_train_turns_only_after_a_minute(readings, what):
     factors, said = WRONG[what]
     time, columns = at_rest_first(readings, 60)
     wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
@@ -101,19 +101,19 @@ def become_wrong(what):
     return follower.estimate().remarks
 
 
-def test_speeds_that_become_wrong_during_the_run_are_a_remark_with_their_time():
+def test_speeds_that_become_wrong_are_a_remark_with_the_time():
     what = "speed of the output in rpm"
     (line,) = (line for line in become_wrong(what) if re.search(WRONG[what][1], line))
     assert line.startswith("readings after 10.0 s contradict the scene")
 
 
-def test_a_torque_that_becomes_wrong_during_the_run_is_left_out_with_its_time():
+def test_a_torque_that_becomes_wrong_is_left_out_with_its_time():
     (line,) = become_wrong("reversed torque")
     assert line.startswith("output_torque: left out, because both torques show a loss that no")
     assert "from 12.00 to 30.10 s (1800 readings)" in line
 
 
-def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
+def test_an_impossible_temperature_is_a_remark_and_not_used():
     time, columns = played("steady", {}, 20.0)[1:]
     wrong = np.where(time > 12.0, 70.0, 343.15)
     follower = Follower(paper())
@@ -133,7 +133,7 @@ def test_good_readings_cause_no_remark_in_two_minutes(duty):
     assert not any("contradict" in line for line in follower.estimate().remarks)
 
 
-def test_a_run_up_whose_torque_accelerates_the_train_is_no_contradiction():
+def test_a_run_up_that_takes_all_torque_is_no_contradiction():
     """All torque goes to the inertia: T = J a in closed form, with a loss of 0.3 N m."""
     inertia, time = 5.0, np.arange(1, 1401) / 100.0
     speed = np.minimum(10.5 * time, 104.7)

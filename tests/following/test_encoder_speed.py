@@ -85,7 +85,7 @@ def test_the_unit_of_the_speed_is_asked_for(factor):
         followed(speed=lambda time: 0.1 * TRAIN.speed, reading=factor)
 
 
-def test_without_a_measured_speed_it_is_a_remark_that_nothing_is_checked():
+def test_without_a_speed_it_is_said_that_nothing_is_checked():
     follower = Follower(paper(), encoders=EncoderFormat((COUNTS, COUNTS), 1.0 / RATE))
     time = np.arange(0.0, 3.0, 1.0 / RATE)
     turned = TRAIN.speed * time / (2.0 * np.pi)
@@ -97,7 +97,7 @@ def test_without_a_measured_speed_it_is_a_remark_that_nothing_is_checked():
     assert any("sample rate are not checked" in line for line in follower.estimate().remarks)
 
 
-def test_encoders_without_a_hunting_period_are_named_as_not_judged():
+def test_encoders_without_hunting_period_are_named_as_not_judged():
     follower = Follower(paper(), encoders=EncoderFormat((COUNTS, COUNTS), 1.0 / RATE))
     time = np.arange(1, 300) / 100.0
     columns = {

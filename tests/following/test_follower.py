@@ -53,7 +53,7 @@ def test_the_same_bits_however_the_readings_are_cut(machine):
     assert [event.what for event in whole.events] == ["sun tooth 3 changed", "loss torque stepped"]
 
 
-def test_estimates_are_those_of_the_last_reading_and_become_stale():
+def test_estimates_are_those_of_last_reading_and_become_stale():
     _, time, columns = played("steady", {}, 10.0)
     follower = Follower(paper())
     follower.add(Readings(time, columns))

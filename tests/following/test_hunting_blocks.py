@@ -37,7 +37,7 @@ def wave(cycles):
     return 2e-6 * np.sin(2 * np.pi * cycles) + 5e-6 * np.sin(cycles / 300.0) + 1e-7 * deep
 
 
-def test_slow_and_common_parts_are_subtracted_and_one_tooth_remains():
+def test_slow_and_common_parts_leave_one_tooth():
     blocks, _ = blocks_of(counts_of(wave))
     assert len(blocks) == 2  # of three and a half hunting periods; the first taught the waveform
     deviation = blocks[0].deviation

@@ -34,7 +34,7 @@ def test_the_size_and_the_start_hold_the_truth_in_19_of_20_runs():
     assert np.mean([one.first <= AT for one in found]) > 0.95
 
 
-def test_the_balances_before_the_step_limit_the_error_of_the_parameters():
+def test_balances_before_step_limit_the_error_of_the_parameters():
     covariance = np.diag([0.0, 0.03**2, 0.0, 0.0, 0.0, 0.0, 0.0])
     rows = balances("drag", varied=False)
     sharp, wide = (size_of(rows, one).sd for one in (np.zeros((7, 7)), covariance))
@@ -42,7 +42,7 @@ def test_the_balances_before_the_step_limit_the_error_of_the_parameters():
     assert wide == pytest.approx(np.hypot(sharp, before), rel=0.03)
 
 
-def test_the_start_of_a_change_of_friction_is_sought_where_friction_is():
+def test_start_of_change_of_friction_is_sought_where_friction_is():
     """A step at low torque hardly shows: its start is stated no later than where it happened."""
     found = [size_of(balances("friction", 200, seed), np.zeros((7, 7))) for seed in range(200)]
     assert np.mean([one.first <= AT for one in found]) > 0.95
@@ -56,7 +56,7 @@ def test_reversals_and_loads_show_the_cause(cause):
     assert found.causes == (cause,)
 
 
-def test_a_cause_that_is_impossible_is_not_named_however_well_it_fits():
+def test_an_impossible_cause_is_never_named():
     found = StepCause(0.0, 1e-10 * np.eye(7), CAUSES[1:])
     assert found.causes == CAUSES[1:]
     for row in balances(CAUSES[0], 1500)[AT:]:

@@ -113,7 +113,7 @@ def block(first, stamp, counts=2**20):
     return Arrived("/rig/encoders", ENCODERS, stamp, message)
 
 
-def test_encoder_blocks_are_numbered_from_their_stamps_and_keep_the_numbers_of_the_device():
+def test_encoder_blocks_are_numbered_from_their_stamps():
     reader = MessageReader(JOINTS)
     (samples,) = reader.read([block(700, 1000.0), block(704, 1000.00025)])  # the stamp is late
     begin = round(1000.0 / 5e-5)

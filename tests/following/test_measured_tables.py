@@ -155,7 +155,7 @@ def shuffled(rows):
     return [rows[n] for n in np.random.default_rng(0).permutation(len(rows))]
 
 
-def test_rows_in_any_order_give_the_readings_of_the_rows_in_order(write):
+def test_rows_in_any_order_give_readings_of_the_rows_in_order(write):
     one = read_readings(write(COLUMNS, *ROWS, name="a.csv"), {})
     other = read_readings(write(COLUMNS, *shuffled(ROWS), name="b.csv"), {})
     assert one.readings.time.tobytes() == other.readings.time.tobytes()
@@ -171,7 +171,7 @@ def test_rows_in_any_order_give_the_readings_of_the_rows_in_order(write):
         (COLUMNS, []),
     ],
 )
-def test_columns_without_which_losses_are_not_estimated_are_named(write, headings, lacking):
+def test_columns_that_losses_lack_are_named(write, headings, lacking):
     remarks = read_readings(write(headings, *ROWS), {}).remarks
     assert len(remarks) == len(lacking)
     for line, name in zip(remarks, lacking, strict=True):
@@ -186,7 +186,7 @@ READERS = [
 
 
 @pytest.mark.parametrize("read", READERS)
-def test_a_time_that_is_neither_seconds_nor_such_a_date_is_refused_with_an_example(write, read):
+def test_a_time_that_is_no_date_is_refused_with_an_example(write, read):
     time = "22.11.2026 10:00:00"
     wanted = (
         f"row 1: time = '{time}': must be a number of seconds, or a date such as "

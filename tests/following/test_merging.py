@@ -45,7 +45,7 @@ def stalling(begin, length):
 
 @pytest.mark.parametrize("late", first(1, ["motor", "load", "oil"]))
 @pytest.mark.parametrize("begin", first(1, [7.3, 0.0, 19.0]))
-def test_the_same_bits_while_messages_of_a_sender_arrive_a_second_later(late, begin):
+def test_same_bits_while_messages_of_sender_arrive_second_later(late, begin):
     expected, counters = merged(dict.fromkeys(SENT, at_once))
     delays = dict.fromkeys(SENT, at_once) | {late: stalling(begin, 1.0)}
     found, others = merged(delays)
@@ -60,7 +60,7 @@ def _rows(columns, rows):
     return {name: values[rows] for name, values in columns.items()}
 
 
-def test_a_sender_that_falls_silent_holds_the_others_up_for_a_short_time_only():
+def test_a_silent_sender_holds_the_others_up_for_a_short_time():
     merge, newest = Merge(0.1, {}), -1
     times, columns = SENT["load"]
     half = times < 5.0
@@ -77,7 +77,7 @@ def test_a_sender_that_falls_silent_holds_the_others_up_for_a_short_time_only():
     assert merge.counters.late == pytest.approx(np.sum(~half), abs=30)  # the rest is in open bins
 
 
-def test_an_oil_temperature_is_used_five_seconds_after_its_stamp_and_the_first_at_once():
+def test_an_oil_temperature_is_used_five_seconds_later():
     found, _ = merged(dict.fromkeys(SENT, at_once))
     oil = np.array([one.means["oil_temperature"].value for one in found])
     begin = np.array([0.1 * one.number for one in found])

@@ -48,6 +48,6 @@ def test_readings_with_the_stated_factor_pass():
         (0.0, "the positions of this shaft do not move: they are not used"),
     ],
 )
-def test_positions_of_another_rate_are_named_and_the_speed_is_used(turning, said):
+def test_positions_of_another_rate_are_named_and_speed_is_used(turning, said):
     (line,) = read(104.72, 1.0, turning=turning, wrapped=False)
     assert said in line

@@ -26,7 +26,7 @@ def test_counts_give_the_twist_at_any_age(turns):
     assert found.cycle + found.part == pytest.approx(place, rel=1e-12)
 
 
-def test_the_error_of_the_model_grows_with_the_torque_as_the_teeth_yield():
+def test_error_of_model_grows_with_the_torque_as_the_teeth_yield():
     scene = pt.load_scene("paper")
     light, heavy = (
         float(np.mean(model_error(scene.replace(input_torque=t), 30, 50, 0.1, 1e-5)[1]))

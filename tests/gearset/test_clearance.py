@@ -29,7 +29,7 @@ def gap(size, angles):
 
 
 @on_all
-def test_planets_clear_each_other_if_their_centres_are_far_enough_apart(size):
+def test_planets_clear_each_other_if_centres_are_far_enough(size):
     rng = np.random.default_rng(1)
     for count in (2, 3, 4):
         for angles in rng.uniform(-10.0, 10.0, (50, count)):
@@ -37,7 +37,7 @@ def test_planets_clear_each_other_if_their_centres_are_far_enough_apart(size):
 
 
 @on_all
-def test_the_reported_number_of_planets_fits_and_one_more_does_not(size):
+def test_reported_number_of_planets_fits_and_one_more_does_not(size):
     most = most_planets(size)
     for count, fits in ((most, True), (most + 1, False)):
         even = [2 * math.pi * n / count for n in range(count)]
@@ -64,7 +64,7 @@ def test_planets_that_touch_are_refused_in_one_line(angles, words):
     assert [word for word in words if word not in message] == []
 
 
-def test_planets_that_clear_each_other_by_a_shorter_addendum_are_accepted():
+def test_a_shorter_addendum_clears_planets():
     seven = nearest_assembly(Teeth(30, 20, 70), [2 * math.pi * n / 7 for n in range(7)])
     with pytest.raises(pt.SceneError, match="at most 6 planets"):
         PAPER.replace(**{"gearset.planet_angles": seven})

@@ -25,7 +25,7 @@ def test_the_inverse_of_the_involute_function(angle):
 
 
 @pytest.mark.parametrize("sizes, distance", [(STAGE_1, 863.0), (STAGE_2, 584.0)])
-def test_published_shifts_give_the_published_centre_distance_in_both_meshes(sizes, distance):
+def test_published_shifts_give_the_published_centre_distance(sizes, distance):
     """Shifts have three digits: 0.0005 of 45 mm is 0.02 mm."""
     for ring in (False, True):
         assert 1e3 * distance_without_play(sizes, ring) == pytest.approx(distance, abs=0.02)
@@ -151,7 +151,7 @@ def clearances(mesh, turned):
 
 @SOME
 @MESHES
-def test_teeth_touch_with_half_the_play_on_each_side_in_every_position(name, kind):
+def test_teeth_touch_with_half_the_play_on_each_side(name, kind):
     """Flanks unwound from their base circles, as thick as a rack at the shift x cuts them."""
     mesh = gear_set(name).meshes[kind]
     for turned in np.linspace(-0.5, 0.5, 9):
@@ -161,7 +161,7 @@ def test_teeth_touch_with_half_the_play_on_each_side_in_every_position(name, kin
 
 @ALL
 @MESHES
-def test_the_coast_flank_follows_by_the_thickness_on_the_working_circle(name, kind):
+def test_coast_flank_follows_by_thickness_on_the_working_circle(name, kind):
     """Thickness of the first gear's tooth and of the second gear's gap, half of each."""
     mesh = gear_set(name).meshes[kind]
     arcs = []
@@ -197,7 +197,7 @@ def test_phases_are_those_of_the_mounted_gears(name):
         assert ahead == pytest.approx(round(ahead), abs=1e-9)
 
 
-def test_a_positive_shift_thickens_teeth_and_moves_tips_towards_their_own_side():
+def test_a_positive_shift_thickens_teeth_and_moves_tips():
     plain = build_gear_set(Sizes(Teeth(30, 20, 70), 1e-3, TWENTY))
     moved = build_gear_set(Sizes(Teeth(30, 20, 70), 1e-3, TWENTY, 1.0, PerGear(0.3, -0.3, 0.3)))
     at = np.array(plain.ring.pitch_radius)

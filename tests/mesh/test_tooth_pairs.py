@@ -43,7 +43,7 @@ def test_every_pair_has_the_trapezoid_of_its_position(path, ramp):
 
 
 @pytest.mark.parametrize("missing", [0.0, 1e-13, -1e-13])
-def test_a_path_that_ends_a_base_pitch_from_the_pitch_point_has_no_empty_segment(missing):
+def test_a_path_that_ends_a_base_pitch_off_has_no_empty_part(missing):
     """Its end is at the edge of the pitch point, also if it misses it by rounding."""
     table = pair_table(PathOfContact(1.0 + missing, 0.4), 0.0)
     assert np.diff(table.edge[: table.segments + 1]).min() > 0.1
@@ -80,7 +80,7 @@ def test_contact_ratios_outside_the_table_are_refused(path):
 
 
 @PATHS
-def test_a_smooth_strength_along_the_path_is_tabulated_to_five_digits(path):
+def test_smooth_strength_along_path_is_tabulated_to_five_digits(path):
     def strength(s):
         return 1.0 / (1.0 + 0.4 * (s - 0.1) ** 2)
 

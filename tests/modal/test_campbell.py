@@ -27,7 +27,7 @@ def test_meshing_frequency_at_1000_rpm(flow, hertz):
     assert mesh_frequency_per_speed(scene_of(flow)) * pt.rpm(1000) == pytest.approx(hertz)
 
 
-def test_first_mode_is_met_at_eleven_thousand_rpm_and_at_fractions_of_it():
+def test_first_mode_is_met_at_11000_rpm_and_fractions_of_it():
     scene = pt.load_scene("paper")
     modes = pt.natural_modes(scene)
     found = resonances(scene, modes, spring_model(scene), pt.rpm(12_000), harmonics=3)
@@ -76,13 +76,13 @@ def test_a_second_motor_shifts_the_resonant_speeds_by_its_own():
 
 
 @pytest.mark.parametrize("speed", [pt.rpm(1500), pt.rpm(-1500)])
-def test_lines_of_a_differential_are_its_mesh_frequency_at_both_speeds(speed):
+def test_lines_of_a_differential_are_those_of_both_speeds(speed):
     scene = differential(input_speed=speed)
     found = describe_meshes(scene).mesh_frequency
     assert mesh_line(scene).at(np.array(speed)) == pytest.approx(found)
 
 
-def test_a_resonance_past_a_second_motor_is_where_the_twin_meshes_at_that_frequency():
+def test_the_twin_meshes_at_the_frequency_of_a_resonance():
     scene = differential(**{"drive.speed_limit": pt.rpm(20_000)})
     modes, springs = pt.natural_modes(scene), spring_model(scene)
     for resonance in resonances(scene, modes, springs, pt.rpm(12_000), harmonics=2):
@@ -92,7 +92,7 @@ def test_a_resonance_past_a_second_motor_is_where_the_twin_meshes_at_that_freque
         assert met == pytest.approx(resonance.frequency, rel=0.01)
 
 
-def test_marks_of_a_differential_are_on_its_lines_which_start_at_both_ends_of_the_speeds():
+def test_marks_of_a_differential_are_on_its_lines():
     scene, highest = differential(), pt.rpm(20_000)
     modes = pt.natural_modes(scene, stiffness="mean")
     found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
@@ -109,7 +109,7 @@ def test_marks_of_a_differential_are_on_its_lines_which_start_at_both_ends_of_th
     assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
 
 
-def test_every_resonance_is_marked_where_a_harmonic_crosses_a_natural_frequency():
+def test_every_crossing_of_a_harmonic_is_marked():
     scene = pt.load_scene("paper")
     modes, highest = pt.natural_modes(scene, stiffness="mean"), pt.rpm(20_000)
     found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)

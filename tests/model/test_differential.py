@@ -40,7 +40,7 @@ def test_meshing_frequency_follows_the_difference_of_the_speeds():
     assert twin.advance(0.2).mesh_frequency == pytest.approx(250.0, rel=0.01)
 
 
-def test_a_set_that_turns_as_a_block_does_not_mesh_and_loses_nothing():
+def test_set_that_turns_as_block_does_not_mesh_and_loses_nothing():
     """At equal speeds f_m is 0, so nothing slides but in the vibration of the start."""
     run = pt.simulate(SCENE.replace(second_input_speed=pt.rpm(1000.0)), 0.3)
     late = run.time > 0.2
@@ -49,7 +49,7 @@ def test_a_set_that_turns_as_a_block_does_not_mesh_and_loses_nothing():
     assert run.dte[late].std(axis=0).max() < 1e-3 * run.dte.mean()
 
 
-def test_with_the_second_input_at_rest_it_is_the_gearset_with_that_member_held():
+def test_a_second_input_at_rest_is_a_member_held():
     """But for a carrier that yields on its shaft, which is stiff here."""
     stiff = SCENE.replace(
         second_input_speed=0.0,

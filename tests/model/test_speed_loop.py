@@ -36,7 +36,7 @@ def loop_of(scene, mesh_frequency=500.0):
 
 
 @pytest.mark.parametrize("share", [1e-3, 0.1, 0.5, 0.9, 0.99])
-def test_two_masses_on_a_shaft_are_stable_up_to_the_limit_of_routh_and_hurwitz(share):
+def test_two_masses_are_stable_up_to_the_limit_of_routh(share):
     """J w^2/4 = k, whatever share of the inertia J the motor has."""
     ratio, total, shaft = 3.0 / 7.0, 0.02, 500.0
     scene = UNDAMPED.replace(
@@ -55,7 +55,7 @@ def test_two_masses_on_a_shaft_are_stable_up_to_the_limit_of_routh_and_hurwitz(s
     assert loop_of(scene).limit(100.0) == pytest.approx(limit, rel=1e-3)
 
 
-def test_without_a_loop_the_eigenvalues_are_the_natural_modes_with_machines():
+def test_without_a_loop_eigenvalues_are_natural_modes():
     loop = loop_of(UNDAMPED)
     found = np.sort(np.abs(loop.eigenvalues(1e-9).imag))[::2] / math.tau
     frequencies = pt.natural_modes(UNDAMPED, "machines", "mean").frequencies
@@ -95,7 +95,7 @@ DRIVES = [(ratio, coupling) for ratio in (1e-3, 1.0, 1e3) for coupling in (1e1, 
 
 
 @ALL_FLOWS
-def test_every_default_is_steady_and_every_loop_that_grows_is_refused(flow):
+def test_every_default_is_steady_and_growing_loops_are_refused(flow):
     """By another model, with rigid gears, stepped in time; inertia of the load, couplings."""
     refused = 0
     for ratio, coupling in DRIVES:
@@ -121,7 +121,7 @@ def test_the_default_does_not_follow_the_operating_point(point):
 
 
 @pytest.mark.parametrize("scene", [HEAVY, WIND], ids=["e-axle", "wind stage"])
-def test_an_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
+def test_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     with pytest.raises(pt.SceneError) as error:
         pt.Twin(scene.replace(**{FIELD: 3.0}))
     text = str(error.value)
@@ -149,7 +149,7 @@ def test_drives_with_large_inertias_run_steadily_by_default(scene, duration):
     assert last.input_speed == pytest.approx(scene.operating_point.input_speed, rel=3e-3)
 
 
-def test_a_speed_at_which_the_loop_is_unstable_is_refused_and_nothing_changes():
+def test_a_speed_of_an_unstable_loop_is_refused():
     """Teeth of rubber are damped at a low speed alone, where tau = loss_factor/f_m is long."""
     soft = PAPER.replace(
         input_speed=pt.rpm(10.0),

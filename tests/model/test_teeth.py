@@ -24,14 +24,14 @@ def builds():
     return lambda: teeth._built.cache_info().misses
 
 
-def test_teeth_that_feel_the_load_are_others_at_another_torque_or_member():
+def test_teeth_that_feel_the_load_change_with_the_torque():
     heavy = teeth.build_teeth(CRACKED)
     light = teeth.build_teeth(CRACKED.replace(input_torque=1.0))
     assert light.stiffness[0] < heavy.stiffness[0]
 
 
 @pytest.mark.parametrize(("scene", "torques"), [("paper", 1), ("relief", 20)])
-def test_a_study_builds_the_teeth_of_each_torque_that_they_feel_once(builds, scene, torques):
+def test_study_builds_teeth_of_each_torque_that_they_feel_once(builds, scene, torques):
     still = SCENES[scene].replace(dynamics="quasi_static")
     axes = [Axis("input_speed", (20.0, 30.0)), Axis("input_torque", tuple(np.arange(5.0, 25.0)))]
     table = sweep(grid(still, axes, Settings(1e-3, 0.0)), Threads(1))

@@ -77,7 +77,7 @@ def test_rolling_bearings_converge_to_the_reference(clearance):
 
 
 @pytest.mark.exhaustive
-def test_rattling_with_gaps_and_clearance_converges_to_the_reference():
+def test_rattling_with_gaps_and_clearance_converges_to_reference():
     scene = planar(
         FLOWS[0],
         **{

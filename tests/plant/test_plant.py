@@ -132,9 +132,7 @@ changes: [{{at: 0, faults: [{{kind: crack, gear: {gear}, stiffness_loss: 0.3}}]}
         ("sun", "mesh.nosuch: 1", r"scene: mesh\.nosuch: no such field"),
     ],
 )
-def test_what_does_not_fit_the_scene_is_refused_before_anything_is_simulated(
-    tmp_path, gear, scene, message
-):
+def test_what_does_not_fit_the_scene_is_refused_at_once(tmp_path, gear, scene, message):
     file = tmp_path / "hidden.yaml"
     file.write_text(FAULTY.format(gear=gear, scene=scene))
     with pytest.raises(pt.SceneError, match=rf"hidden\.yaml: {message}"):

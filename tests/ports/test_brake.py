@@ -53,7 +53,7 @@ def test_a_brake_stops_the_shaft_at_the_slew_rate_from_any_speed(
     assert twin.port_states.input_angle == pytest.approx(end.input_angle, abs=1e-9)
 
 
-def test_a_brake_ends_the_torque_of_the_output_and_takes_no_command() -> None:
+def test_brake_ends_torque_of_the_output_and_takes_no_command() -> None:
     twin = driven(("torque", "torque"), 2.0 * LIMIT)
     twin.set_ports("brake")
     assert twin.step(1e-3).output_torque == 0.0
@@ -73,7 +73,7 @@ def test_the_ledger_of_a_brake_closes(method: str) -> None:
     assert abs(energy.residual) < 1e-6 * turnover
 
 
-def test_a_differential_is_braked_though_its_second_motor_then_holds_a_speed() -> None:
+def test_a_differential_is_braked_though_a_motor_holds_speed() -> None:
     twin = driven(("motion", "motion"), 1.5 * LIMIT, "differential")
     twin.set_ports(*twin.ports.braked)
     assert twin.ports == Ports("brake", "torque")

@@ -111,7 +111,7 @@ def test_ports_and_operating_point_change_together_or_not_at_all():
     assert len(twin.log) == 2
 
 
-def test_a_machine_takes_over_at_the_present_speed_and_approaches_its_set_point():
+def test_a_machine_takes_over_at_the_present_speed():
     """At the slew rate of the drive, whatever speed the shaft was given before."""
     linear = {"drive.interpolation": "linear"}
     scene = PAPER.replace(**names(("motion", "torque")), **linear)

@@ -52,7 +52,7 @@ def test_held_commands_have_the_same_samples_in_any_windows(cuts):
     assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
 
 
-def test_straight_lines_have_the_same_samples_in_simulate_and_twin():
+def test_straight_lines_have_same_samples_in_simulate_and_twin():
     scene, commands = commanded("linear")
     later = pt.Commands(
         commands.time[1:],
@@ -83,7 +83,7 @@ def test_a_course_that_makes_no_sense_is_refused(time, torque, message):
         pt.Commands(np.array(time), input_torque=np.array(torque))
 
 
-def test_a_course_with_a_command_that_no_port_takes_is_refused_before_the_run():
+def test_a_command_that_no_port_takes_is_refused_at_once():
     commands = pt.Commands(np.array([0.0]), input_torque=np.array([1.0]))
     with pytest.raises(ValueError, match=r"requires drive.input.port = 'torque'"):
         pt.simulate(PAPER, 0.01, commands=commands)

@@ -77,7 +77,7 @@ def test_work_at_a_port_is_the_integral_of_torque_times_speed():
     assert work == pytest.approx(ledger() - before, rel=1e-6)
 
 
-def test_the_ledger_closes_where_flanks_part_under_steep_straight_lines():
+def test_energy_balances_where_flanks_part_under_straight_lines():
     """In free flight steps are long, and what is given changes a lot within one."""
     changes = {"input_speed": 300.0, "input_torque": 0.3, "backlash": 1e-5}
     scene = driven("torque", "motion", **{"drive.interpolation": "linear"}, **changes)
@@ -92,7 +92,7 @@ def test_the_ledger_closes_where_flanks_part_under_steep_straight_lines():
     assert abs(run.energy.residual) < 1e-6 * turnover(run.energy)
 
 
-def test_efficiency_counts_the_work_put_in_before_and_after_a_reversal():
+def test_efficiency_counts_work_put_in_before_and_after_reversal():
     """From what every step shows of the ports, at steps far shorter than their vibration."""
     scene, dt = driven("torque", "motion", **{"drive.interpolation": "linear"}), 1e-4
     time, torque = np.array([0.0, 0.15, 0.25, 0.4]), np.array([63.0, 63.0, -63.0, -63.0])
@@ -123,7 +123,7 @@ METHODS = ("march", "auto", "collocation", "rosenbrock")
 
 @pytest.mark.parametrize("changes", DRIVES.values(), ids=DRIVES)
 @pytest.mark.parametrize("ports", list(itertools.product(CAUSALITIES, repeat=2)), ids="-".join)
-def test_all_methods_find_the_same_work_of_every_drive_at_every_port(ports, changes):
+def test_all_methods_find_same_work_of_every_drive_at_every_port(ports, changes):
     scene = driven(*ports, **changes)
     found = [pt.simulate(scene, 0.01, 1e4, method, 1e-6).energy for method in METHODS]
     for energy in found:
@@ -131,7 +131,7 @@ def test_all_methods_find_the_same_work_of_every_drive_at_every_port(ports, chan
         assert energy.machines == pytest.approx(found[-1].machines, rel=1e-5)
 
 
-def test_work_of_a_motor_is_the_integral_of_its_torque_times_speed():
+def test_work_of_motor_is_the_integral_of_its_torque_times_speed():
     """Torque ripple and speed at the shaft, by the trapezoidal rule from steps of 5 us."""
     scene = driven("torque", "torque", torque_ripple=20.0)
     control, dt = scene.drive.speed_control, 5e-6
@@ -153,7 +153,7 @@ def test_work_of_a_motor_is_the_integral_of_its_torque_times_speed():
 
 
 @pytest.mark.filterwarnings("ignore:the energy ledger")  # at 1e-4, and names a remedy
-def test_the_ledger_converges_where_shafts_swing_many_times_in_free_flight():
+def test_energy_converges_where_shafts_swing_in_free_flight():
     """Light gears with runout, and a stiff shaft whose swing lasts a small part of a step."""
     scene = pt.load_scene("paper").replace(
         **{

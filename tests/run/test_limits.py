@@ -130,12 +130,12 @@ def test_the_command_ends_with_exit_code_1_and_one_line():
     assert len(echoes) == 1 + len(SOFT)  # of the settings, in their units
 
 
-def test_a_point_of_a_sweep_that_runs_away_has_a_reason_instead_of_figures():
+def test_a_point_of_a_sweep_that_runs_away_has_a_reason():
     found = list(pt.simulate_many([PAPER.replace(**SOFT, input_torque=500.0)], 0.01))
     assert isinstance(found[0].found, pt.RunawayError)
 
 
-def test_a_loop_that_is_not_stable_ends_a_command_with_exit_code_2():
+def test_loop_that_is_not_stable_ends_a_command_with_exit_code_2():
     made = run("simulate", "paper", "--set", f"{FIELD}=60")
     assert made.returncode == 2
     line = made.stderr.splitlines()[-1]

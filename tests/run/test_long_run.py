@@ -72,7 +72,7 @@ def columns(window):
 
 
 @EVERY_SCENE
-def test_angles_after_a_thousand_hours_are_those_of_exact_fractions(scene):
+def test_angles_after_1000_hours_are_those_of_exact_fractions(scene):
     (old, turns), young = aged(scene), pt.Twin(scene)
     kinds = turned(scene, turns)
     for _ in range(5):
@@ -92,7 +92,7 @@ def test_every_sample_is_that_of_the_first_hour(scene, hours):
 
 
 @EVERY_SCENE
-def test_powers_and_speeds_of_a_window_are_those_of_the_first_hour(scene):
+def test_powers_and_speeds_of_window_are_those_of_the_first_hour(scene):
     old, young = aged(scene)[0], pt.Twin(scene)
     for length in (0.01, 1e-3, 1e-4):
         now, then = old.advance(length), young.advance(length)

@@ -58,7 +58,7 @@ def automatic() -> QualityControl:
 
 @pytest.mark.parametrize("order", [3.0, 4.0, 12.0])
 @pytest.mark.parametrize("at_loosest", [1e-4, 0.02, 0.07, 0.15, 0.3, 0.9])
-def test_it_settles_at_the_tightest_setting_whose_cost_is_allowed(order, at_loosest):
+def test_it_settles_at_tightest_setting_whose_cost_is_allowed(order, at_loosest):
     load = power_law(at_loosest, order)
     settled = set(chosen(automatic(), load, 30.0)[-500:])
     assert len(settled) == 1
@@ -88,7 +88,7 @@ def test_a_single_late_window_changes_nothing():
         assert set(chosen(policy, lambda _: 0.01, 1.0)) == {LADDER[-1]}
 
 
-def test_a_cost_above_the_share_but_in_time_loosens_within_a_second():
+def test_cost_above_share_but_in_time_loosens_within_a_second():
     policy = automatic()
     chosen(policy, lambda _: 0.1, 5.0)
     before = policy.setting.tolerance
@@ -147,7 +147,7 @@ def thinning(computing: float, sampling: float) -> Callable[[Setting], float]:
     return lambda setting: computing + sampling * setting.sample_rate / FULL
 
 
-def test_the_ladder_gives_up_all_tolerances_before_the_first_sample():
+def test_ladder_gives_up_all_tolerances_before_the_first_sample():
     ladder = settings_of(LADDER, FULL)
     assert [s.sample_rate for s in ladder] == [6250.0, 12.5e3, 25e3] + [FULL] * len(LADDER)
     assert [s.tolerance for s in ladder] == [LADDER[0]] * 3 + list(LADDER)
@@ -155,7 +155,7 @@ def test_the_ladder_gives_up_all_tolerances_before_the_first_sample():
     assert settings_of((2e-5,), LOWEST_SAMPLE_RATE) == [Setting(2e-5, LOWEST_SAMPLE_RATE)]
 
 
-def test_an_overload_takes_tolerance_then_waveform_and_stays_at_the_floor():
+def test_an_overload_takes_tolerance_then_waveform():
     policy = automatic()
     settings(policy, lambda _: 0.01, 5.0)
     visited = settings(policy, lambda _: 1.3, 5.0)
@@ -172,7 +172,7 @@ def test_the_waveform_is_kept_as_long_as_there_is_time(tolerance):
 
 
 @pytest.mark.parametrize(("sampling", "rate"), [(0.6, 25e3), (1.2, 12.5e3), (3.0, 6250.0)])
-def test_the_waveform_is_thinned_until_there_is_time_and_does_not_swing(sampling, rate):
+def test_the_waveform_is_thinned_and_does_not_swing(sampling, rate):
     visited = settings(of(2e-5), thinning(0.6, sampling), 600.0)
     assert {s.sample_rate for s in visited[100:]} == {rate}
     assert {s.tolerance for s in visited} == {2e-5}
@@ -191,7 +191,7 @@ def test_the_waveform_comes_back_when_the_load_has_gone(tolerance, repeated):
     assert rates == sorted(rates)
 
 
-def test_repeated_windows_show_the_cost_of_the_waveform_but_not_of_the_tolerance():
+def test_repeated_windows_show_the_cost_of_the_waveform():
     policy = automatic()
     assert settings(policy, lambda _: 0.01, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
     assert settings(policy, lambda _: 0.9, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
@@ -202,7 +202,7 @@ def test_repeated_windows_show_the_cost_of_the_waveform_but_not_of_the_tolerance
     assert settings(policy, lambda _: 3.0, 1.0, repeated=True)[-1] == Setting(LADDER[0], 6250.0)
 
 
-def test_other_processes_that_hold_windows_up_but_not_beyond_their_time_loosen_nothing():
+def test_other_processes_that_hold_windows_up_loosen_nothing():
     policy = automatic()
     for n in range(6000):
         late = n % 40 == 0  # single late windows do not count, see above
@@ -211,7 +211,7 @@ def test_other_processes_that_hold_windows_up_but_not_beyond_their_time_loosen_n
 
 
 @pytest.mark.parametrize(("tolerance", "used"), [(0.0, LIVE_TOLERANCE), (1e-5, 1e-5)])
-def test_without_a_deadline_the_setting_does_not_depend_on_the_load(tolerance, used):
+def test_without_deadline_setting_does_not_depend_on_the_load(tolerance, used):
     policy = of(tolerance, begin=1e-2).without_deadline()
     for load in (0.01, 0.5, 3.0):
         assert chosen(policy, lambda tolerance, load=load: load, 3.0) == [used] * 300

@@ -90,7 +90,7 @@ def test_setting_present_values_changes_nothing():
 
 
 @pytest.mark.parametrize("change", OUT_OF_RANGE, ids=str)
-def test_a_refused_change_names_field_value_and_range_and_changes_nothing(change):
+def test_a_refused_change_names_field_value_and_range(change):
     twin, ((name, value),) = pt.Twin(PAPER), change.items()
     with pytest.raises(pt.SceneError) as error:
         twin.set(lambda_ratio=1.7, **{**change}) if name != "lambda_ratio" else twin.set(**change)
@@ -155,7 +155,7 @@ EXTREMES = [
 
 
 @pytest.mark.parametrize("point", EXTREMES, ids=str)
-def test_the_ends_of_the_ranges_stay_finite_at_a_change_and_from_the_start(point):
+def test_ends_of_ranges_stay_finite_at_change_and_from_the_start(point):
     started, changed = pt.Twin(PAPER.replace(**point)), pt.Twin(PAPER)
     changed.advance(0.01)
     changed.set(**point)
@@ -200,7 +200,7 @@ def test_a_run_is_made_again_bit_by_bit_from_its_log():
     assert np.array_equal(np.vstack(log), np.vstack(samples))
 
 
-def test_a_change_of_the_sample_rate_changes_the_samples_and_not_the_motion():
+def test_change_of_sample_rate_changes_samples_and_not_motion():
     twin, full = pt.Twin(PAPER), pt.Twin(PAPER)
     rates = [50e3, 25e3, 25e3, 6250.0, 12.5e3, 50e3]
     for k, rate in enumerate(rates):
@@ -224,7 +224,7 @@ def test_a_change_of_the_sample_rate_changes_the_samples_and_not_the_motion():
     assert twin.sample_rate == 50e3
 
 
-def test_statistics_are_means_over_time_however_samples_fall_into_the_window():
+def test_statistics_are_means_over_time_however_samples_fall():
     """8.65 mesh cycles in a window, whose ends lie anywhere between samples."""
     scene = PAPER.replace(input_speed=pt.rpm(1730))
     twin, fine = pt.Twin(scene, 50e3, 1e-5), pt.Twin(scene, 1e6, 1e-5)
@@ -247,7 +247,7 @@ def test_a_window_without_a_sample_shows_the_previous_setting():
 
 
 @pytest.mark.parametrize("rate", [0.0, -1.0, 2e7, math.nan])
-def test_a_sample_rate_that_cannot_be_is_refused_and_changes_nothing(rate):
+def test_an_impossible_sample_rate_changes_nothing(rate):
     twin = pt.Twin(PAPER)
     with pytest.raises(ValueError, match=r"^sample_rate = .*: must be within 1 and 1e7$"):
         twin.set_sample_rate(rate)
@@ -257,7 +257,7 @@ def test_a_sample_rate_that_cannot_be_is_refused_and_changes_nothing(rate):
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 1e-9, 0.2, math.nan])
-def test_a_tolerance_that_cannot_be_is_refused_and_changes_nothing(tolerance):
+def test_tolerance_that_cannot_be_is_refused_and_changes_nothing(tolerance):
     twin = pt.Twin(PAPER)
     with pytest.raises(ValueError, match=r"^tolerance = .*: must be within 1e-08 and 0\.1$"):
         twin.set_tolerance(tolerance)

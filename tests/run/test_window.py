@@ -17,7 +17,7 @@ SCENES = {
 
 
 @pytest.mark.parametrize("scene", first(2, SCENES.values()), ids=SCENES)
-def test_waveforms_of_windows_are_the_samples_of_a_run_to_the_last_bit(scene):
+def test_waveforms_of_windows_are_samples_of_run_to_the_last_bit(scene):
     duration = 0.02 if scene.dynamics == "quasi_static" else 2.0
     run, twin = pt.simulate(scene, duration, 10_000.0, tolerance=1e-3), pt.Twin(scene, 1e4, 1e-3)
     windows = [twin.advance(duration / 8) for _ in range(8)]
@@ -35,7 +35,7 @@ def test_waveforms_of_windows_are_the_samples_of_a_run_to_the_last_bit(scene):
         assert windows[-1].repeated
 
 
-def test_a_window_keeps_its_figures_when_the_next_one_is_computed():
+def test_window_keeps_its_figures_when_the_next_one_is_computed():
     twin = pt.Twin(PAPER)
     first = twin.advance(0.01)
     before = {name: values.copy() for name, values in first.mesh.items()}

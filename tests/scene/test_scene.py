@@ -45,7 +45,7 @@ def test_quantities_are_read_in_their_units(written, meant):
 
 
 @pytest.mark.parametrize("written", ["1000 1/min", "16 Hz", "1000 m", "fast"])
-def test_a_speed_needs_a_unit_that_distinguishes_turns_and_radians(written):
+def test_speed_needs_a_unit_that_distinguishes_turns_and_radians(written):
     with pytest.raises(pt.SceneError, match="input_speed") as refusal:
         pt.load_scene("paper").replace(input_speed=written)
     assert repr(written) in str(refusal.value) and "\n" not in str(refusal.value)
@@ -163,7 +163,7 @@ def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
         ),
     ],
 )
-def test_a_field_in_the_wrong_section_is_reported_with_the_right_one(line, message):
+def test_field_in_wrong_section_is_reported_with_the_right_one(line, message):
     with pytest.raises(pt.SceneError) as refusal:
         pt.parse_scene(f"base: paper\n{line}\n")
     assert str(refusal.value) == message
@@ -179,14 +179,14 @@ def test_a_field_in_the_wrong_section_is_reported_with_the_right_one(line, messa
         ("supports.son.mass", ""),
     ],
 )
-def test_an_unknown_field_is_reported_with_the_most_similar_one_if_any(name, meant):
+def test_unknown_field_is_reported_with_most_similar_one_if_any(name, meant):
     with pytest.raises(pt.SceneError) as refusal:
         PAPER.replace(**{name: 1.0})
     assert str(refusal.value) == f"{name}: no such field{meant}"
 
 
 @pytest.mark.parametrize(("name", "end"), [("papr", "; did you mean paper?"), ("zzz", "_stage")])
-def test_an_unknown_scene_is_reported_with_the_most_similar_one_if_any(name, end):
+def test_unknown_scene_is_reported_with_most_similar_one_if_any(name, end):
     with pytest.raises(pt.SceneError, match="'" + name) as refusal:
         pt.load_scene(name)
     assert str(refusal.value).endswith(end)
@@ -201,7 +201,7 @@ def test_a_text_has_no_file_as_base(name):
         pt.parse_scene(f"base: {name}")
 
 
-def test_a_file_is_a_base_from_the_folder_of_the_file_that_names_it(tmp_path):
+def test_file_is_base_from_the_folder_of_the_file_that_names_it(tmp_path):
     (tmp_path / "inner").mkdir()
     (tmp_path / "own.yaml").write_text("base: paper\nname: own\noperating_point: {backlash: 2 um}")
     change = "base: ../own.yaml\nname: changed\ngearset: {face_width: 25 mm}"

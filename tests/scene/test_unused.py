@@ -18,7 +18,7 @@ def test_a_regression_of_all_friction_leaves_parts_of_it_unused(name):
     assert not list(without_effect(SHARING, [field]))
 
 
-def test_the_boundary_coefficient_is_unused_where_asperities_cause_boundary_friction():
+def test_the_boundary_coefficient_is_unused_with_asperities():
     field = "lubrication.boundary_coefficient"
     (line,) = without_effect(PAPER, [field])
     assert "lubrication.boundary = greenwood_tripp does not use it" in line

@@ -56,7 +56,7 @@ def test_teeth_part_and_hit_both_flanks(runs):
         assert run.mesh_force.min() < 0.0 < run.mesh_force.max()
 
 
-def test_paths_agree_at_first_and_then_part_whatever_makes_the_difference(runs):
+def test_paths_agree_at_first_and_then_part(runs):
     coarse, fine, disturbed = runs
     assert gap(disturbed, fine, 0.0, 2e-3) < 1e-4
     for other in (coarse, disturbed):

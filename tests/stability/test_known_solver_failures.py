@@ -81,7 +81,7 @@ def test_an_explicit_method_blows_up_beyond_its_stability_limit(train, method, l
     assert not error_of(train, method, 1.3 * longest) < 1e3
 
 
-def test_semi_implicit_euler_is_wrong_by_tenths_before_it_blows_up(train):
+def test_semi_implicit_euler_is_wrong_before_it_blows_up(train):
     """First order: what is stable is not yet right."""
     longest = 2.0 / fastest(train)
     coarse, fine = (error_of(train, semi_implicit_euler, x * longest) for x in (0.7, 0.07))
@@ -100,7 +100,7 @@ def test_the_twin_passes_the_same_step_within_its_tolerance(train, tolerance):
     assert relative_error(wave.dte - rest, exact) < 3.0 * tolerance * whole
 
 
-def test_the_twin_takes_steps_far_beyond_the_limit_of_explicit_methods():
+def test_twin_takes_steps_far_beyond_limit_of_explicit_methods():
     """At 10 rpm with the damping of the scene `paper`, tau = 0.009/5 Hz."""
     law = {"mesh.damping.law": "meshing_frequency"}
     scene = SCENE.replace(input_speed=pt.rpm(10), **law)

@@ -48,12 +48,12 @@ def test_a_load_that_changes_its_sign_ends_on_the_other_flanks(torque):
     assert_carries(settled_after(scene, -torque), scene, -torque)
 
 
-def test_with_friction_the_other_flanks_carry_the_same_except_for_friction():
+def test_the_other_flanks_carry_the_same_except_for_friction():
     wave = settled_after(UNIFORM.replace(**DAMPED), -HEAVY)
     assert wave.mesh_force.mean(axis=0) == pytest.approx(-static_force(UNIFORM), rel=0.02)
 
 
-def test_a_hundred_times_the_load_at_once_is_the_step_response_of_the_linear_train():
+def test_a_sudden_load_is_the_step_response_of_a_linear_train():
     scene = PLAIN.replace(input_torque=LIGHT, input_speed=0.0, **DAMPED, **FREE)
     twin = pt.Twin(scene, tolerance=1e-7)
     rest = twin.advance(1e-4).waveform.dte[-1]
@@ -65,6 +65,6 @@ def test_a_hundred_times_the_load_at_once_is_the_step_response_of_the_linear_tra
 
 
 @pytest.mark.parametrize("torque", [LIGHT, -LIGHT])
-def test_a_hundredth_of_the_load_at_once_has_the_teeth_part_and_settle(torque):
+def test_hundredth_of_load_at_once_has_the_teeth_part_and_settle(torque):
     scene = PLAIN.replace(**DAMPED, **FREE)
     assert_carries(settled_after(scene, torque), scene, torque)

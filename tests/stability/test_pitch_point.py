@@ -21,7 +21,7 @@ def cycles(scene, count=2.5, samples=4000):
 
 
 @DIRECTIONS
-def test_a_single_pair_loses_no_power_at_the_pitch_point_and_some_beside_it(speed):
+def test_a_single_pair_loses_no_power_at_the_pitch_point(speed):
     run = cycles(PAPER.replace(input_speed=speed))
     cycle, loss = mesh_cycle(run), run.power_loss[:, 0]
     alone = (cycle > -0.2) & (cycle < 0.24)
@@ -31,7 +31,7 @@ def test_a_single_pair_loses_no_power_at_the_pitch_point_and_some_beside_it(spee
 
 
 @DIRECTIONS
-def test_beside_it_the_power_lost_is_friction_times_the_sliding_of_the_flanks(speed):
+def test_beside_it_the_loss_is_friction_times_sliding(speed):
     """|rho1 w1 + rho2 w2|, where traction has reached its plateau."""
     scene = PAPER.replace(input_speed=speed)
     run, gears = cycles(scene), scene.gearset

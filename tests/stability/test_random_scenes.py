@@ -179,7 +179,7 @@ RELEASING = {
 @QUICK
 @given(changes=SCENES)
 @example(changes=RELEASING)
-def test_a_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
+def test_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
     check(changes)
 
 
@@ -187,13 +187,13 @@ def test_a_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
 @pytest.mark.slow
 @THOROUGH
 @given(changes=SCENES)
-def test_many_random_scenes_are_finite_dissipative_and_closed_in_energy(changes):
+def test_random_scenes_are_dissipative_and_close_in_energy(changes):
     check(changes)
 
 
 @QUICK
 @given(changes=SCENES)
-def test_statics_of_a_random_scene_are_dissipative_and_closed_in_energy(changes):
+def test_random_statics_are_dissipative_and_close_in_energy(changes):
     scene = build(changes | {"dynamics": "quasi_static"})
     if scene is None:
         return

@@ -34,7 +34,7 @@ def test_at_rest_the_transmission_error_is_force_over_stiffness(pair, law):
 
 @PAIRS
 @pytest.mark.parametrize("law", ["viscous", "meshing_frequency"])
-def test_running_what_the_meshes_do_not_carry_accelerates_the_sun(pair, law):
+def test_running_what_meshes_do_not_carry_accelerates_the_sun(pair, law):
     """Angular impulse: T t = r_b sum of the integrals of F + (J_motor + J_sun) growth of speed."""
     scene = with_stiffness(PAPER, pair).replace(
         input_torque=SLIGHT if min(pair) < 1e6 else 63.0,
@@ -70,7 +70,7 @@ def test_stiff_teeth_turn_as_rigid_ones(stiffness):
 @pytest.mark.parametrize(
     "changes", [{}, {"input_speed": 800.0, "input_torque": 5.0, "torque_ripple": 20.0}]
 )
-def test_a_light_load_that_swings_at_54_khz_on_its_coupling_converges(stiffness, changes):
+def test_a_light_load_that_swings_at_54_khz_converges(stiffness, changes):
     """Without damping of the coupling; against the other method at a tighter tolerance."""
     load = {
         "drive.output.coupling_stiffness": stiffness,

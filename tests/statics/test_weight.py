@@ -52,7 +52,7 @@ def test_the_housing_bears_the_weight_of_everything(flow):
     assert total == pytest.approx(-1j * G * TOTAL, rel=2e-3)
 
 
-def test_mean_magnitudes_of_loads_in_the_housing_do_not_depend_on_the_duration():
+def test_mean_loads_in_the_housing_do_not_depend_on_duration():
     """The weight of the ring turns in the frame of the carrier."""
     changes = {**SMOOTH, "input_torque": 0.0, "dynamics": "quasi_static_planar"}
     scene = planar(FLOWS[3], **HEAVY, **changes)

@@ -60,7 +60,7 @@ def test_a_range_without_a_count_is_sampled():
         ("input_torque", "40,5 N m:50 N m:3", r"'40,5 N m': write a decimal point"),
     ],
 )
-def test_an_invalid_axis_is_refused_in_one_line_that_names_the_field(field, text, reason):
+def test_invalid_axis_is_refused_in_one_line_that_names_field(field, text, reason):
     with pytest.raises(ValueError, match=reason) as refusal:
         read_axis(PAPER, field, text)
     assert "\n" not in str(refusal.value) and field in str(refusal.value)

@@ -52,9 +52,7 @@ def test_the_clipped_share_is_that_of_a_separate_run():
 
 
 @pytest.mark.parametrize("out", ["study.parquet", "study.png"])
-def test_a_sweep_warns_once_with_the_number_of_points_in_the_words_of_simulate(
-    thick, tmp_path, out
-):
+def test_a_sweep_warns_once_with_the_number_of_points(thick, tmp_path, out):
     torques = ["--input-torque", "0.3,3,63", "--duration", 0.02, "--settling", 0]
     (line,) = warnings(run("sweep", thick, *torques, "--out", tmp_path / out))
     assert line.endswith("; at 2 of 3 points")

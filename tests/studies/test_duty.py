@@ -30,7 +30,7 @@ def cycle(tmp_path):
     return path
 
 
-def test_energies_are_those_of_steady_runs_for_the_times_of_their_rows(cycle):
+def test_energies_are_those_of_steady_runs_of_its_rows(cycle):
     duty = read_duty(cycle)
     study, place = duty.study(STILL, Settings(0.05, 0.0))
     assert len(study.points) == 4 and place[0] == place[2]

@@ -35,14 +35,14 @@ def measured(monkeypatch):
     return scenes
 
 
-def test_one_worker_and_several_give_the_same_table_to_the_last_bit():
+def test_one_worker_and_several_give_same_table_to_the_last_bit():
     alone = sweep(STUDY, Threads(1))
     assert len(alone) == len(STUDY.points)
     for count in (2, 5):
         assert sweep(STUDY, Threads(count)).equals(alone, check_metadata=True)
 
 
-def test_figures_are_those_of_a_separate_run_over_the_measured_part():
+def test_figures_are_those_of_separate_run_over_measured_part():
     table = sweep(STUDY, Threads())
     scene = PAPER.replace(**STUDY.points[3].changes)
     whole = pt.simulate(scene, 0.03, 1e6, tolerance=1e-3)

@@ -112,7 +112,7 @@ def test_two_pairs_on_shared_bodies_are_less_than_twice_as_stiff(mesh):
 
 
 @MESHES
-def test_crack_makes_a_pair_softer_the_deeper_it_is_and_not_at_depth_zero(mesh):
+def test_a_deeper_crack_is_softer_and_depth_zero_is_none(mesh):
     healthy = pair_of(mesh)
     position = path_of(healthy)
     before = healthy.stiffness(position, WIDTH)
@@ -128,7 +128,7 @@ def test_crack_makes_a_pair_softer_the_deeper_it_is_and_not_at_depth_zero(mesh):
         before = after
 
 
-def test_a_crack_has_the_largest_effect_when_its_tooth_is_loaded_at_the_tip():
+def test_a_crack_has_the_largest_effect_at_the_tip():
     """The cracked sun tooth drives and leaves the mesh at its tip, at the end of the path."""
     pair = pair_of(sun_planet_pair)
     cracked = replace(pair, first=replace(pair.first, crack=Crack(0.4 * MODULE)))
@@ -209,7 +209,7 @@ def test_path_reaches_from_tip_to_tip():
     assert ring[1] == pytest.approx(pair.second.gear.pitch_radius)
 
 
-def test_interference_and_a_body_held_at_the_wrong_edge_are_refused_in_one_line():
+def test_interference_and_a_wrong_body_are_refused_in_one_line():
     with pytest.raises(ValueError, match=r"teeth\.sun = 12: tips of the planets reach below"):
         pair_of(sun_planet_pair, Teeth(12, 60, 132))
     gear = SpurGear(30, MODULE, ALPHA)

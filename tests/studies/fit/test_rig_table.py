@@ -31,7 +31,7 @@ def exported(tmp_path_factory):
     return folder / "rig.parquet"
 
 
-def test_a_fit_of_an_exported_and_imported_recording_finds_the_truth(exported, tmp_path):
+def test_fit_of_exported_and_imported_recording_finds_the_truth(exported, tmp_path):
     write_measured(exported, PAPER, tmp_path / "rig")
     found = identify(tmp_path / "rig", Search(FREE, start=ELSEWHERE, confidence=0.999))
     assert_identified(found, lambda_ratio=0.7, input_torque=63.0)
@@ -63,7 +63,7 @@ def test_by_default_what_was_recorded_is_observed(tmp_path):
     assert [readings.name for readings in found.weighted.recorded] == ["power_loss"]
 
 
-def test_without_a_default_observable_those_that_were_recorded_are_named(tmp_path):
+def test_without_a_default_what_was_recorded_is_named(tmp_path):
     rows = {"simulated_time": 0.01 * np.arange(1, 31), "input_torque": np.full(30, 63.0)}
     csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
     write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
