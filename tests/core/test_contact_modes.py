@@ -11,12 +11,7 @@ from planetary_twin_py.scene import load_scene
 PAPER = load_scene("paper")
 FILM = 4  # row of the film among what is observed
 # Flanks part and meet without end, on both sides.
-CHAOS = {
-    "input_torque": -20.0,
-    "torque_ripple": 40.0,
-    "backlash": 5e-6,
-    "mesh.runout.planet": 2e-6,
-}
+CHAOS = {"input_torque": -20.0, "torque_ripple": 40.0, "backlash": 5e-6, "mesh.runout.planet": 2e-6}
 
 
 def run(duration, tolerance=1e-3, **changes):

@@ -143,9 +143,7 @@ def test_slope_is_the_growth_of_friction_with_sliding(traction):
         pairs = pairs_of(
             dict(
                 zip(
-                    INPUTS,
-                    (rho * ones, rho * ones, ones, first, second, 500.0 * ones),
-                    strict=True,
+                    INPUTS, (rho * ones, rho * ones, ones, first, second, 500.0 * ones), strict=True
                 )
             )
         )

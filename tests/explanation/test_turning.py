@@ -51,8 +51,7 @@ def test_a_part_of_a_cycle_changes_the_mean_loss():
 
 
 @pytest.mark.parametrize(
-    ("speed", "duration"),
-    [(1000.0, 0.1), (100.0, 0.1), (25.0, 0.16), (0.1, 0.1), (0.0, 0.1)],
+    ("speed", "duration"), [(1000.0, 0.1), (100.0, 0.1), (25.0, 0.16), (0.1, 0.1), (0.0, 0.1)]
 )
 def test_a_duration_for_means_is_short_and_has_whole_cycles(speed, duration):
     scene = PAPER.replace(input_speed=pt.rpm(speed))

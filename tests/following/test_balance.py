@@ -6,9 +6,7 @@ from following.plants import LAWS, balance_of, friction_level, paper, played
 from tiers import first
 
 from planetary_twin_py.following.balance import BalanceFollower
-from planetary_twin_py.following.balance_filter import (
-    CAUSES,
-)
+from planetary_twin_py.following.balance_filter import CAUSES
 
 RPM = 30.0 / np.pi
 DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found

@@ -32,8 +32,7 @@ def likeness(one, other):
 
 
 @pytest.mark.parametrize(
-    ("gear", "tooth"),
-    first_rows(1, [("planet_2", 7), ("sun", 11), ("ring", 33)]),
+    ("gear", "tooth"), first_rows(1, [("planet_2", 7), ("sun", 11), ("ring", 33)])
 )
 def test_another_tooth_is_a_shift_of_whole_cycles(found, gear, tooth):
     run = of_tooth(gear, tooth)

@@ -47,10 +47,7 @@ def test_reported_number_of_planets_fits_and_one_more_does_not(size):
 @pytest.mark.parametrize(
     ("angles", "words"),
     [
-        (
-            (0, 90, 90, 270),
-            ["planets 2 and 3", "is 0 mm and must", "tip diameter of 17.6 mm"],
-        ),
+        ((0, 90, 90, 270), ["planets 2 and 3", "is 0 mm and must", "tip diameter of 17.6 mm"]),
         ((0, 120, 480), ["planets 2 and 3", "is 0 mm"]),
         ([360 * n / 7 for n in range(7)], ["17.35", "at most 6 planets fit, equally spaced"]),
     ],

@@ -9,11 +9,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.gearset.gear_set import Sizes, build_gear_set
 from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.gearset.normal_plane import (
-    transverse_angle,
-    transverse_sizes,
-    virtual_gear,
-)
+from planetary_twin_py.gearset.normal_plane import transverse_angle, transverse_sizes, virtual_gear
 from planetary_twin_py.gearset.shift import PerGear
 from planetary_twin_py.tooth.iso import iso_pair
 from planetary_twin_py.tooth.material import Material

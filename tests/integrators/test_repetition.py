@@ -24,10 +24,7 @@ from planetary_twin_py.model.train import build_train
 from planetary_twin_py.run.engine import Engine
 
 TOLERANCE = 1e-3
-RUNOUT = {
-    "mesh.runout": {"sun": 2e-6},
-    "mesh.sun_planet_error": {"amplitudes": [1e-6]},
-}
+RUNOUT = {"mesh.runout": {"sun": 2e-6}, "mesh.sun_planet_error": {"amplitudes": [1e-6]}}
 RUNNING = {
     "paper": PAPER,
     "backwards": PAPER.replace(input_speed=-pt.rpm(1000)),

@@ -7,13 +7,7 @@ import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, planar
 from planar.published_set import MESH, PIN, TORQUE, scene
-from planar.rolling_law import (
-    element,
-    force_of_elements,
-    size_under,
-    slope,
-    spread_force,
-)
+from planar.rolling_law import element, force_of_elements, size_under, slope, spread_force
 from power_flows import FLOWS, flow_name
 from scipy.integrate import quad
 from spatial.tilting_scenes import spatial

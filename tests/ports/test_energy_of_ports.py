@@ -99,10 +99,7 @@ def test_efficiency_counts_work_put_in_before_and_after_reversal():
     twin, put_in = pt.Twin(scene, tolerance=1e-4), 0.0
     for end in dt * np.arange(1, 4001):
         shown = twin.step(dt, input_torque=float(np.interp(end, time, torque)))
-        powers = (
-            shown.input_torque * shown.input_speed,
-            shown.output_torque * shown.output_speed,
-        )
+        powers = (shown.input_torque * shown.input_speed, shown.output_torque * shown.output_speed)
         put_in += dt * sum(max(power, 0.0) for power in powers)
     run = pt.simulate(scene, 0.4, commands=pt.Commands(time, input_torque=torque))
     energy = run.energy

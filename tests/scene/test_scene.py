@@ -36,8 +36,7 @@ def test_a_scene_is_unchanged_by_a_round_trip_through_yaml():
 
 
 @pytest.mark.parametrize(
-    "written, meant",
-    [("0.3 um", 3e-7), ("3e-4 mm", 3e-7), ("3e-7", 3e-7), (3e-7, 3e-7)],
+    "written, meant", [("0.3 um", 3e-7), ("3e-4 mm", 3e-7), ("3e-7", 3e-7), (3e-7, 3e-7)]
 )
 def test_quantities_are_read_in_their_units(written, meant):
     scene = pt.parse_scene(text(operating_point__backlash=written))

@@ -36,14 +36,7 @@ def statistics(run):
     """Means over ten stretches of the run: (stretches, quantities)."""
     late = slice(round(TRANSIENT * RATE), None)
     force, dte, loss = run.mesh_force[late], run.dte[late], run.power_loss[late]
-    columns = [
-        force,
-        force**2,
-        force > 0.0,
-        force < 0.0,
-        (dte - dte.mean(axis=0)) ** 2,
-        loss,
-    ]
+    columns = [force, force**2, force > 0.0, force < 0.0, (dte - dte.mean(axis=0)) ** 2, loss]
     means = [np.mean(column, axis=1) for column in columns]
     return np.array([[part.mean() for part in np.array_split(m, STRETCHES)] for m in means]).T
 

@@ -47,10 +47,7 @@ def test_both_directions_find_the_only_possible_motion():
 
 def independent(start_speed, settling):
     """Sections of a separate run at TWICE, started at another speed: by interpolation [m]."""
-    scene = LOOSE.replace(
-        input_speed=TWICE,
-        **{"drive.speed_control.start_speed": start_speed},
-    )
+    scene = LOOSE.replace(input_speed=TWICE, **{"drive.speed_control.start_speed": start_speed})
     run = pt.simulate(scene, settling + 0.02, 200_000.0, tolerance=1e-4)
     late = run.time > settling
     cycles = scene.gearset.teeth.sun * run.angle[late, 0] / (2.0 * math.pi)

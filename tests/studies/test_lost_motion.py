@@ -154,11 +154,7 @@ def test_hysteresis_is_friction_without_the_backlash():
 def test_any_member_may_be_held(held, output):
     driver = ({"sun", "ring", "carrier"} - {held, output}).pop()
     scene = SMOOTH.replace(
-        **{
-            "gearset.held": held,
-            "drive.output.member": output,
-            "drive.input.member": driver,
-        }
+        **{"gearset.held": held, "drive.output.member": output, "drive.input.member": driver}
     )
     found = lost_motion(scene, TORQUE, levels=10)
     lever = {"ring": GEARS.ring.base_radius, "carrier": LEVER}[output]

@@ -169,11 +169,7 @@ def test_spall_takes_its_share_of_the_contact_alone():
 
 @pytest.mark.parametrize(
     ("mesh", "degree", "error"),
-    [
-        (sun_planet_pair, 4, 4e-4),
-        (planet_ring_pair, 4, 4e-3),
-        (planet_ring_pair, 5, 5e-4),
-    ],
+    [(sun_planet_pair, 4, 4e-4), (planet_ring_pair, 4, 4e-3), (planet_ring_pair, 5, 5e-4)],
 )
 def test_healthy_pair_is_nearly_a_polynomial(mesh, degree, error):
     pair = pair_of(mesh)

@@ -30,9 +30,7 @@ def test_rattle_identifies_the_backlash(tmp_path):
 
 
 @pytest.mark.slow
-def test_steady_load_shows_torque_and_film_but_not_backlash(
-    tmp_path,
-):
+def test_steady_load_shows_torque_and_film_but_not_backlash(tmp_path):
     path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.003)
     found = find(path, "backlash", "lambda_ratio", "input_torque", confidence=0.999)
     assert found.estimate.not_identifiable == ((0,),)
