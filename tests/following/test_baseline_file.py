@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from command_line import COMMAND
 from following.plants import COUNTS, RATE, TEETH_LAWS, crack, paper
-from following.test_vibration import NAMES, signals
+from following.test_vibration import NAMES, readings_of, signals
 from following.test_vibration import RATE as SAMPLED
 
 import planetary_twin_py as pt
@@ -113,14 +113,7 @@ def test_invalid_files_are_refused(file, tmp_path):
 def test_a_loaded_baseline_shows_sidebands_that_grew_before(tmp_path):
     def vibrating(seconds, follower, grown):
         time, load, values = signals(seconds, lambda time: {"sun": (grown, 0.0 * time + 1.0)})
-        read = slice(None, None, int(SAMPLED / 100))
-        train = followed_train(paper())
-        torque = train.torque * load[read]
-        columns = {
-            "input_torque": torque, "output_torque": -(torque - 0.8) / train.ratio,
-            "input_speed": np.full(len(torque), train.speed),
-        }  # fmt: skip
-        follower.add(Readings(time[read], columns))
+        follower.add(readings_of(time, load))
         follower.add(VibrationSamples(time, values, NAMES, 1.0 / SAMPLED))
         follower.finish()
         return [one.what for one in follower.estimate().events]

@@ -36,10 +36,6 @@ def test_a_reversing_duty_with_one_degree_of_lost_motion_passes():
     read(turned, twist=np.sign(np.gradient(turned)) * 0.5 / 360.0)
 
 
-def test_a_lost_turn_is_no_wrong_encoder():
-    read(RUNNING, twist=np.where(RUNNING > 1.0, 1.0, 0.0))
-
-
 @pytest.mark.parametrize("size", [1, 97, 5000])
 @pytest.mark.parametrize(
     ("wrong", "words"),

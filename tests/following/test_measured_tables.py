@@ -223,9 +223,3 @@ def test_a_missing_column_is_named_beside_those_that_there_are(write, heading, s
     table = write(heading, ",".join(["1"] * len(heading.split(","))))
     with pytest.raises(ValueError, match=said):
         read_fleet(table, ("1",))
-
-
-def test_a_table_without_a_channel_lists_its_headings(write):
-    table = write("time,T_in,T_out", "1,2,3")
-    with pytest.raises(ValueError, match=r"has none of the columns .*; has T_in, T_out"):
-        read_readings(table, {})

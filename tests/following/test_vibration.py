@@ -37,16 +37,22 @@ def signals(duration, grown=lambda time: {}, seed=0, wander=0.0):
     return time, load, values + 0.5 * chance.standard_normal(values.shape)
 
 
-def followed(duration, grown=lambda time: {}, gain=1.0, cuts=50, wander=0.0, seed=0):
-    """A follower of readings and vibration; the speed sensor has a gain."""
-    time, load, values = signals(duration, grown, seed, wander)
-    read = time[:: int(RATE / 100)]
-    torque = TRAIN.torque * load[:: int(RATE / 100)]
+def readings_of(time, load, gain=1.0):
+    """Readings at 100 Hz beside the vibration; the speed sensor has a gain."""
+    read = slice(None, None, int(RATE / 100))
+    torque = TRAIN.torque * load[read]
     columns = {
         "input_torque": torque,
         "output_torque": -(torque - 0.8) / TRAIN.ratio,
-        "input_speed": np.full(len(read), gain * TRAIN.speed),
+        "input_speed": np.full(len(torque), gain * TRAIN.speed),
     }
+    return Readings(time[read], columns)
+
+
+def followed(duration, grown=lambda time: {}, gain=1.0, cuts=50, wander=0.0, seed=0):
+    """Last state of a follower of readings and vibration."""
+    time, load, values = signals(duration, grown, seed, wander)
+    read, columns, *_ = readings_of(time, load, gain)
     follower = Follower(paper(), Sensors(learning=8))
     for part in np.array_split(np.arange(len(read)), cuts):
         rows = slice(part[0], part[-1] + 1)
@@ -104,15 +110,8 @@ def test_lines_that_sample_rate_does_not_resolve_are_left_out():
     time, load, values = signals(20.0, lambda time: {"mesh 2": (2.0, time > 12.0)})
     slow = slice(None, None, 5)  # 800 Hz: the second harmonic of 500 Hz appears at 200 Hz
     follower = Follower(paper(), Sensors(learning=8))
-    read = slice(None, None, int(RATE / 100))
-    torque = TRAIN.torque * load[read]
-    columns = {
-        "input_torque": torque,
-        "output_torque": -(torque - 0.8) / TRAIN.ratio,
-        "input_speed": np.full(len(torque), TRAIN.speed),
-    }
     samples = VibrationSamples(time[slow], values[slow], NAMES, 5.0 / RATE)
-    *_, last = play_back(follower, [Readings(time[read], columns)], [samples])
+    *_, last = play_back(follower, [readings_of(time, load)], [samples])
     assert vibration_events(last) == {}
     assert last.counters["vibration_periods"] > 15
     assert any("800 samples per second show lines up to 0.65" in line for line in last.remarks)
@@ -130,16 +129,9 @@ def played_with(duration=25.0, gain=1.0, stretched=1.0, shift=0.0, constant=None
     time, load, values = signals(duration, lambda time: {"sun": (2.0, time > 15.0)}, seed)
     if constant is not None:
         values[:, constant] = 1.0
-    read = slice(None, None, int(RATE / 100))
-    torque = TRAIN.torque * load[read]
-    columns = {
-        "input_torque": torque,
-        "output_torque": -(torque - 0.97) / TRAIN.ratio,
-        "input_speed": np.full(len(torque), gain * TRAIN.speed),
-    }
     samples = VibrationSamples(time * stretched + shift, values, NAMES, stretched / RATE)
     follower = Follower(paper(), Sensors(learning=8))
-    *_, last = play_back(follower, [Readings(time[read], columns)], [samples])
+    *_, last = play_back(follower, [readings_of(time, load, gain)], [samples])
     return last
 
 

@@ -119,12 +119,6 @@ def test_samples_lie_on_one_clock_and_none_is_lost(rate):
         number = last
 
 
-def test_ends_of_windows_are_whole_nanoseconds():
-    twin = aged(PAPER)[0]
-    for n in range(1, 101):
-        assert round(twin.advance(1e-3).end * 1e9) == 3600 * HOURS * 10**9 + n * 10**6
-
-
 @pytest.mark.parametrize("change", [{"backlash": 4e-7}, {"input_speed": 90.0}], ids=str)
 def test_a_change_acts_at_its_instant_as_in_the_first_hour(change):
     old, young = aged(PAPER)[0], pt.Twin(PAPER)

@@ -10,7 +10,6 @@ import pytest
 
 from planetary_twin_py.run.quality_control import (
     DEARER,
-    LOWEST_SAMPLE_RATE,
     QualityControl,
     Setting,
     settings_of,
@@ -88,13 +87,6 @@ def test_a_single_late_window_changes_nothing():
         assert set(chosen(policy, lambda _: 0.01, 1.0)) == {LADDER[-1]}
 
 
-def test_cost_above_share_but_in_time_loosens_within_a_second():
-    policy = automatic()
-    chosen(policy, lambda _: 0.1, 5.0)
-    before = policy.setting.tolerance
-    assert chosen(policy, lambda _: 0.6, 1.0)[-1] > before
-
-
 @pytest.mark.parametrize("seed", range(5))
 def test_a_noisy_cost_at_the_limit_does_not_make_it_swing(seed):
     noise = random.Random(seed)
@@ -145,14 +137,6 @@ def test_a_tolerance_out_of_range_is_refused_in_one_line(value):
 def thinning(computing: float, sampling: float) -> Callable[[Setting], float]:
     """A share for computing, and one for samples that goes with their rate."""
     return lambda setting: computing + sampling * setting.sample_rate / FULL
-
-
-def test_ladder_gives_up_all_tolerances_before_the_first_sample():
-    ladder = settings_of(LADDER, FULL)
-    assert [s.sample_rate for s in ladder] == [6250.0, 12.5e3, 25e3] + [FULL] * len(LADDER)
-    assert [s.tolerance for s in ladder] == [LADDER[0]] * 3 + list(LADDER)
-    assert settings_of((2e-5,), 2500.0) == [Setting(2e-5, 1250.0), Setting(2e-5, 2500.0)]
-    assert settings_of((2e-5,), LOWEST_SAMPLE_RATE) == [Setting(2e-5, LOWEST_SAMPLE_RATE)]
 
 
 def test_an_overload_takes_tolerance_then_waveform():

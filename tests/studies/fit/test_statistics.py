@@ -41,12 +41,6 @@ def test_intervals_contain_the_truth_as_often_as_they_state():
         assert abs(held / runs - 0.95) < 3.0 * np.sqrt(0.95 * 0.05 / runs)
 
 
-def test_without_noise_the_truth_is_found():
-    found = estimate(decay, decay(TRUTH))
-    assert found.values == pytest.approx(TRUTH, rel=1e-5)
-    assert found.not_identifiable == () and found.excess == 1.0
-
-
 def test_noise_known_to_few_degrees_of_freedom_widens_intervals():
     data = decay(TRUTH) + noise_of(1)
     wide, narrow = (estimate(decay, data, freedom=f).intervals[0] for f in (4, np.inf))
