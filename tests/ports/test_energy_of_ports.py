@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, RATIO, driven
+from stability.sound import turnover
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.clock import TICKS
@@ -28,10 +29,6 @@ def course(ports, interpolation):
     sides = zip(("input", "output"), ports, strict=True)
     used = [f"{side}_{names[port]}" for side, port in sides if port != "machine"]
     return pt.Commands(time, **{name: every[name] for name in used})
-
-
-def turnover(energy):
-    return sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
 
 
 @pytest.mark.parametrize("interpolation", ["hold", "linear"])
