@@ -50,16 +50,6 @@ def test_a_path_that_ends_a_base_pitch_off_has_no_empty_part(missing):
     assert np.isfinite(table.weight).all()
 
 
-@PATHS
-def test_number_of_pairs_is_continuous_across_the_edges(path):
-    table = pair_table(path, 0.03)
-    for j in range(table.segments):
-        ahead = (j + 1) % table.segments
-        before = weights(table, table.edge[j + 1], j)[1].sum()
-        after = weights(table, 0.0 if ahead == 0 else table.edge[j + 1], ahead)[1].sum()
-        assert before == pytest.approx(after, abs=1e-9)
-
-
 @pytest.mark.parametrize(
     "path, window", [(EXTERNAL, (-0.2008, 0.2438)), (INTERNAL, (-0.2438, -0.0531))]
 )

@@ -54,8 +54,3 @@ def test_on_coast_flanks_window_is_mirrored_half_a_pitch_later(mesh):
 @pytest.mark.parametrize("mesh", [0, 3])
 def test_turning_back_meets_the_same_flanks_in_the_same_places(mesh):
     assert_is(single_window(CALM.replace(input_speed=-2.0), mesh), SINGLE[mesh])
-
-
-def test_coast_flanks_push_the_other_way():
-    run = pt.simulate(CALM.replace(input_torque=-63.0), 0.05)
-    assert run.mesh_force.max() < 0.0 and run.dte.max() < -1e-7

@@ -57,15 +57,6 @@ def test_transmission_error_is_force_over_the_mean_of_the_slices(angle, changes)
         assert run.dte[n, 0] == pytest.approx(expected, rel=2e-4)
 
 
-def test_overlap_quietens_the_gears():
-    """Fluctuation of the stiffness falls with the overlap, and so does that of the DTE."""
-    swings = []
-    for angle in ("0 deg", "4 deg", "8 deg"):
-        run = pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.02)
-        swings.append(run.dte[:, 0].std())
-    assert swings[0] > swings[1] > swings[2]
-
-
 def test_the_sense_of_the_helix_does_not_matter_to_rotations():
     one, two = (
         pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.01).dte

@@ -15,7 +15,6 @@ from planetary_twin_py.tooth.contact import weber_banaschek, yang_sun
 from planetary_twin_py.tooth.crack import Crack
 from planetary_twin_py.tooth.iso import IsoPair
 from planetary_twin_py.tooth.material import Material
-from planetary_twin_py.tooth.polynomial import fit
 from planetary_twin_py.tooth.spall import Spall
 from planetary_twin_py.tooth.tooth import Tooth
 
@@ -165,16 +164,6 @@ def test_spall_takes_its_share_of_the_contact_alone():
     at = np.array([0.1])
     grown = spalled.compliance(at) - pair.compliance(at)
     assert grown == pytest.approx([4 * (1 - 0.3**2) / (math.pi * 206e9)], rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("mesh", "degree", "error"),
-    [(sun_planet_pair, 4, 4e-4), (planet_ring_pair, 4, 4e-3), (planet_ring_pair, 5, 5e-4)],
-)
-def test_healthy_pair_is_nearly_a_polynomial(mesh, degree, error):
-    pair = pair_of(mesh)
-    low, high = -pair.path.approach, pair.path.recess
-    assert fit(lambda s: pair.stiffness(s, WIDTH), low, high, degree).error < error
 
 
 @given(
