@@ -5,7 +5,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, RATIO, driven
+from planar.moving_scenes import planar
+from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, PAPER, RATIO, course, driven
 from stability.sound import turnover
 
 import planetary_twin_py as pt
@@ -14,28 +15,29 @@ from planetary_twin_py.model.clock import TICKS
 PORTS = [pair for pair in itertools.product(CAUSALITIES, repeat=2) if pair != ("machine",) * 2]
 
 
-def course(ports, interpolation):
-    """Commands every millisecond at both ports, as these take them."""
-    time = np.arange(0, 40) * 1e-3
-    wave = np.sin(2.0 * np.pi * 60.0 * time)
-    swing = 0.3 * wave if interpolation == "linear" else 0.0 * wave
-    every = {
-        "input_torque": 63.0 + 15.0 * wave,
-        "input_speed": 104.7 + swing,
-        "output_torque": 147.0 + 20.0 * wave,
-        "output_speed": RATIO * (104.7 + swing),
-    }
-    names = {"torque": "torque", "motion": "speed"}
-    sides = zip(("input", "output"), ports, strict=True)
-    used = [f"{side}_{names[port]}" for side, port in sides if port != "machine"]
-    return pt.Commands(time, **{name: every[name] for name in used})
+SCENES = {
+    "paper": PAPER,
+    "differential": pt.load_scene("differential"),
+    "planar": planar(),
+    "floating": pt.load_scene("floating_sun").replace(dynamics="planar"),
+    "spatial": pt.load_scene("helical_stage"),
+}
+
+
+CASES = [
+    (name, ports)
+    for name, ports in itertools.product(SCENES, PORTS)
+    if (name, ports[1]) != ("differential", "machine")  # which it cannot have
+]
 
 
 @pytest.mark.parametrize("interpolation", ["hold", "linear"])
-@pytest.mark.parametrize("ports", PORTS, ids="-".join)
-def test_the_ledger_closes_under_commands(ports, interpolation):
-    scene = driven(*ports, **{"drive.interpolation": interpolation})
-    energy = pt.simulate(scene, 0.05, tolerance=1e-5, commands=course(ports, interpolation)).energy
+@pytest.mark.parametrize(("name", "ports"), CASES, ids=str)
+def test_the_ledger_closes_under_commands(name, ports, interpolation):
+    scene = driven(*ports, SCENES[name], **{"drive.interpolation": interpolation})
+    count = 40 if name in ("paper", "differential") else 20
+    commands = course(SCENES[name], ports, interpolation, count)
+    energy = pt.simulate(scene, 1.25e-3 * count, tolerance=1e-5, commands=commands).energy
     assert energy.friction > 0.0
     assert abs(energy.residual) < 1e-6 * turnover(energy)
 
@@ -46,7 +48,7 @@ def test_the_ledger_closes_by_rosenbrocks_method(ports):
     residuals = []
     for tolerance in (1e-4, 1e-6):
         run = pt.simulate(
-            scene, 0.05, 1e4, "rosenbrock", tolerance, commands=course(ports, "linear")
+            scene, 0.05, 1e4, "rosenbrock", tolerance, commands=course(PAPER, ports, "linear")
         )
         residuals.append(abs(run.energy.residual) / turnover(run.energy))
     assert residuals[1] < 1e-6
