@@ -20,7 +20,7 @@ def test_a_scene_is_read_without_loading_scipy_pint_or_ros():
 
 
 @pytest.mark.parametrize("scene", ["paper", "floating_sun"])
-def test_a_scene_in_frequent_units_runs_without_loading_scipy_or_pint(scene):
+def test_a_scene_in_frequent_units_loads_neither_scipy_nor_pint(scene):
     """Each takes as long to load as a second of the paper's scene to compute."""
     loaded = loaded_by(
         "import planetary_twin_py as pt; "

@@ -1,7 +1,6 @@
 """Tones above half the sample rate: where they stand, and that readers are warned."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,11 +10,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.analysis.aliases import (
     NEGLIGIBLE,
     alias_frequency,
-    alias_remark,
     alias_share,
     aliased_harmonic,
     edge_amplitude,
-    recommended_rate,
 )
 from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
 from planetary_twin_py.analysis.signals import Signal
@@ -34,7 +31,7 @@ def test_a_sampled_tone_appears_at_its_alias(tone):
     assert line.amplitude == pytest.approx(1.0, rel=1e-3)
 
 
-def test_the_harmonic_behind_an_alias_is_found_and_none_elsewhere():
+def test_harmonic_behind_an_alias_is_found_and_none_elsewhere():
     # 2700 Hz: 4 x is 10 800 and folds to 9200, 5 x is 13 500 and folds to 6500
     assert aliased_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
     assert aliased_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
@@ -54,7 +51,7 @@ def fast():
 
 
 @pytest.mark.parametrize("spectrum_of", first(1, [order_spectrum_of, frequency_spectrum_of]))
-def test_lines_of_a_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectrum_of):
+def test_lines_of_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectrum_of):
     """Against the same run at 1 MHz, which has no line there."""
     found = spectrum_of(fast, 30)
     foreign = [line for line in found.lines(12) if found.harmonic(line.place) is None]
@@ -89,18 +86,3 @@ def test_samples_that_carry_a_signal_are_not_remarked_upon():
     assert edge_amplitude(frequency, amplitude) == pytest.approx(math.exp(-8.0))
     assert alias_share(frequency, amplitude) <= NEGLIGIBLE < alias_share(frequency, amplitude + 0.1)
     assert alias_share(frequency, np.zeros(101)) == 0.0
-
-
-def test_the_remark_names_rates_heights_and_harmonics():
-    line = alias_remark(20_000.0, 0.034, 11_000.0, 500.0)
-    assert "sample rate of 20000 Hz is too low" in line and "3.4 %" in line
-    assert "mesh harmonics from 20 on" in line and "4.4e+04 Hz" in line
-    assert "harmonics" not in alias_remark(20_000.0, 0.034, None, None)
-    assert recommended_rate(20_000.0, None) == 40_000.0
-
-
-def test_a_line_above_the_aliases_is_none(fast):
-    found = frequency_spectrum_of(fast, 30)
-    first = found.lines(1)[0]
-    assert found.alias(first) is None
-    assert replace(found, mesh=None).alias(first) is None

@@ -26,14 +26,14 @@ def amplitude(samples, time):
 
 @pytest.mark.parametrize("drift", [0.0, 3e-5, 1e-4, 1e-3, 0.05])
 @pytest.mark.parametrize("share", [0.01, 0.25, 0.45])
-def test_a_line_at_drifting_stamps_has_its_amplitude_to_1_percent(drift, share):
+def test_line_at_drifting_stamps_has_its_amplitude_to_1_percent(drift, share):
     time = stamps(drift)
     tone = np.sin(2.0 * np.pi * share * RATE * time + 0.3)
     even = resampled(tone, time) if drifts(time) else tone
     assert amplitude(even, at_equal_steps(time)) == pytest.approx(1.0, rel=0.01)
 
 
-def test_the_bound_is_the_drift_with_which_the_highest_line_is_1_percent_too_low():
+def test_beyond_the_bound_drift_lowers_the_highest_line():
     """A sinusoidal drift with rms phase P at half the rate: its line is J_0(sqrt(2) P) high."""
     number = np.arange(COUNT)
     for phase, beyond in ((0.12, False), (0.16, True)):
@@ -45,7 +45,7 @@ def test_the_bound_is_the_drift_with_which_the_highest_line_is_1_percent_too_low
 
 
 @pytest.mark.parametrize("acceleration", [0.02, -0.5])
-def test_a_varying_speed_lowers_the_line_at_the_exact_order_by_1_percent(acceleration):
+def test_varying_speed_lowers_line_at_exact_order_by_1_percent(acceleration):
     time = np.arange(COUNT) / RATE
     angle = 2.0 * np.pi * (10.0 * time + 0.5 * acceleration * time**2)
     tone = np.sin(exact_order(angle) * angle)

@@ -53,7 +53,7 @@ def test_the_map_keeps_each_order_in_place_while_the_speed_rises():
     assert found.amplitude[:, found.order == 60.0] == pytest.approx(0.4, rel=0.01)
 
 
-def test_the_map_has_no_more_windows_than_asked_for_and_reaches_both_ends():
+def test_the_map_has_the_windows_asked_for_and_both_ends():
     found = pt.order_map(vibration(ANGLE), TIME, ANGLE, turns=2.0, most_windows=7)
     assert found.amplitude.shape == (7, len(found.order))
     assert found.time[0] < 0.15
@@ -71,7 +71,7 @@ def test_resampling_follows_the_signal_between_its_samples():
 
 @pytest.mark.parametrize("share", [0.25, 0.4, 0.469])
 @pytest.mark.parametrize("acceleration", [0.0, 15.0])
-def test_a_line_of_a_spectrum_of_orders_is_exact_up_to_the_end_of_its_band(share, acceleration):
+def test_an_order_line_is_exact_up_to_the_end_of_its_band(share, acceleration):
     angle = 2.0 * np.pi * (10.0 * TIME + 0.5 * acceleration * TIME**2)
     order = share * RATE / (10.0 + acceleration * TIME[-1])
     signal = Signal(0.5 * np.sin(order * angle + 0.3), TIME, angle, None)
@@ -80,7 +80,7 @@ def test_a_line_of_a_spectrum_of_orders_is_exact_up_to_the_end_of_its_band(share
     assert line.amplitude == pytest.approx(0.5, rel=0.01)
 
 
-def test_what_is_beyond_half_the_samples_per_turn_does_not_fold_back():
+def test_what_is_beyond_half_samples_per_turn_does_not_fold_back():
     signal = np.sin(60 * ANGLE)
     for samples_per_turn, kept in ((150, 1.0), (100, 0.0)):
         amplitude = pt.order_spectrum(signal, ANGLE, samples_per_turn, "flattop").amplitude
@@ -99,7 +99,7 @@ def test_orders_of_the_meshing_follow_from_the_teeth():
         pt.mesh_order(TEETH, "carrier", "carrier")
 
 
-def test_a_simulated_run_has_its_lines_at_the_orders_of_its_meshing():
+def test_simulated_run_has_its_lines_at_orders_of_its_meshing():
     scene = pt.load_scene("paper").replace(input_speed=pt.rpm(1000))
     result = pt.simulate(scene, duration=0.3, sample_rate=20_000)
     sun = result.angle[:, result.bodies.index("sun")]
@@ -117,24 +117,14 @@ BACK = np.concatenate((ANGLE[:500], ANGLE[499::-1]))
     [
         (lambda: pt.order_spectrum(TIME, ANGLE[1:]), "angle: 39999 values for 40000 samples"),
         (lambda: pt.order_spectrum(BACK, BACK), "reverses or stands still after sample"),
-        (lambda: pt.order_spectrum(TIME, 0.0 * ANGLE), "stands still after sample 0"),
         (lambda: pt.order_spectrum(TIME, np.append(ANGLE[1:], np.nan)), "angle: not finite at"),
-        (lambda: pt.order_spectrum(np.append(TIME[1:], np.nan), ANGLE), "samples: not finite at"),
         (lambda: pt.order_spectrum(TIME, ANGLE, 2), "samples_per_turn = 2"),
-        (lambda: pt.order_spectrum(TIME[:9], 1e-6 * ANGLE[:9]), "must be at least 0.0245"),
         (lambda: pt.order_spectrum(TIME, TIME**4 + 1e-9 * TIME), "exclude standstill"),
         (lambda: pt.order_map(TIME, TIME, ANGLE, turns=99.0), "turns = 99"),
         (lambda: pt.order_map(np.ones((40000, 2)), TIME, ANGLE), "must be one channel"),
-        (lambda: pt.order_spectrum(TIME, np.ones((40000, 2))), "must be that of one shaft"),
     ],
 )
 def test_misuse_ends_in_one_line_that_names_it(call, reason):
     with pytest.raises(ValueError, match=reason) as caught:
         call()
     assert "\n" not in str(caught.value)
-
-
-def test_the_sample_of_a_reversal_is_named_also_if_more_samples_turn_backwards():
-    angle = np.concatenate((np.arange(300.0), 298.0 - np.arange(700.0)))
-    with pytest.raises(ValueError, match="after sample 299"):
-        pt.order_spectrum(np.sin(angle), 0.1 * angle)

@@ -12,7 +12,7 @@ RATE = 1000.0  # [Hz]
 
 
 @pytest.mark.parametrize("excess", [-1e-6, -1e-13, 0.0, 1e-13, 1e-10])
-def test_a_mesh_frequency_at_half_the_sample_rate_is_not_above_it(excess):
+def test_mesh_frequency_at_half_the_sample_rate_is_not_above_it(excess):
     assert not remarks_at(500.0 * (1.0 + excess))
 
 
@@ -29,7 +29,7 @@ def remarks_at(mesh):
     return list(scale_remarks(silent, pt.load_scene("paper")))
 
 
-def test_a_fault_of_a_planet_seen_by_both_of_its_meshes_gives_no_warning():
+def test_a_fault_seen_by_both_meshes_gives_no_warning():
     """Its sidebands are 2/36 mesh orders apart: as the first ones of half the mesh frequency."""
     scene = pt.load_scene("paper").replace(**{
         "gearset.teeth": {"sun": 27, "planet": 36, "ring": 99},

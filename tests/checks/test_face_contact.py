@@ -10,7 +10,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.checks.face_contact import uneven_deflection
 
 
-def test_the_squeeze_at_an_end_follows_from_the_moment_of_the_teeth():
+def test_squeeze_at_an_end_follows_from_the_moment_of_the_teeth():
     """A mesh of stiffness k with the slope s has the moment k L^2 s/12 and the force F = k q, so
     s L/2 over q is 6 times moment over F L. Here of both meshes of a planet, one of which leads."""
     scene = constant(("carrier", "sun", "ring", 63.0))

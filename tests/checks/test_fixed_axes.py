@@ -22,7 +22,7 @@ def test_shares_are_those_of_whole_mesh_cycles():
 @pytest.mark.parametrize(
     ("dynamics", "moving"), [("torsional", "planar"), ("quasi_static", "quasi_static_planar")]
 )
-def test_a_run_with_held_axes_names_the_shares_and_the_dynamics_that_move_them(dynamics, moving):
+def test_held_axes_name_shares_and_the_dynamics_that_move_them(dynamics, moving):
     with pytest.warns(
         pt.AccuracyWarning, match=rf"planet 1 carries 3\.67 times .* 1\.16 .* = {moving} or auto"
     ):
@@ -49,11 +49,11 @@ def test_the_packaged_scene_lets_its_sun_float():
     ],
     ids=["moving", "no supports", "no load", "no errors", "small errors", "paper", "equal planets"],
 )
-def test_there_is_no_warning_where_shares_hardly_differ_or_nothing_is_known(scene):
+def test_no_warning_where_shares_hardly_differ(scene):
     assert held_axes_warning(scene) is None
 
 
-def test_three_planets_with_a_floating_sun_share_equally_whatever_their_errors():
+def test_three_planets_with_a_floating_sun_share_equally():
     # Evenly spaced planets: 30 + 69 teeth are divisible by 3.
     angles = tuple(2.0 * np.pi * n / 3 for n in range(3))
     three = HELD.replace(

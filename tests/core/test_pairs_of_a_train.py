@@ -26,7 +26,7 @@ def at_start(scene):
 
 
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "differential"])
-def test_friction_damps_as_its_slope_along_the_sliding_of_every_pair(name):
+def test_friction_damps_as_its_slope_along_sliding_of_every_pair(name):
     """The sum of slope dVs/dv dVs/dv^T; the sliding is linear in the speeds of the bodies."""
     model, state = at_start(load_scene(name))
     train, step, out = model.train, StepConstants(), Evaluation()

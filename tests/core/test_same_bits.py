@@ -60,7 +60,7 @@ def printed(code, **environment):
 
 
 @pytest.mark.exhaustive
-def test_samples_have_the_same_bits_with_the_libraries_of_an_older_processor():
+def test_an_older_processor_gives_the_same_bits():
     if printed(LIBRARY) == printed(LIBRARY, **OLDER):
         pytest.skip("the libraries of this machine have no other variants")
     assert printed(COMPUTE) == printed(COMPUTE, **OLDER)

@@ -38,7 +38,7 @@ def motor_inertia(scene):
     return RATIO**2 * float(own.sum())
 
 
-def test_a_motor_torque_accelerates_the_joint_like_an_ideal_gear_with_armature(scene):
+def test_a_motor_moves_the_joint_as_an_ideal_gear(scene):
     lossless = scene.replace(backlash=0.0, **NO_LOSS)
     joint, count, torque = GearedJoint(arm(), "elbow", lossless), 400, 0.3
     for _ in range(count):
@@ -66,7 +66,7 @@ def test_the_joint_turns_exactly_as_the_shaft_of_the_twin(scene):
 
 
 @pytest.mark.parametrize("integral", [0.0, 200.0])
-def test_a_position_loop_has_the_limit_cycle_of_two_masses_with_play(scene, integral):
+def test_position_loop_has_limit_cycle_of_two_masses_with_play(scene, integral):
     """The controller reads the joint and damps by the motor speed: with backlash it oscillates."""
     lossless = scene.replace(**NO_LOSS)
     target, count = 0.02, 3000

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planetary_twin_py import load_scene, parse_scene
+from planetary_twin_py import load_scene
 from planetary_twin_py.explanation.backlash import backlash_of_scene
 
 SHIFTS = {"sun": -0.1, "planet": -0.05, "ring": 0.2}  # neither mesh has backlash
@@ -15,7 +15,7 @@ def scene(ring=0.2, **changes):
     return load_scene("paper").replace(**shifts, **changes)
 
 
-def test_a_ring_shift_of_the_other_sign_is_named_with_both_backlashes_and_the_right_sign():
+def test_a_ring_shift_of_the_wrong_sign_is_named():
     wrong = scene(ring=-0.2)
     more = 4.0 * 0.2 * 0.8 * math.sin(wrong.gearset.pressure_angle)  # [mm] 4 x m sin(alpha)
     line = backlash_of_scene(wrong)
@@ -33,13 +33,13 @@ def test_the_right_sign_is_named_in_the_modules_of_a_drawing():
     assert line.endswith("with gearset.profile_shift.ring = 0.2 both agree")
 
 
-def test_a_stated_backlash_that_includes_that_of_the_teeth_is_no_contradiction():
+def test_a_backlash_that_includes_that_of_teeth_is_accepted():
     assert backlash_of_scene(scene()) is None
     assert backlash_of_scene(scene(ring=-0.2, backlash=0.1e-3)) is None
     assert backlash_of_scene(scene(backlash=1e-4)) is None
 
 
-def test_a_centre_distance_that_opens_the_sun_meshes_is_named_without_a_hint():
+def test_a_centre_distance_that_opens_the_sun_meshes_is_named():
     apart = scene().gearset.geometry.meshes[0].centre_distance + 1e-4
     wide = scene(ring=-0.05, **{"gearset.centre_distance": apart})
     line = backlash_of_scene(wide)
@@ -51,13 +51,3 @@ def test_a_centre_distance_that_opens_the_sun_meshes_is_named_without_a_hint():
 )
 def test_packaged_gear_sets_agree_with_their_backlash(name):
     assert backlash_of_scene(load_scene(name)) is None
-
-
-def test_a_gear_set_in_the_normal_plane_is_judged_as_any_other():
-    gears = "normal_module: 0.7 mm, normal_pressure_angle: 20 deg, helix_angle: 15 deg"
-    text = (
-        f"base: paper\ngearset: {{{gears}, profile_shift: {{sun: -0.1, planet: -0.05, ring: R}}}}"
-    )
-    assert backlash_of_scene(parse_scene(text.replace("R", "0.2"))) is None
-    line = backlash_of_scene(parse_scene(text.replace("R", "-0.2")))
-    assert line.endswith("with gearset.profile_shift.ring = 0.2 both agree")

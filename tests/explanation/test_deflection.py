@@ -47,7 +47,7 @@ def test_packaged_scenes_are_within_the_limit(name):
     assert deflection_of_scene(pt.load_scene(name)) is None
 
 
-def test_a_modulus_of_megapascals_for_gigapascals_is_reported_by_simulate_and_sweep(tmp_path):
+def test_a_modulus_in_megapascals_is_reported(tmp_path):
     soft = ["--set", "mesh.stiffness=involute", "--set", "lubrication.youngs_modulus=206 MPa"]
     for command in (
         ["simulate", "paper", "--duration", "0.004", "--set", "input_torque=20 N m"],

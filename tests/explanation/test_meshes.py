@@ -56,7 +56,7 @@ def test_damping_ratio_is_half_of_tau_times_omega_by_every_law(kind):
 
 @BOTH
 @pytest.mark.parametrize("ramp", [0.0, 0.03, 0.1])
-def test_mean_of_a_given_stiffness_counts_pairs_by_contact_ratio_less_a_ramp(kind, ramp):
+def test_mean_stiffness_counts_pairs_by_contact_ratio(kind, ramp):
     """A pair takes its ramp to enter and to leave: it carries as for one base pitch less."""
     figures = of(kind, **{"mesh.ramp": ramp})
     pairs = {"sun_planet": 1.5554, "planet_ring": 1.8092}[kind]
@@ -66,7 +66,7 @@ def test_mean_of_a_given_stiffness_counts_pairs_by_contact_ratio_less_a_ramp(kin
 
 
 @pytest.mark.parametrize("kind", [0, 1])
-def test_mean_of_a_computed_stiffness_is_that_of_the_teeth_over_a_cycle(kind):
+def test_mean_of_computed_stiffness_is_that_of_teeth_over_cycle(kind):
     scene = pt.load_scene("cracked_tooth").replace(**{"mesh.ramp": 0.0})
     figures, pair = describe_meshes(scene)[1 + kind], tooth_pairs(scene)[kind]
     width = scene.gearset.face_width
@@ -117,11 +117,6 @@ def test_pressure_is_that_of_iso_6336(kind):
     assert of(kind).pitch_pressure == pytest.approx(iso)
 
 
-def test_loss_factors_are_those_of_the_papers_meshes():
-    assert of("sun_planet").loss_factor == pytest.approx(0.17152, abs=1e-5)
-    assert of("planet_ring").loss_factor == pytest.approx(0.09747, abs=1e-5)
-
-
 def tip_lengths(gearset, kind):
     """Path of contact from the pitch point to the tips of both gears [base pitches].
 
@@ -153,7 +148,7 @@ FROM_SUN = {
 @BOTH
 @pytest.mark.parametrize("flow", FLOWS, ids=flow_name)
 @pytest.mark.parametrize("reverse", ["input_torque", "input_speed", None])
-def test_contact_begins_at_the_tip_of_the_driven_gear_in_every_power_flow(kind, flow, reverse):
+def test_contact_begins_at_the_tip_of_the_driven_gear(kind, flow, reverse):
     scene = scene_of(flow)
     if reverse is not None:
         scene = scene.replace(**{reverse: -getattr(scene.operating_point, reverse)})
@@ -166,20 +161,13 @@ def test_contact_begins_at_the_tip_of_the_driven_gear_in_every_power_flow(kind, 
 
 
 @BOTH
-def test_planets_that_drive_the_sun_of_a_wind_turbine_meet_the_tips_of_the_sun_first(kind):
-    found = of(kind, pt.load_scene("wind_turbine_stage"))
-    expected = {"sun_planet": (0.7846, 0.8543), "planet_ring": (0.8543, 1.083)}[kind]
-    assert (found.approach, found.recess) == pytest.approx(expected, rel=1e-3)
-
-
-@BOTH
 @pytest.mark.parametrize("change", [{"input_torque": 0.0}, {"input_speed": 0.0}])
 def test_no_gear_drives_without_power(kind, change):
     assert of(kind, **change).driver is None
 
 
 @BOTH
-def test_backlash_is_the_way_between_the_flanks_on_the_line_of_action(kind):
+def test_backlash_is_way_between_flanks_on_the_line_of_action(kind):
     assert of(kind, backlash=3e-7).backlash == pytest.approx(3e-7)
     along_arcs = of(kind, backlash=3e-7, **{"mesh.motion": "pitch_arc"})
     assert along_arcs.backlash == pytest.approx(3e-7 * COSINE)
@@ -194,11 +182,6 @@ def test_mesh_frequency_is_that_of_a_run(name):
     twin = pt.Twin(scene)
     cycle = 1.0 / describe_meshes(scene).mesh_frequency
     assert twin.advance(4 * cycle).mesh_frequency == pytest.approx(1.0 / cycle, rel=2e-3)
-
-
-def test_teeth_are_named_sun_first():
-    found = describe_meshes(PAPER)
-    assert (found.sun_planet.teeth, found.planet_ring.teeth) == ((30, 20), (20, 70))
 
 
 @pytest.mark.parametrize("name", ["paper", "reference_gearbox_stage", "wind_turbine_stage"])
@@ -230,20 +213,20 @@ SEVEN = {"lubrication.traction": "table", "lubrication.friction_table": {"coeffi
 
 @BOTH
 @pytest.mark.parametrize("name", ["paper", "helical_stage", "wind_turbine_stage"])
-def test_mean_friction_of_a_constant_coefficient_is_this_coefficient(kind, name):
+def test_mean_friction_of_a_constant_coefficient_is_it(kind, name):
     """Whatever loads the pairs have: entering teeth carry less, ends of contact lines more."""
     assert of(kind, pt.load_scene(name), **SEVEN).friction == pytest.approx(0.07, rel=1e-8)
 
 
 @BOTH
-def test_loads_that_pairs_share_equally_have_the_loss_factor_of_equal_loads(kind):
+def test_equal_loads_have_the_loss_factor_in_closed_form(kind):
     """As they do with a given stiffness if teeth enter at once."""
     found = of(kind, **{"mesh.ramp": 0.0})
     assert found.loaded_loss_factor == pytest.approx(found.loss_factor, rel=0.01)
 
 
 @BOTH
-def test_loss_factor_of_the_loads_is_that_of_evenly_loaded_lines_of_contact(kind):
+def test_loss_factor_of_loads_is_that_of_even_lines(kind):
     """Mean sliding over all lines of contact of helical teeth, by numbers; integer overlap ratio.
 
     With an overlap ratio of 1, the length of all lines is constant, so each part of the path of

@@ -39,7 +39,7 @@ def test_exponents_are_the_slopes_of_simulated_losses(traction):
     assert own.tooth_loss == pytest.approx(simulate(scene, 0.1).mean_power_loss, rel=0.02)
 
 
-def test_a_study_of_oils_by_a_law_that_favours_thick_ones_comes_with_a_sentence():
+def test_a_study_of_oils_names_a_law_that_favours_thick_ones():
     oils = [STAGE.replace(**{"lubrication.iso_vg": grade}) for grade in (150, 460)]
     hot = [STAGE, STAGE.replace(oil_temperature=353.15)]
     torques = [STAGE, STAGE.replace(input_torque=2e6)]
@@ -51,16 +51,8 @@ def test_the_regression_falls_with_its_published_exponent():
     assert oil_figures(STAGE).laws[1].viscosity_exponent == pytest.approx(-0.05, abs=1e-9)
 
 
-def test_where_the_law_of_the_scene_favours_thick_oils_a_sentence_says_so():
-    own, other = oil_figures(STAGE).laws
-    assert own.viscosity_exponent < other.viscosity_exponent - 0.1
-    assert "likely too thick" in [*oil_figures(STAGE).lines][-1]
-    by_regression = STAGE.replace(**{"lubrication.traction": "schlenk"})
-    assert not any("too thick" in line for line in oil_figures(by_regression).lines)
-
-
 @pytest.mark.parametrize("traction", MORE)
-def test_losses_of_meshes_are_beside_those_of_another_program_as_the_page_says(traction):
+def test_losses_are_near_those_of_another_program(traction):
     changes = {"lubrication.traction": traction, "input_torque": 3.94599e6}
     scene = load_scene("reference_gearbox_stage").replace(**changes)
     meshes, printed = describe_meshes(scene), sum(KISSSOFT.values())

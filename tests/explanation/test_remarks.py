@@ -65,7 +65,7 @@ def test_teeth_that_have_parted_are_not_clipped(heavy):
     assert set(clipped_friction(HEAVY, replace(heavy, mesh=heavy.mesh | parted)).values()) == {0.0}
 
 
-def test_neither_a_scene_without_friction_nor_the_printed_law_is_reported():
+def test_no_friction_and_the_printed_law_are_not_reported():
     for change in ({"lubrication.friction": False}, {"lubrication.traction": "printed"}):
         scene = LIGHT.replace(**change)
         assert list(remarks(scene, pt.simulate(scene, 0.006), 1e-4)) == []

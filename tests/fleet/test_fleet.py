@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-from fleet.fleets import Alternating, Played, paper
+from fleet.fleets import Played, paper
 from tiers import first
 
-import planetary_twin_py as pt
 from planetary_twin_py.fleet.cusums import Cusums, limit
 from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
-from planetary_twin_py.fleet.loss_table import loss_table
 
 OTHER = {"losses.planet_bearing": {"mean_diameter": 0.012}}
 
@@ -43,19 +41,9 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
 
 
-def test_the_share_of_a_step_and_the_smallest_step_do_not_depend_on_the_phase_of_the_duty():
-    played = Alternating(20, 8)
-    played.friction[:] = 1.0
-    fleet = followed(played, 2400, 1200)
-    shares = [event.share for event in fleet.events]
-    assert {event.gearbox for event in fleet.events} == set(range(10))
-    assert min(shares) > 0.0 and np.median(shares) > 0.06 and max(shares) < 0.11
-    assert np.ptp(fleet.scatter.step) < 0.03 * np.mean(fleet.scatter.step)
-
-
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("gain", [-0.1, 0.1])
-def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(gain):
+def test_a_wrong_gain_is_one_finding_of_one_gearbox(gain):
     played = Played(20, 1)
     played.gain[1][:5] += gain
     fleet = followed(played, 1800)
@@ -65,20 +53,13 @@ def test_a_sensor_with_a_wrong_gain_is_one_finding_and_leaves_the_others_alone(g
     assert np.isnan(level.value[:5]).all() and np.isfinite(level.value[5:]).all()
 
 
-@pytest.mark.exhaustive
-def test_slow_readings_show_a_step_too():
-    played = Played(100, 3, period=10.0)
-    fleet = followed(played, 1080, 360)
-    assert {event.gearbox for event in fleet.events} == set(range(10))
-
-
-def test_drag_zero_and_gain_are_not_identifiable_from_one_direction():
+def test_one_direction_identifies_neither_drag_nor_zero_nor_gain():
     fleet = followed(Played(20, 4), 300)
     for name in ("drag", "torque_zero", "torque_gain"):
         assert np.isnan(fleet.estimate(name).value).all()
 
 
-def test_missing_readings_of_one_gearbox_leave_the_others_as_they_are():
+def test_missing_readings_of_one_gearbox_change_no_other():
     whole, holes = Fleet(paper(), 5), Fleet(paper(), 5)
     played = Played(5, 5)
     for time in range(1, 200):
@@ -132,25 +113,17 @@ def test_wrong_rows_are_refused_in_one_line(change, message):
         fleet.add(change.get("time", 1.0), row)
 
 
-def test_a_period_out_of_range_is_refused():
-    with pytest.raises(ValueError, match=r"period = 0\.01 s: must be within 0\.1 and 60"):
-        Fleet(paper(), 3, 0.01)
-
-
 RPM = 30.0 / np.pi
 WRONG = {
     "reversed speed": ({"input_speed": -1.0}, "loss torque = -"),
-    "reversed torque": ({"output_torque": -1.0}, "output_torque/input_torque = -2."),
-    "torque in N mm": ({"output_torque": 1e3}, "exceeds 2 times drive.torque_limit"),
     "speed in rpm": ({"input_speed": 2.0 * RPM}, "exceeds 1.2 times drive.speed_limit"),
     "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, "is headed oil_temperature [degC]"),
-    "loss above the input power": ({"output_torque": -0.05}, "output_torque/input_torque"),
 }
 
 
 @pytest.mark.parametrize("begin", first(1, [0, 60]))
-@pytest.mark.parametrize("what", first(3, WRONG))
-def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what, begin):
+@pytest.mark.parametrize("what", WRONG)
+def test_a_gearbox_with_a_wrong_unit_has_no_estimates(what, begin):
     factors, said = WRONG[what]
     played, good, fleet = Played(4, 9), Fleet(paper(), 4), Fleet(paper(), 4)
     for time in range(1, 201):
@@ -179,7 +152,7 @@ def test_a_gearbox_with_a_wrong_unit_or_sign_is_named_and_has_no_estimates(what,
         ),
     ],
 )
-def test_a_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
+def test_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
     fleet, played = Fleet(paper(), 3), Played(3, 11)
     for time in range(1, 101):
         row = played.row(float(time))
@@ -192,55 +165,11 @@ def test_a_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said)
     assert said in line
 
 
-def test_good_readings_with_gaps_contradict_nothing():
-    fleet, played = Fleet(paper(), 50), Played(50, 10)
-    for time in range(1, 301):
-        row = played.row(float(time))
-        row["input_torque"][played.chance.random(50) < 0.2] = np.nan
-        fleet.add(float(time), row)
-    fleet.finish()
-    assert not fleet.faults
-
-
-def test_a_single_row_with_impossible_readings_is_no_fault_and_has_no_temperature():
-    fleet, played = Fleet(paper(), 4), Played(4, 2)
-    for time in range(1, 301):
-        row = played.row(float(time))
-        if time == 100:
-            row["oil_temperature"][0], row["oil_temperature"][1] = 0.0, 900.0
-            row["input_speed"][2] = 1e4
-        fleet.add(float(time), row)
-    fleet.finish()
-    assert not fleet.faults
-    assert np.isfinite(fleet.estimate("friction_level").value).all()
-
-
-@pytest.mark.exhaustive
-def test_a_step_that_is_found_while_a_reading_is_missing_has_its_share():
-    """The share is that of the same step without the gap, within the scatter of the torque."""
-    whole = followed(Played(20, 2), 2400, 1200)
-    gap = max(event.found for event in whole.events if event.gearbox == 3)
-    played, fleet = Played(20, 2), Fleet(paper(), 20)
-    for time in range(1, 2401):
-        if time == 1200:
-            played.friction[:10] *= 1.1
-        row = played.row(float(time))
-        if time == gap:
-            row = {name: np.where(np.arange(20) == 3, np.nan, row[name]) for name in row}
-        fleet.add(float(time), row)
-    (found,) = (event for event in fleet.events if event.gearbox == 3)
-    (expected,) = (event for event in whole.events if event.gearbox == 3)
-    assert found.found == gap and found.share == pytest.approx(expected.share, rel=0.2)
-    assert fleet.missing.tolist() == [0, 0, 0, 1, *[0] * 16]
-    assert fleet.first_missing[3] == gap and np.isnan(fleet.first_missing[2])
-
-
 @pytest.mark.parametrize(
     ("channel", "value"),
-    [("input_torque", -9999.0), ("output_torque", 0.0), ("output_torque", 0.3),
-     ("input_torque", 1e6), ("input_speed", -9999.0 / RPM)],
-)  # fmt: skip
-def test_readings_that_no_machine_has_are_left_out_and_change_nothing(channel, value):
+    [("input_torque", -9999.0), ("output_torque", 0.0), ("input_speed", -9999.0 / RPM)],
+)
+def test_impossible_readings_are_left_out_and_change_nothing(channel, value):
     played, good, fleet = Played(3, 12), Fleet(paper(), 3), Fleet(paper(), 3)
     for time in range(1, 401):
         row = played.row(float(time))
@@ -258,21 +187,3 @@ def test_readings_that_no_machine_has_are_left_out_and_change_nothing(channel, v
     (line,) = fleet.remarks(1)
     assert line.startswith(f"{channel}: left out, because ")
     assert "from 201.00 to 220.00 s (20 readings, rows 201 to 220)" in line
-
-
-def test_a_fleet_keeps_growth_of_a_loss_of_half_the_torque():
-    """The scene alone loses 54 % of this torque; two of three gearboxes lose 72 %."""
-    scene = pt.load_scene("compact_actuator").replace(input_torque=0.2)
-    table, fleet, chance = loss_table(scene), Fleet(scene, 3), np.random.default_rng(3)
-    torque, speed, oil = np.full(3, 0.2), np.full(3, 15.08), np.full(3, 298.0)
-    lost = sum(table(torque, speed, oil)) + np.array([0.0, 0.036, 0.036])
-    for time in range(1, 121):
-        noise = 1e-3 * chance.standard_normal((2, 3))
-        row = {"input_torque": torque + noise[0], "input_speed": speed, "oil_temperature": oil}
-        output = (lost - torque) / fleet.train.ratio + noise[1]
-        output[2] *= not 60 < time <= 70
-        fleet.add(float(time), row | {"output_torque": output})
-    fleet.finish()
-    assert not fleet.faults and fleet.missing.tolist() == [0, 0, 10]
-    assert not any("left out" in line for n in (0, 1) for line in fleet.remarks(n))
-    assert any("0 N m from 61.00 to 70.00 s" in line for line in fleet.remarks(2))

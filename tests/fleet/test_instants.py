@@ -5,11 +5,10 @@ import csv
 import numpy as np
 import pytest
 from command_line import run
-from fleet.fleets import Played, paper
+from fleet.fleets import Played
 from fleet.instants import Wandering
 from tiers import first_rows
 
-from planetary_twin_py import load_scene
 from planetary_twin_py.fleet.fleet import Fleet
 from planetary_twin_py.fleet.scatter import BALANCES, RARE
 from planetary_twin_py.fleet.tables import read_fleet
@@ -37,7 +36,7 @@ def test_instants_give_no_false_alarm_and_intervals_that_hold(period, wander):
     assert known.all() or period == 10.0  # too few rows for the friction level of some
 
 
-def test_means_over_much_longer_than_the_wander_have_the_stated_scatter():
+def test_means_over_much_longer_than_wander_have_stated_scatter():
     played = Wandering(10, 2, 0.001)
     scatter = followed(played, 60.0, 1800.0, mean=True).scatter
     assert not scatter.excessive.any()
@@ -66,39 +65,6 @@ def test_the_gain_of_a_sensor_is_no_scatter_and_noise_is():
     assert fleet.scatter.measured[5:10] == pytest.approx(0.62, rel=0.5)
 
 
-def test_a_steady_torque_does_not_hide_the_scatter():
-    fleet, chance = Fleet(paper(), 2, 10.0), np.random.default_rng(6)
-    for number in range(1, BALANCES + 1):
-        torque = np.full(2, 63.0) + 1.0 * chance.standard_normal(2) * [0.0, 1.0]
-        fleet.add(
-            10.0 * number,
-            {
-                "input_torque": torque,
-                "output_torque": np.full(2, 145.0) + 0.2 * chance.standard_normal(2),
-                "input_speed": np.full(2, 104.7),
-            },
-        )
-    assert fleet.scatter.excessive.tolist() == [False, True]
-    assert fleet.scatter.measured[1] == pytest.approx(0.9, rel=0.4)
-
-
-def test_a_wild_row_is_no_scatter():
-    played = Played(3, 7, period=10.0)
-    fleet = Fleet(played.scene, 3, 10.0)
-    for number in range(1, BALANCES + 1):
-        row = played.row(10.0 * number)
-        if number == 7:
-            row["input_torque"][1] = 1e4
-        fleet.add(10.0 * number, row)
-    assert not fleet.scatter.excessive.any()
-
-
-def test_a_short_table_is_judged_at_its_end():
-    fleet = followed(Wandering(3, 8, 0.01), 10.0, 120.0)
-    assert fleet.scatter.excessive.all()
-    assert np.isnan(fleet.estimate("friction_level").value).all() and not fleet.readings.any()
-
-
 def write(path, rows):
     with path.open("w", newline="") as file:
         table = csv.writer(file)
@@ -106,7 +72,7 @@ def write(path, rows):
         table.writerows(rows)
 
 
-def test_the_command_names_the_gearboxes_and_the_steps_that_are_hidden(tmp_path):
+def test_command_names_gearboxes_and_the_steps_that_are_hidden(tmp_path):
     path, played = tmp_path / "scada.csv", Wandering(2, 9, 0.01)
     write(
         path,
@@ -131,17 +97,3 @@ def test_gearboxes_with_rows_at_different_times_are_refused(tmp_path):
     with pytest.raises(ValueError, match=r"rows at different times: .* multiples of 10 s"):
         read_fleet(path, ("A", "B"))
     assert len(read_fleet(path, ("B",)).time) == 9
-
-
-def test_the_smallest_step_follows_from_the_stated_noise_where_the_balances_scatter_less():
-    fleet = Fleet(load_scene("paper"), 1)
-    for second in range(1, 121):  # the same readings again and again: no scatter
-        ends = {"input_torque": np.array([63.0]), "output_torque": np.array([144.8])}
-        fleet.add(float(second), ends | {"input_speed": np.array([104.72])})
-    scatter = fleet.scatter
-    losses = fleet.table(
-        np.array([63.0]), np.array([104.72]), np.array([fleet.train.oil_temperature])
-    )
-    assert scatter.measured < 1e-6 * scatter.stated
-    loss = losses.teeth + losses.rest
-    assert scatter.step == pytest.approx(3.0 * scatter.stated / np.sqrt(60.0) / loss, rel=1e-6)

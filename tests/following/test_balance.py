@@ -6,16 +6,7 @@ from following.plants import LAWS, balance_of, friction_level, paper, played
 from tiers import first
 
 from planetary_twin_py.following.balance import BalanceFollower
-from planetary_twin_py.following.balance_filter import (
-    CAUSES,
-    BalanceFilter,
-    Measured,
-    alarm_memory,
-)
-from planetary_twin_py.following.checks import InputError
-from planetary_twin_py.following.loss_map import loss_map
-from planetary_twin_py.following.sensors import Sensors
-from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.following.balance_filter import CAUSES
 
 RPM = 30.0 / np.pi
 DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found
@@ -47,11 +38,6 @@ def test_steady_running_does_not_show_the_cause_of_a_step():
     assert set(follower.events[0].causes) == set(CAUSES)
 
 
-def test_a_moved_zero_is_distinguished_from_friction_where_the_torque_reverses():
-    _, follower = balance_of("reversing", {}, 90.0, 1, ({"at": 40.0, "torque_zero": 0.3},))
-    assert "friction" not in follower.events[0].causes
-
-
 @pytest.mark.parametrize("law", first(1, reversed(LAWS)))
 def test_a_reversing_duty_determines_friction_to_some_percent(law):
     plant, follower = balance_of("reversing", LAWS[law], 60.0, 5)
@@ -60,7 +46,7 @@ def test_a_reversing_duty_determines_friction_to_some_percent(law):
     assert friction.low < friction_level(plant) < friction.high
 
 
-def test_steady_running_determines_neither_drag_nor_zero_nor_gain_nor_inertia():
+def test_steady_running_does_not_determine_drag_or_gain():
     _, follower = balance_of("steady", {}, 60.0, 5)
     found = named(follower)
     for name in ("drag", "torque_zero", "torque_gain", "inertia"):
@@ -76,20 +62,12 @@ def test_a_changing_speed_determines_the_inertia():
     assert inertia.low < follower.train.inertia < inertia.high
 
 
-def test_the_inertia_is_not_biased_by_accelerations_that_change_within_a_bin():
+def test_accelerations_within_a_bin_do_not_bias_the_inertia():
     errors = []
     for seed in range(24):
         _, follower = balance_of("varied", {}, 60.0, seed)
         errors.append(named(follower)["inertia"].value / follower.train.inertia - 1.0)
     assert abs(np.mean(errors)) < 5e-3  # of one run: 1e-2
-
-
-@pytest.mark.exhaustive
-def test_inertia_is_not_distinguished_from_the_noise_of_a_steady_speed():
-    _, follower = balance_of("reversing", {}, 200.0, 5)
-    inertia = named(follower)["inertia"]
-    assert inertia.status == "NOT_IDENTIFIABLE"
-    assert inertia.sd > 0.9 * 0.1 * follower.train.inertia
 
 
 def test_the_loss_torque_is_that_of_the_plant():
@@ -104,29 +82,15 @@ def test_before_readings_everything_is_being_learned():
     assert {one.status for one in found} == {"LEARNING"}
 
 
-def test_readings_of_another_machine_are_an_event():
-    _, time, columns = played("steady", {}, 60.0, 4)
-    columns["output_torque"] = np.where(
-        time > 30.0, 0.97 * columns["output_torque"], columns["output_torque"]
-    )
-    follower = BalanceFollower(paper())
-    follower.add(time, columns)
-    assert any(30.0 <= event.found < 34.0 for event in follower.events)
-
-
 WRONG = {  # sensors far out of their stated accuracy, and a true cause
     "gain +10 %": ({"input_torque": {"noise": 0.1, "gain": 0.1}}, "gain of a torque sensor"),
-    "output gain -10 %": ({"output_torque": {"noise": 0.25, "gain": -0.1}},
-                          "gain of a torque sensor"),
-    "gain +3 %": ({"input_torque": {"noise": 0.1, "gain": 0.03}}, "gain of a torque sensor"),
-    "gain +5 %": ({"input_torque": {"noise": 0.1, "gain": 0.05}}, "gain of a torque sensor"),
     "zero +2 N m": ({"input_torque": {"noise": 0.1, "zero": 2.0}}, "zero of a torque sensor"),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", first(1, DELAYS))
-@pytest.mark.parametrize("wrong", first(2, WRONG))
-def test_a_sensor_that_is_wrong_from_the_start_is_one_finding_with_its_cause(kind, wrong):
+@pytest.mark.parametrize("wrong", WRONG)
+def test_a_sensor_wrong_from_the_start_is_one_finding(kind, wrong):
     sensors, cause = WRONG[wrong]
     plant, time, columns = played(kind, {}, 60.0, 1, sensors=sensors)
     follower = BalanceFollower(paper())
@@ -152,17 +116,7 @@ def test_a_gain_that_changes_during_the_run_is_one_event(kind):
     assert "gain of a torque sensor" in event.causes
 
 
-@pytest.mark.parametrize("kind", first(1, ["varied", "reversing"]))
-def test_a_dead_torque_sensor_is_named_and_gives_no_event(kind):
-    _, time, columns = played(kind, {}, 120.0, 4)
-    columns["input_torque"] = np.where(time > 30.0, 0.0, columns["input_torque"])
-    follower = BalanceFollower(paper())
-    follower.add(time, columns)
-    assert not follower.events
-    assert any("input_torque: left out" in line for line in follower.remarks())
-
-
-def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
+def test_repeated_steps_give_three_events_at_most():
     _, time, columns = played("steady", {}, 100.0, 4)
     gain = 1.0 + 0.04 * np.sign(np.sin(2.0 * np.pi * (time - 30.0) / 30.0)) * (time > 30.0)
     columns["input_torque"] = gain * columns["input_torque"]
@@ -172,17 +126,8 @@ def test_a_torque_that_steps_again_and_again_gives_three_events_at_most():
     assert len(follower.events) == 3 and last.causes == () and "stepped 3 times" in last.what
 
 
-def test_a_gain_that_makes_the_loss_negative_is_named():
-    _, time, columns = played(
-        "steady", {}, 10.0, 1, sensors={"input_torque": {"noise": 0.1, "gain": -0.1}}
-    )
-    follower = BalanceFollower(paper())
-    with pytest.raises(InputError, match=r"loss torque = -.*gains of both torques right"):
-        follower.add(time, columns)
-
-
 @pytest.mark.parametrize("channel", ["input_speed", "oil_temperature"])
-def test_a_wrong_gain_of_speed_or_temperature_is_no_storm_of_events(channel):
+def test_wrong_gains_of_speed_or_oil_give_no_storm_of_events(channel):
     _, time, columns = played("varied", {}, 60.0, 1)
     columns[channel] = 1.05 * columns[channel]
     del columns["output_speed"]  # with both speeds, their ratio is refused
@@ -233,34 +178,6 @@ def test_no_false_alarm_in_ten_minutes_of_each_duty():
         assert not follower.events
 
 
-def test_the_balance_of_readings_changes_nothing_and_a_reading_without_noise_explains_it():
-    """i T_l = -T + L(T, w): the readings are computed from the loss map, not by the filter."""
-    train, losses = followed_train(paper()), loss_map(paper())
-    oil = paper().operating_point.oil_temperature
-    balances = BalanceFilter(train, losses, Sensors(), alarm_memory(train))
-    for time, torque in enumerate((63.0, 50.0)):
-        loss = losses(torque, train.speed, oil)
-        read = Measured(
-            float(time), torque, (loss.teeth + loss.rest - torque) / train.ratio, (10, 10),
-            train.speed, 0.0, 0.0, oil,
-        )  # fmt: skip
-        before = balances.x.copy(), balances.p.copy()
-        found = balances.balance(read)
-        assert (balances.x == before[0]).all() and (balances.p == before[1]).all()
-        assert found.value == pytest.approx(0.0, abs=1e-6 * torque)
-        assert found.added[0] == pytest.approx(loss.teeth)
-        balances.update(read)
-
-
-def test_a_decrease_by_more_than_all_friction_is_not_one_of_friction():
-    _, time, columns = played("steady", {}, 60.0, 1)
-    columns["input_torque"] = columns["input_torque"] - np.where(time > 30.0, 1.5, 0.0)
-    follower = BalanceFollower(paper())
-    follower.add(time, columns)
-    (event,) = follower.events
-    assert event.size.value < -1.2 and event.causes and "friction" not in event.causes
-
-
 @pytest.mark.parametrize(
     "factors, question",
     [
@@ -282,16 +199,6 @@ def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
     lines = [line for line in follower.remarks() if "unit" in line]
     assert len(lines) == (question is not None)
     assert all(question in line for line in lines)
-
-
-def test_a_gearbox_at_standstill_and_a_scene_without_load_cause_no_question_about_units():
-    _, time, columns = played("steady", {}, 8.0, 1)
-    zero = {name: 0.0 * values for name, values in columns.items() if name != "oil_temperature"}
-    unloaded = paper().replace(input_torque=0.0, input_speed=0.0)
-    for scene, readings in ((paper(), columns | zero), (unloaded, columns)):
-        follower = BalanceFollower(scene)
-        follower.add(time, readings)
-        assert not any("unit" in line for line in follower.remarks())
 
 
 @pytest.mark.exhaustive

@@ -24,7 +24,7 @@ def amplitudes(orders, gain):
 
 @pytest.mark.parametrize("orders", [(1,), (2,), (3,), (2, 3), (1, 2, 3)])
 @pytest.mark.parametrize("gain", [0.9985, 1.0, 1.001])
-def test_the_lowest_mesh_order_that_the_sensor_shows_scales_the_speed(orders, gain):
+def test_lowest_mesh_order_that_sensor_shows_scales_the_speed(orders, gain):
     found, _ = amplitudes(orders, gain)
     for order in range(1, HARMONICS + 1):
         assert found[0, order - 1] == pytest.approx(float(order in orders), abs=0.03)

@@ -15,7 +15,6 @@ RPM = 30.0 / np.pi
 SPEEDS, TORQUES = r"output_speed/input_speed = ", r"output_torque/input_torque = "
 WRONG = {
     "speed of the output in rpm": ({"output_speed": RPM}, SPEEDS + r"-4\.09.: must be -0\.4286"),
-    "speed of the input in rpm": ({"input_speed": RPM}, SPEEDS + r"-0\.04488: must be -0\.4286"),
     "both in rpm": (
         {"input_speed": RPM * 2, "output_speed": RPM * 2},
         r"readings: exceeds 1\.2 times drive\.speed_limit.*is it in rad/s\?",
@@ -25,22 +24,11 @@ WRONG = {
     "both torques reversed": (
         {"input_torque": -1.0, "output_torque": -1.0}, "loss torque = -.*must be positive",
     ),
-    "both speeds reversed": (
-        {"input_speed": -1.0, "output_speed": -1.0}, "loss torque = -.*must be positive",
-    ),
     "torque in N mm": ({"output_torque": 1e3}, r"output_torque = .*exceeds 2 times"),
-    "torque in kN m": ({"input_torque": 1e-3}, TORQUES),
-    "output torque in lbf in": ({"output_torque": 8.8507}, TORQUES),
-    "input torque in lbf in": ({"input_torque": 8.8507}, TORQUES),
     "input torque in lbf ft": ({"input_torque": 0.73756}, "loss torque = -.*must be positive"),
     "output torque in kgf m": ({"output_torque": 0.10197}, TORQUES),
-    "input torque in kgf cm": ({"input_torque": 10.197}, TORQUES),
-    "both torques in N mm": (
-        {"input_torque": 1e3, "output_torque": 1e3}, r"input_torque = .* N m in .*exceeds 2 times",
-    ),
     "degrees Celsius": ({"oil_temperature": 70.0 / 343.15}, r"is headed oil_temperature \[degC\]"),
     "exchanged shafts": ({"input_speed": -3 / 7, "output_speed": -7 / 3}, SPEEDS + r"-2\.333"),
-    "exchanged torques": ({"input_torque": 7 / 3, "output_torque": 3 / 7}, TORQUES),
 }  # fmt: skip
 
 
@@ -59,66 +47,13 @@ def test_it_is_refused_in_one_line(readings, what):
     assert "\n" not in str(error.value)
 
 
-def test_no_line_guesses(readings):
-    time, columns = readings
-    for factors, _ in WRONG.values():
-        wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
-        with pytest.raises(InputError) as error:
-            Follower(paper()).add(Readings(time, wrong))
-        assert not re.search("probably|seem|likely", str(error.value))
-
-
-@pytest.mark.parametrize("duty", ["steady", "reversing"])
-@pytest.mark.parametrize("seed", range(3))
-def test_a_loss_within_the_errors_of_the_sensors_is_accepted(duty, seed):
-    _, time, columns = played(duty, {}, 8.0, seed)
-    Follower(paper()).add(Readings(time, columns))
-
-
-def test_a_run_up_that_begins_in_the_last_row_contradicts_nothing():
-    time = np.arange(1, 3006) / 100.0
-    follower, torque = Follower(paper()), np.where(time > 30.0, 63.0, 0.0)
-    speed = torque / follower._balance.train.inertia * np.maximum(time - 30.0, 0.0)
-    columns = {"input_torque": torque, "output_torque": np.zeros(len(time)), "input_speed": speed}
-    follower.add(Readings(time, columns))
-    follower.finish()
-    assert not [line for line in follower.estimate().remarks if "contradict" in line]
-
-
-def test_a_coasting_train_is_no_reversed_one():
-    speed = np.linspace(104.7, 60.0, 700)  # the motor brakes and the load gives its inertia
-    follower = Follower(paper())
-    torque = 0.4 + follower._balance.train.inertia * np.gradient(speed, 0.01)
-    columns = {
-        "input_torque": torque,
-        "output_torque": np.zeros(len(speed)),
-        "input_speed": speed,
-    }
-    follower.add(Readings(np.arange(1, 701) / 100.0, columns))
-
-
-def test_a_recording_shorter_than_the_check_is_checked_at_its_end(readings):
+def test_recording_shorter_than_the_check_is_checked_at_its_end(readings):
     time, columns = readings
     short = {name: values[:300] for name, values in columns.items()}
     follower = Follower(paper())
     follower.add(Readings(time[:300], short | {"output_speed": -short["output_speed"]}))
     with pytest.raises(InputError, match="output_speed/input_speed"):
         follower.finish()
-
-
-def test_good_readings_pass(readings):
-    follower = Follower(paper())
-    follower.add(Readings(*readings))
-    follower.finish()
-    counters = follower.estimate().counters
-    assert counters["used"] + counters["outlying"] == 5 * 800
-
-
-def test_kelvin_taken_for_degrees_celsius_is_named(readings):
-    time, columns = readings
-    warm = np.full(len(time), 343.15 + 273.15)
-    with pytest.raises(InputError, match="messages are in degrees Celsius"):
-        Follower(paper()).add(Readings(time, columns | {"oil_temperature": warm}))
 
 
 def from_second(second, time, columns, factors):
@@ -146,7 +81,7 @@ LATE = [what for what in WRONG if what != "degrees Celsius"]
 
 
 @pytest.mark.parametrize("what", first(3, LATE))
-def test_it_is_refused_too_if_the_train_turns_only_after_a_minute(readings, what):
+def test_it_is_refused_too_if_train_turns_only_after_a_minute(readings, what):
     factors, said = WRONG[what]
     time, columns = at_rest_first(readings, 60)
     wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
@@ -166,19 +101,19 @@ def become_wrong(what):
     return follower.estimate().remarks
 
 
-def test_speeds_that_become_wrong_during_the_run_are_a_remark_with_their_time():
+def test_speeds_that_become_wrong_are_a_remark_with_the_time():
     what = "speed of the output in rpm"
     (line,) = (line for line in become_wrong(what) if re.search(WRONG[what][1], line))
     assert line.startswith("readings after 10.0 s contradict the scene")
 
 
-def test_a_torque_that_becomes_wrong_during_the_run_is_left_out_with_its_time():
+def test_a_torque_that_becomes_wrong_is_left_out_with_its_time():
     (line,) = become_wrong("reversed torque")
     assert line.startswith("output_torque: left out, because both torques show a loss that no")
     assert "from 12.00 to 30.10 s (1800 readings)" in line
 
 
-def test_a_temperature_that_becomes_impossible_is_a_remark_and_not_used():
+def test_an_impossible_temperature_is_a_remark_and_not_used():
     time, columns = played("steady", {}, 20.0)[1:]
     wrong = np.where(time > 12.0, 70.0, 343.15)
     follower = Follower(paper())
@@ -198,7 +133,7 @@ def test_good_readings_cause_no_remark_in_two_minutes(duty):
     assert not any("contradict" in line for line in follower.estimate().remarks)
 
 
-def test_a_run_up_whose_torque_accelerates_the_train_is_no_contradiction():
+def test_a_run_up_that_takes_all_torque_is_no_contradiction():
     """All torque goes to the inertia: T = J a in closed form, with a loss of 0.3 N m."""
     inertia, time = 5.0, np.arange(1, 1401) / 100.0
     speed = np.minimum(10.5 * time, 104.7)

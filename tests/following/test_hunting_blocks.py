@@ -37,7 +37,7 @@ def wave(cycles):
     return 2e-6 * np.sin(2 * np.pi * cycles) + 5e-6 * np.sin(cycles / 300.0) + 1e-7 * deep
 
 
-def test_slow_and_common_parts_are_subtracted_and_one_tooth_remains():
+def test_slow_and_common_parts_leave_one_tooth():
     blocks, _ = blocks_of(counts_of(wave))
     assert len(blocks) == 2  # of three and a half hunting periods; the first taught the waveform
     deviation = blocks[0].deviation
@@ -75,19 +75,6 @@ def test_packets_out_of_order_are_put_in_order():
     blocks += found.finish()
     assert found.counters.late == 0 and found.counters.lost == 0
     assert np.array_equal(blocks[0].deviation, blocks_of(counts)[0][0].deviation)
-
-
-def test_doubled_and_late_packets_are_counted():
-    counts = counts_of(wave)
-    found = HuntingBlocks(TRAIN, (N, N), 1.0 / RATE)
-    rows = np.arange(len(counts))
-    list(found.add(rows[:20_000], counts[:20_000]))
-    list(found.add(rows[19_900:20_000], counts[19_900:20_000]))
-    list(found.add(rows[:100], counts[:100]))
-    list(found.add(rows[20_000:], counts[20_000:]))
-    list(found.finish())
-    assert found.counters.doubled == 100 and found.counters.late == 100
-    assert found.counters.used == len(counts)
 
 
 def test_a_gap_masks_the_bins_near_it():

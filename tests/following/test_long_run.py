@@ -12,8 +12,6 @@ from planetary_twin_py.following.clock_watch import ClockWatch
 from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
 from planetary_twin_py.following.hunting_blocks import BINS, MARGIN, MOST, HuntingBlocks
 from planetary_twin_py.following.sensors import Sensors
-from planetary_twin_py.following.teeth import WAITING
-from planetary_twin_py.following.tooth_kind import ToothKind
 from planetary_twin_py.following.vibration import VibrationFollower
 
 RATE = 2000.0  # [Hz] of the encoders
@@ -78,18 +76,6 @@ def test_the_watch_of_a_clock_does_not_grow():
     assert max(sizes[1000:]) == pytest.approx(max(sizes[:1000]), abs=10)
 
 
-def test_samples_without_readings_do_not_fill_the_memory():
-    follower = Follower(SCENE, Sensors(learning=8), EncoderFormat((N, N), 1.0 / RATE))
-    chance = np.random.default_rng(0)
-    filled = round((WAITING + 3) * HUNTING)
-    followed(follower, 0, filled, chance, measured=False)
-    before = held(follower)
-    followed(follower, filled, 2 * filled, chance, measured=False)
-    assert held(follower) < 1.05 * before
-    dropped = follower.estimate().counters["encoder_dropped_blocks"]
-    assert dropped == pytest.approx(filled / HUNTING, abs=4)
-
-
 def test_vibration_without_readings_does_not_fill_the_memory():
     follower = VibrationFollower(TRAIN, ("x",), 1e-3, 8)
     sizes = []
@@ -117,34 +103,3 @@ def test_a_train_at_rest_does_not_fill_the_memory(moved):
     most = 2 * MOST * BINS * (TRAIN.hunting_cycles + 2 * MARGIN) + 2 * FAST  # samples
     assert max(sizes) < 32 * most  # number, cycle, part and error of each have 8 bytes
     assert max(sizes[60:]) < 1.1 * max(sizes[:60])
-
-
-def test_a_block_of_a_slow_train_is_thinned_evenly():
-    """21 s in a hunting period: 50 samples in a bin, of which a quarter is kept."""
-    counts = counts_of(wave, cycles_per_second=20.0, duration=60.0)
-
-    def first(parts, most):
-        blocks, held = HuntingBlocks(TRAIN, (N, N), 1.0 / FAST), 0
-        blocks._most_samples = most or blocks._most_samples
-        for rows in np.array_split(np.arange(len(counts)), parts):
-            found = list(blocks.add(rows, counts[rows]))
-            held = max(held, sum(len(numbers) for numbers, _ in blocks._samples))
-            if found:
-                return found[0], held
-        return next(blocks.finish()), held
-
-    (thinned, held_), (at_once, _), (whole, every) = first(400, 0), first(1, 0), first(400, 10**9)
-    assert every > 420_000 > 1.4 * held_
-    assert np.array_equal(thinned.deviation, at_once.deviation)
-    assert thinned.measured.all()
-    # The error of a bin goes with its samples: that of the mean angle of 12 of them.
-    assert np.max(np.abs(thinned.deviation - whole.deviation)) < 4e-9
-
-
-def test_the_kind_of_a_tooth_needs_sums_only():
-    kind = ToothKind(24)
-    kind.add(0, 60.0, 0.01, 1e-3)
-    before = held(kind)
-    for _ in range(1000):
-        kind.add(0, 60.0, 0.01, 1e-3)
-    assert held(kind) - before < 10

@@ -34,16 +34,7 @@ def test_the_size_and_the_start_hold_the_truth_in_19_of_20_runs():
     assert np.mean([one.first <= AT for one in found]) > 0.95
 
 
-def test_a_step_of_either_sign_has_the_same_size():
-    rows = balances("drag", varied=False)
-    one, other = (
-        size_of([row._replace(value=sign * row.value) for row in rows], np.zeros((7, 7)))
-        for sign in (1.0, -1.0)
-    )
-    assert (one.size, one.sd) == (-other.size, other.sd)
-
-
-def test_the_balances_before_the_step_limit_the_error_of_the_parameters():
+def test_balances_before_step_limit_the_error_of_the_parameters():
     covariance = np.diag([0.0, 0.03**2, 0.0, 0.0, 0.0, 0.0, 0.0])
     rows = balances("drag", varied=False)
     sharp, wide = (size_of(rows, one).sd for one in (np.zeros((7, 7)), covariance))
@@ -51,7 +42,7 @@ def test_the_balances_before_the_step_limit_the_error_of_the_parameters():
     assert wide == pytest.approx(np.hypot(sharp, before), rel=0.03)
 
 
-def test_the_start_of_a_change_of_friction_is_sought_where_friction_is():
+def test_start_of_change_of_friction_is_sought_where_friction_is():
     """A step at low torque hardly shows: its start is stated no later than where it happened."""
     found = [size_of(balances("friction", 200, seed), np.zeros((7, 7))) for seed in range(200)]
     assert np.mean([one.first <= AT for one in found]) > 0.95
@@ -65,51 +56,9 @@ def test_reversals_and_loads_show_the_cause(cause):
     assert found.causes == (cause,)
 
 
-@pytest.mark.parametrize("cause", CAUSES)
-def test_no_cause_is_excluded_where_the_parameters_explain_it(cause):
-    found = StepCause(0.0, np.eye(7))
-    for row in balances(cause, 1500)[AT:]:
-        found.add(row)
-    assert set(found.causes) == set(CAUSES)
-
-
-def test_a_cause_that_is_impossible_is_not_named_however_well_it_fits():
+def test_an_impossible_cause_is_never_named():
     found = StepCause(0.0, 1e-10 * np.eye(7), CAUSES[1:])
     assert found.causes == CAUSES[1:]
     for row in balances(CAUSES[0], 1500)[AT:]:
         found.add(row)
     assert found.causes and CAUSES[0] not in found.causes
-
-
-def of_a_wind_turbine(torque, unit=1.0):
-    """Balances with a torque in N m over `unit`, and the covariance of the parameters."""
-    units = np.array([1.0, unit, unit, 1.0, unit, 1.0, 1.0])
-    sd = np.array([0.3, 5e2, 5e2, 1e-4, 1e5, 0.2, 0.3]) / units
-    chance = np.random.default_rng(1)
-    found = []
-    for value in torque:
-        friction = 0.01 * value
-        slope = np.array([friction, 1.0, 1.0, value, 0.0, friction, -friction]) / unit
-        slope[[1, 2, 4]] *= unit  # derivatives over parameters that are torques have no unit
-        added = np.array([friction / unit, 1.0, 1.0, value / unit])
-        value = (100.0 * chance.standard_normal() + 0.1 * friction) / unit
-        found.append(Balance(value, 100.0 / unit, slope, added))
-    return found, np.diag(sd**2)
-
-
-def causes_of(rows, covariance):
-    found = StepCause(0.0, covariance)
-    for row in rows:
-        found.add(row)
-    return found.causes
-
-
-def test_a_steady_load_of_a_million_newton_metres_excludes_no_cause():
-    assert set(causes_of(*of_a_wind_turbine(np.full(25, 1e6)))) == set(CAUSES)
-
-
-def test_the_size_and_the_causes_do_not_depend_on_the_unit_of_torque():
-    torque = np.linspace(1e5, 1e6, 60)
-    one, other = of_a_wind_turbine(torque), of_a_wind_turbine(torque, 1e6)
-    assert causes_of(*one) == causes_of(*other)
-    assert size_of(*one).size == pytest.approx(1e6 * size_of(*other).size, rel=1e-6)

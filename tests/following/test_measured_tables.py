@@ -1,7 +1,6 @@
 """Tables of readings: what is read twice, too large or not at all is refused."""
 
 import re
-from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
@@ -10,11 +9,7 @@ from pyarrow import parquet
 from scipy.io import savemat
 
 from planetary_twin_py.fleet.tables import read_fleet
-from planetary_twin_py.following.measured_tables import (
-    read_encoders,
-    read_readings,
-    read_vibration,
-)
+from planetary_twin_py.following.measured_tables import read_encoders, read_readings, read_vibration
 from planetary_twin_py.following.sensors import read_sensors
 from planetary_twin_py.plant.hidden import read_hidden
 from planetary_twin_py.recording.tables.measurements import read_measurements
@@ -47,69 +42,16 @@ def test_a_channel_is_given_once_in_one_unit(write, twice):
         read_readings(named, {"input_torque": "T1"})
 
 
-def test_numbers_of_which_squares_have_no_sum_are_refused_by_row(write):
-    table = write(HEADING, "A,0,60,-140,100", "A,1e300,60,-140,100")
-    line = r"row 2: time = 1e\+300: its magnitude must be at most 9e\+15 s; is the unit right"
-    with pytest.raises(ValueError, match=line):
-        read_readings(table, {})
-    with pytest.raises(ValueError, match="row 1: input_counts = 1e"):
-        read_encoders(write("sample,input_counts,output_counts", "0,1e300,0"), 5e-5)
-
-
 def test_a_table_without_a_reading_is_refused(write):
     for rows in ((), ("A,0,,,", "A,1,nan,nan,nan"), ("A,,60,-140,100",)):
         with pytest.raises(ValueError, match="has no row with a time and a reading"):
             read_readings(write(HEADING, *rows), {})
 
 
-def test_a_table_without_a_sample_of_the_encoders_is_refused(write):
-    with pytest.raises(ValueError, match="has no rows"):
-        read_encoders(write("sample,input_counts,output_counts"), 5e-5)
-
-
 @pytest.mark.parametrize("count", ["inf", "-inf", "nan", "0.5"])
 def test_counts_of_encoders_are_whole_numbers(write, count):
     with pytest.raises(ValueError, match=rf"row 2: input_counts = {count}: must be a whole number"):
         read_encoders(write("sample,input_counts,output_counts", "0,0,0", f"1,{count},0"), 5e-5)
-
-
-def test_a_time_whose_sample_has_no_exact_number_is_refused(write):
-    with pytest.raises(ValueError, match="time: must be multiples of 5e-05 s"):
-        read_encoders(write("time,input_counts,output_counts", "0,0,0", "1e15,0,0"), 5e-5)
-
-
-def test_true_is_no_torque(write, tmp_path):
-    with pytest.raises(ValueError, match="input_torque: must be numbers, not true or false"):
-        read_readings(write("time,input_torque", "0,true", "1,false"), {})
-
-
-@pytest.mark.parametrize(
-    ("torque", "line"),
-    [
-        (np.full(30, 1j), "input_torque: must be a vector of real numbers"),
-    ],
-)
-def test_a_mat_file_has_real_numbers_that_a_sensor_can_have(tmp_path, torque, line):
-    savemat(file := tmp_path / "rig.mat", {"time": np.arange(30.0), "input_torque": torque})
-    with pytest.raises(ValueError, match=line):
-        read_course(file, SimpleNamespace(oil_temperature=343.0))
-
-
-def test_times_of_a_fleet_are_finite(write):
-    with pytest.raises(ValueError, match="time: must be a finite number in every row"):
-        read_fleet(write(HEADING, "A,0,60,-140,100", "A,inf,60,-140,100"), ("A",))
-
-
-def test_a_table_may_end_its_lines_with_carriage_returns(write):
-    rows = "\r".join(f"{n},60,-140,100" for n in range(2000))
-    table = write(f"time,input_torque,output_torque,input_speed\r{rows}")
-    assert len(read_readings(table, {}).readings.time) == 2000
-
-
-def test_a_course_with_a_gap_of_centuries_takes_the_memory_of_its_rows(write):
-    rows = [f"A,{n * 10**10},60,-140,100" for n in range(20)]
-    course = read_course(write(HEADING, *rows), SimpleNamespace(oil_temperature=343.0))
-    assert list(course.input_torque) == [60.0] * 20
 
 
 def test_a_damaged_mat_file_is_refused(tmp_path):
@@ -136,14 +78,6 @@ def test_a_mat_file_has_the_readings_of_the_same_csv_table(write, tmp_path):
     columns = {"time": [0.1, 0.2], "input_torque": [60.0, 61.0], "input_speed": [100, 101]}
     savemat(tmp_path / "rig.mat", columns | {"notes": "rig 3", "rate": 10.0, "map": np.eye(3)})
     one, other = (read_readings(file, {}) for file in (table, tmp_path / "rig.mat"))
-    assert repr(one) == repr(other)
-
-
-def test_a_mat_file_has_the_counts_of_the_same_csv_table(write, tmp_path):
-    table = write("sample,input_counts,output_counts", "0,5,-3", "2,9,-7")
-    columns = {"sample": [0, 2], "input_counts": [5, 9], "output_counts": [-3, -7]}
-    savemat(tmp_path / "rig.mat", columns)
-    one, other = (read_encoders(file, 5e-5) for file in (table, tmp_path / "rig.mat"))
     assert repr(one) == repr(other)
 
 
@@ -217,47 +151,12 @@ def shuffled(rows):
     return [rows[n] for n in np.random.default_rng(0).permutation(len(rows))]
 
 
-def test_rows_in_any_order_give_the_readings_of_the_rows_in_order(write):
+def test_rows_in_any_order_give_readings_of_the_rows_in_order(write):
     one = read_readings(write(COLUMNS, *ROWS, name="a.csv"), {})
     other = read_readings(write(COLUMNS, *shuffled(ROWS), name="b.csv"), {})
     assert one.readings.time.tobytes() == other.readings.time.tobytes()
     for name, values in one.readings.columns.items():
         assert values.tobytes() == other.readings.columns[name].tobytes()
-
-
-@pytest.mark.parametrize("seed", (100, 187, 297))
-def test_no_stamp_of_a_long_shuffled_table_counts_as_wrong(write, seed):
-    order = np.random.default_rng(seed).permutation(np.arange(1, 6001))
-    rows = [f"{n / 100},63,-145,100" for n in order]
-    time = read_readings(write(COLUMNS, *rows), {}).readings.time
-    assert np.array_equal(time, np.arange(1, 6001) / 100)
-
-
-def test_vibration_is_in_the_order_of_its_stamps(write):
-    rows = [f"{n / 1000},{n}" for n in range(500)]
-    found = read_vibration(write("time,a", *shuffled(rows)), {})
-    assert found.values[:, 0].tolist() == list(range(500)) and found.period == pytest.approx(1e-3)
-
-
-def test_rows_with_the_same_stamp_stay_in_their_order(write):
-    found = read_readings(write(COLUMNS, "2,1,0,0", "1,2,0,0", "2,3,0,0", "1,4,0,0"), {})
-    assert list(found.readings.columns["input_torque"]) == [2.0, 4.0, 1.0, 3.0]
-
-
-def test_a_single_stamp_far_ahead_stays_where_the_follower_recognises_it(write):
-    rows = [*ROWS[:100], "1e9,0,0,100", *ROWS[100:200], "1e9,0,0,100", *ROWS[200:]]
-    found = read_readings(write(COLUMNS, *rows), {}).readings
-    assert list(np.flatnonzero(found.time == 1e9)) == [100, 201]
-
-
-def test_shuffled_dates_count_from_the_earliest(tmp_path):
-    noon = np.datetime64("2026-11-24T12:00:00", "ns")
-    dates = noon + np.array([3, 1, 2]) * np.timedelta64(1, "s")
-    rows = {"time": dates, "input_torque": [3.0, 1.0, 2.0]}
-    parquet.write_table(pa.table(rows), tmp_path / "rig.parquet")
-    found = read_readings(tmp_path / "rig.parquet", {})
-    assert list(found.readings.time) == [0.0, 1.0, 2.0]
-    assert found.begin == noon + np.timedelta64(1, "s")
 
 
 @pytest.mark.parametrize(
@@ -268,7 +167,7 @@ def test_shuffled_dates_count_from_the_earliest(tmp_path):
         (COLUMNS, []),
     ],
 )
-def test_columns_without_which_losses_are_not_estimated_are_named(write, headings, lacking):
+def test_columns_that_losses_lack_are_named(write, headings, lacking):
     remarks = read_readings(write(headings, *ROWS), {}).remarks
     assert len(remarks) == len(lacking)
     for line, name in zip(remarks, lacking, strict=True):
@@ -283,10 +182,8 @@ READERS = [
 
 
 @pytest.mark.parametrize("read", READERS)
-@pytest.mark.parametrize("time", ["22.11.2026 10:00:00", "22/11/2026 10:00", "10:00:00"])
-def test_a_time_that_is_neither_seconds_nor_such_a_date_is_refused_with_an_example(
-    write, read, time
-):
+def test_a_time_that_is_no_date_is_refused_with_an_example(write, read):
+    time = "22.11.2026 10:00:00"
     wanted = (
         f"row 1: time = '{time}': must be a number of seconds, or a date such as "
         "2026-11-22 10:00:00"
@@ -312,11 +209,6 @@ def test_day_numbers_of_a_spreadsheet_are_named(write):
         read_measurements(rig, {"input_torque": "N m"})
 
 
-def test_seconds_of_a_day_are_no_day_numbers(write):
-    table = write(HEADING, *[f"A,{43200 + n / 100},60,-140,100" for n in range(4)])
-    assert read_readings(table, {}).remarks == ()
-
-
 @pytest.mark.parametrize(
     ("heading", "said"),
     [
@@ -331,9 +223,3 @@ def test_a_missing_column_is_named_beside_those_that_there_are(write, heading, s
     table = write(heading, ",".join(["1"] * len(heading.split(","))))
     with pytest.raises(ValueError, match=said):
         read_fleet(table, ("1",))
-
-
-def test_a_table_without_a_channel_lists_its_headings(write):
-    table = write("time,T_in,T_out", "1,2,3")
-    with pytest.raises(ValueError, match=r"has none of the columns .*; has T_in, T_out"):
-        read_readings(table, {})

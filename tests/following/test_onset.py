@@ -11,7 +11,7 @@ def test_a_clear_step_has_one_start():
     assert onset_of(amounts, 1.0) == (10, 10)
 
 
-def test_a_hunting_period_of_which_a_small_part_has_changed_belongs_to_those_before():
+def test_a_period_that_changed_in_small_part_is_before_it():
     amounts = np.concatenate([np.zeros(10), [4.0], np.full(6, 20.0)])
     assert onset_of(amounts, 1.0) == (11, 11)
 

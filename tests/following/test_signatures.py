@@ -7,7 +7,6 @@ from tiers import first_rows
 import planetary_twin_py as pt
 from planetary_twin_py.following import signatures as module
 from planetary_twin_py.following.signatures import signatures
-from planetary_twin_py.following.tooth_scores import Bank, Tooth
 from planetary_twin_py.following.train import followed_train
 
 SCENE = pt.load_scene("paper")
@@ -33,8 +32,7 @@ def likeness(one, other):
 
 
 @pytest.mark.parametrize(
-    ("gear", "tooth"),
-    first_rows(1, [("planet_2", 7), ("sun", 11), ("ring", 33)]),
+    ("gear", "tooth"), first_rows(1, [("planet_2", 7), ("sun", 11), ("ring", 33)])
 )
 def test_another_tooth_is_a_shift_of_whole_cycles(found, gear, tooth):
     run = of_tooth(gear, tooth)
@@ -54,19 +52,6 @@ def test_it_grows_with_the_torque(found):
     assert np.linalg.norm(heavy) == pytest.approx(
         1.3 * np.linalg.norm(found.gears["sun"]), rel=0.01
     )
-
-
-def test_the_bank_scores_all_teeth_as_products_with_their_signatures(found):
-    bank, chance = Bank(found), np.random.default_rng(0)
-    residual = chance.standard_normal((420, 20))
-    measured = chance.random((420, 20)) > 0.1
-    residual[~measured] = 0.0
-    product, square = bank.score(residual, measured)
-    for tooth in (0, 17, 35, 90, 120):
-        own = bank.deviation(tooth, 420)
-        assert product[tooth] == pytest.approx(np.sum(own * residual), rel=1e-9)
-        assert square[tooth] == pytest.approx(np.sum(own**2 * measured), rel=1e-9)
-    assert bank.teeth[35] == Tooth("planet_1", 5) and len(bank.teeth) == 160
 
 
 def test_the_compliance_is_that_of_two_loads(found):

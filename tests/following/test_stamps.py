@@ -34,7 +34,7 @@ def test_a_clock_that_was_set_back_is_a_remark():
     assert line.startswith("time steps back by 0.49 s at row 501, and 50 rows lie between earlier")
 
 
-def test_parts_of_a_table_in_another_order_are_a_remark_without_repeated_rows():
+def test_parts_in_another_order_are_a_remark():
     (line,) = stamp_remarks(np.concatenate([RISING[500:], RISING[:500]]))
     assert line.startswith("time steps back by 999 s at row 501: rows are used")
 

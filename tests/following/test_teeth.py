@@ -26,15 +26,7 @@ def test_a_crack_of_one_percent_is_found_within_four_seconds(cracked):
 
 
 @pytest.mark.exhaustive
-def test_its_size_is_stated_with_an_interval_that_contains_it(cracked):
-    (tooth,) = cracked[1].teeth
-    assert tooth.loss.low < 0.01 < tooth.loss.high
-    assert tooth.loss.value == pytest.approx(0.01, rel=0.1)
-    assert tooth.candidates == ("sun tooth 7",)
-
-
-@pytest.mark.exhaustive
-def test_from_its_detection_on_no_stated_interval_misses_the_size_or_the_start():
+def test_no_stated_interval_misses_the_size_or_the_start():
     at = LEARNED + 0.4  # within a hunting period
     changes = ({"at": at, "faults": [crack("planet", 3, 0.012, planet=2)]},)
     stated = []
@@ -123,6 +115,6 @@ def test_healthy_teeth_give_no_alarm(law):
 
 
 @pytest.mark.exhaustive
-def test_jitter_between_the_channels_hides_small_cracks_and_none_is_invented():
+def test_jitter_hides_small_cracks_and_none_is_invented():
     _, follower = toothed({}, SUN, 40.0, encoders={"jitter": 1e-6})
     assert not follower.events

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.gearset.clearance import Size, are_clear, check_clearance, most_planets
+from planetary_twin_py.gearset.clearance import Size, are_clear, most_planets
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.gearset.phasing import nearest_assembly
 
@@ -29,7 +29,7 @@ def gap(size, angles):
 
 
 @on_all
-def test_planets_clear_each_other_if_their_centres_are_far_enough_apart(size):
+def test_planets_clear_each_other_if_centres_are_far_enough(size):
     rng = np.random.default_rng(1)
     for count in (2, 3, 4):
         for angles in rng.uniform(-10.0, 10.0, (50, count)):
@@ -37,7 +37,7 @@ def test_planets_clear_each_other_if_their_centres_are_far_enough_apart(size):
 
 
 @on_all
-def test_the_reported_number_of_planets_fits_and_one_more_does_not(size):
+def test_reported_number_of_planets_fits_and_one_more_does_not(size):
     most = most_planets(size)
     for count, fits in ((most, True), (most + 1, False)):
         even = [2 * math.pi * n / count for n in range(count)]
@@ -47,13 +47,8 @@ def test_the_reported_number_of_planets_fits_and_one_more_does_not(size):
 @pytest.mark.parametrize(
     ("angles", "words"),
     [
-        (
-            (0, 90, 90, 270),
-            ["planets 2 and 3", "is 0 mm and must", "tip diameter of 17.6 mm"],
-        ),
-        ((0, 90, 91, 270), ["planets 2 and 3", "0.3491 mm"]),
+        ((0, 90, 90, 270), ["planets 2 and 3", "is 0 mm and must", "tip diameter of 17.6 mm"]),
         ((0, 120, 480), ["planets 2 and 3", "is 0 mm"]),
-        ((0, 90, 180, 345.6), ["planets 1 and 4"]),
         ([360 * n / 7 for n in range(7)], ["17.35", "at most 6 planets fit, equally spaced"]),
     ],
     ids=str,
@@ -66,14 +61,7 @@ def test_planets_that_touch_are_refused_in_one_line(angles, words):
     assert [word for word in words if word not in message] == []
 
 
-def test_the_refusal_of_too_many_planets_says_how_many_fit():
-    """Centres 40 sqrt(2) = 56.6 mm apart, tip circles of 65.6 mm."""
-    right = [math.pi / 2 * n for n in range(4)]
-    with pytest.raises(ValueError, match=r"56\.5685 mm.* 65\.6 mm; at most 3 planets fit"):
-        check_clearance(Size(Teeth(20, 80, 180), 0.8e-3, 1.0), right)
-
-
-def test_planets_that_clear_each_other_by_a_shorter_addendum_are_accepted():
+def test_a_shorter_addendum_clears_planets():
     seven = nearest_assembly(Teeth(30, 20, 70), [2 * math.pi * n / 7 for n in range(7)])
     with pytest.raises(pt.SceneError, match="at most 6 planets"):
         PAPER.replace(**{"gearset.planet_angles": seven})

@@ -49,7 +49,7 @@ def test_a_pinion_needs_enough_teeth_to_avoid_interference(angle, addendum):
         sun_planet_path(Teeth(mate, least - 1, mate), math.radians(angle), addendum)
 
 
-def test_tips_of_the_ring_must_not_reach_below_the_base_circle_of_the_planets():
+def test_ring_tips_must_not_reach_below_the_base_circle():
     planet_ring_path(Teeth(44, 17, 78), ANGLE, 1.0)
     with pytest.raises(ValueError, match=r"^gearset.teeth.planet = 16: tips of the ring"):
         planet_ring_path(Teeth(44, 16, 76), ANGLE, 1.0)

@@ -48,13 +48,13 @@ def overlap(mesh):
     [(60, 65, 1.0), (60, 67, 1.0), (60, 68, 1.0), (60, 70, 1.0), (60, 80, 1.0), (30, 39, 0.8),
      (30, 35, 0.8), (30, 36, 0.8), (100, 107, 1.0), (100, 110, 1.0)],
 )  # fmt: skip
-def test_trochoidal_interference_is_where_tips_of_the_outlines_overlap(planet, ring, addendum):
+def test_trochoidal_interference_is_where_outlines_overlap(planet, ring, addendum):
     mesh = internal_mesh(planet, ring, addendum)
     passage, depth = tip_passage(mesh), overlap(mesh)
     assert (passage < 0.0) == (depth > 1e-7), (passage, depth)
 
 
-def test_standard_gears_of_twenty_degrees_need_ten_teeth_of_difference():
+def test_standard_gears_need_ten_teeth_of_difference():
     """As handbooks say (JGMA: interference is avoided if z2 - z1 is larger than 9)."""
     assert tip_passage(internal_mesh(60, 70)) > 0.0
     for difference in (5, 6, 7):
@@ -79,7 +79,7 @@ def test_teeth_that_overlap_are_refused_with_the_shift_that_fits():
     assert errors(fits) == []
 
 
-def test_a_shift_of_the_ring_that_fits_with_the_other_sign_is_said_to():
+def test_shift_of_ring_that_fits_with_the_other_sign_is_said_to():
     (line,) = errors(replace(STAGE_1, shift=PerGear(0.617, 0.802, 0.501)))
     assert line.startswith("gearset.profile_shift.planet + ring = 1.303: must be at most 0.3008")
     assert line.endswith("set gearset.profile_shift.ring = -0.501")
@@ -88,7 +88,7 @@ def test_a_shift_of_the_ring_that_fits_with_the_other_sign_is_said_to():
     assert "set gearset.profile_shift.ring" not in other
 
 
-def test_tips_that_reach_the_mating_root_are_refused_with_the_diameter_that_fits():
+def test_tips_that_reach_the_mating_root_are_refused():
     (line,) = errors(replace(STAGE_1, tip_diameters=(1.003, None, None)))
     assert line.startswith("gearset.tip_diameter.sun = 1003 mm: must be below 1001.32 mm")
     assert errors(replace(STAGE_1, tip_diameters=(1.0012, None, None))) == []
@@ -102,12 +102,6 @@ def test_a_contact_ratio_below_one_is_refused():
 def test_centres_nearer_than_the_base_circles_are_refused():
     (line, *_) = errors(replace(STAGE_1, centre_distance=0.75))
     assert line.startswith("gearset.centre_distance = 750 mm: must be above the sum of the base")
-
-
-@pytest.mark.filterwarnings("error")
-def test_a_centre_distance_in_a_wrong_unit_is_refused_without_a_warning_of_numpy():
-    (line, *_) = errors(replace(STAGE_1, centre_distance=0.863e-3))
-    assert line.startswith("gearset.centre_distance = 0.863 mm: must be above the sum of the base")
 
 
 @pytest.mark.parametrize("teeth", [5, 10, 14, 17, 18, 30])

@@ -67,7 +67,7 @@ def test_flanks_touch_and_never_overlap_as_the_gears_roll(teeth, planet_angles, 
         assert max(gaps) < 0.05 * MODULE
 
 
-def test_leading_flank_of_the_suns_tooth_zero_meets_planet_one_at_the_pitch_point():
+def test_tooth_zero_of_the_sun_meets_planet_one():
     mounted = mount(*PAPER)
     flank = mounted.sun + SUN.half_thickness(np.array(SUN.pitch_radius))
     assert flank == pytest.approx(PAPER[1][0], abs=1e-12)
@@ -137,7 +137,7 @@ def test_extruded_mesh_is_closed_and_faces_outwards(inner, outer):
     assert np.all(facing > 0)
 
 
-def test_a_twisted_body_keeps_its_volume_and_its_faces_look_outwards():
+def test_a_twisted_body_keeps_its_volume_and_outward_faces():
     """Sections are turned, not changed (Cavalieri); layers approach the twisted walls."""
     body = extrude(5e-3, SUN.outline(), -0.01, 0.01, layers=16).twisted(30.0)
     a, b, c = (body.vertices[body.faces[:, k]].astype(float) for k in range(3))

@@ -30,11 +30,6 @@ def test_pitch_lines_roll_without_slip_whichever_member_is_held(teeth, held, ref
     assert (zr + zs) * w["carrier"] == zr * w["ring"] + zs * w["sun"]
 
 
-def test_held_carrier_turns_ring_at_minus_three_sevenths_and_planets_at_minus_three_halves():
-    w = speed_ratios(PAPER, "carrier", "sun")
-    assert (w["ring"], w["planet"]) == (Fraction(-3, 7), Fraction(-3, 2))
-
-
 @pytest.mark.parametrize(
     "held, reference, frequency",
     [("carrier", "sun", 500), ("ring", "sun", 350), ("sun", "carrier", 500), ("sun", "ring", 350)],
@@ -44,7 +39,7 @@ def test_meshing_frequency_at_1000_rpm(held, reference, frequency):
     assert abs(mesh_cycles_per_turn(PAPER, ratios)) * Fraction(1000, 60) == frequency
 
 
-def test_speeds_of_a_differential_are_those_of_both_inputs_together():
+def test_speeds_of_a_differential_are_those_of_both_inputs():
     """1000 rpm at the sun and 500 at the carrier: ring 285.71 rpm, 250 Hz; equal: no meshing."""
     sun, carrier = speeds_per_input(PAPER, ("sun", "carrier"), "none")
     both = {body: 1000 * sun[body] + 500 * carrier[body] for body in sun}
@@ -61,7 +56,7 @@ def test_a_member_cannot_be_held_and_turn_and_must_be_central(held, reference):
         speed_ratios(PAPER, held, reference)
 
 
-def test_teeth_pass_as_often_as_the_sun_turns_against_the_carrier():
+def test_teeth_pass_as_often_as_sun_turns_against_the_carrier():
     turn = 2 * math.pi
     assert mesh_frequency(PAPER, 1000 / 60 * turn, 0.0) == pytest.approx(500.0)
     assert mesh_frequency(PAPER, -2 * turn, 3 * turn) == pytest.approx(150.0)

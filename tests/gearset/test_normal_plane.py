@@ -9,11 +9,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.gearset.gear_set import Sizes, build_gear_set
 from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.gearset.normal_plane import (
-    transverse_angle,
-    transverse_sizes,
-    virtual_gear,
-)
+from planetary_twin_py.gearset.normal_plane import transverse_angle, transverse_sizes, virtual_gear
 from planetary_twin_py.gearset.shift import PerGear
 from planetary_twin_py.tooth.iso import iso_pair
 from planetary_twin_py.tooth.material import Material
@@ -105,7 +101,7 @@ def test_published_contact_ratio_and_stiffness():
 
 @HELICES
 @pytest.mark.parametrize("name", ["sun", "planet", "ring"])
-def test_the_virtual_gear_is_the_rack_of_the_drawing_with_the_curvature_of_the_flank(degrees, name):
+def test_virtual_gear_is_rack_of_drawing_with_curvature_of_flank(degrees, name):
     """rho_n = rho_t/cos(beta_b) at the tip, with sin(beta_b) = sin(beta) cos(alpha_n)."""
     fields = {"gearset.dedendum": 1.4, "gearset.fillet_radius": 0.3}
     gear = getattr(drawn(degrees, **fields).gearset.geometry, name)

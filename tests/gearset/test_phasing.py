@@ -27,12 +27,12 @@ def test_phases_of_the_papers_planets():
     assert ring == [Fraction(1, 2), Fraction(3, 5), Fraction(2, 5)]
 
 
-def test_phases_are_those_of_the_position_at_which_a_planet_can_be_assembled():
+def test_phases_are_those_of_a_position_of_assembly():
     angles = [90.0, -28.8000001, 208.7999999]
     assert mesh_phases(PAPER, np.radians(angles)) == mesh_phases(PAPER, FITTING)
 
 
-def test_sun_and_ring_mesh_of_a_planet_keep_their_phase_difference_in_any_valid_position():
+def test_sun_and_ring_mesh_keep_their_phase_difference():
     """The planet's own teeth couple its two meshes: half a cycle, or none if odd."""
     for teeth, offset in ((PAPER, Fraction(1, 2)), (Teeth(21, 39, 99), Fraction(0))):
         angles = [2 * math.pi * k / (teeth.sun + teeth.ring) for k in (0, 17, 41, 66)]
@@ -40,19 +40,15 @@ def test_sun_and_ring_mesh_of_a_planet_keep_their_phase_difference_in_any_valid_
         assert all((ring - sun - offset).denominator == 1 for sun, ring in pairs)
 
 
-def test_three_planets_at_120_degrees_are_refused_with_the_nearest_that_fit():
+def test_planets_that_do_not_fit_are_refused_with_the_nearest():
     with pytest.raises(ValueError, match=r"nearest: 90, -28\.8, 208\.8 deg") as error:
         check_assembly(PAPER, np.radians([90.0, -30.0, 210.0]))
     assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize("planets", [2, 4, 5])
-def test_equal_spacing_fits_where_it_divides_the_teeth_of_sun_and_ring(planets):
+def test_equal_spacing_fits_where_it_divides_the_teeth(planets):
     check_assembly(PAPER, [2 * math.pi * k / planets for k in range(planets)])
-
-
-def test_the_suggested_positions_fit():
-    check_assembly(PAPER, nearest_assembly(PAPER, [0.3, 2.0, 4.4, 5.1]))
 
 
 def suggested(teeth, degrees):
@@ -68,12 +64,9 @@ def suggested(teeth, degrees):
     "teeth, degrees",
     [
         (Teeth(27, 35, 99), (0.0, 90.0, 180.0, 270.0)),  # OH-58
-        (Teeth(27, 35, 99), (12.3456789, 102.3456789, 192.3456789, 282.3456789)),
         (Teeth(27, 35, 99), (0.0, 88.584, 180.0, 268.584)),  # beyond the tolerance by 25 %
         (Teeth(30, 20, 70), (90.0, -30.0, 210.0)),  # Salagianni et al. 2017
-        (Teeth(19, 17, 56), (0.0, 90.0, 180.0, 270.0)),  # 5 MW reference gearbox
         (Teeth(20, 31, 83), (math.pi, 123.0, 243.0)),
-        (Teeth(31, 31, 95), (0.0, 90.0, 180.0, 270.0)),
         (Teeth(1000, 1000, 3000), (0.0, 120.03, 240.0)),  # most teeth of a scene
     ],
 )
@@ -81,13 +74,8 @@ def test_the_printed_positions_are_accepted_when_copied(teeth, degrees):
     check_assembly(teeth, suggested(teeth, degrees))
 
 
-def test_positions_are_printed_as_short_as_they_may_be():
-    with pytest.raises(ValueError, match=r"nearest: 0, 88\.57, 180, 268\.57 deg"):
-        check_assembly(Teeth(27, 35, 99), np.radians([0.0, 90.0, 180.0, 270.0]))
-
-
 @pytest.mark.parametrize("teeth", [Teeth(27, 35, 99), Teeth(29, 71, 171), Teeth(31, 31, 94)])
-def test_angles_rounded_to_a_hundredth_of_a_degree_are_the_exact_ones(teeth):
+def test_angles_rounded_to_hundredth_of_degree_are_exact_ones(teeth):
     exact = nearest_assembly(teeth, [0.0, 1.3, 2.6, 3.9])
     rounded = [math.radians(round(math.degrees(angle), 2)) for angle in exact]
     check_assembly(teeth, rounded)

@@ -39,7 +39,7 @@ def repeating(scene, tolerance):
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
-def test_interpolated_samples_are_those_that_are_computed_from_the_same_step(scene, tolerance):
+def test_interpolated_samples_are_those_of_the_computed_step(scene, tolerance):
     engine, time = repeating(scene, tolerance)
     meshes, ratio = int(engine.train.meshes), engine.train.ratio[: engine.train.bodies, 0]
     period = 2.0 / 500.0
@@ -73,7 +73,7 @@ def test_interpolated_samples_are_those_that_are_computed_from_the_same_step(sce
     assert shown.mesh.shape == (INSTANTS, QUANTITIES, meshes)
 
 
-def test_samples_of_a_repeated_step_do_not_depend_on_those_taken_before():
+def test_samples_of_a_repeated_step_do_not_depend_on_others():
     """Polynomials are made of the step as it was recorded, whenever that is done."""
     rates, found = (50_000.0, 10_000.0), []
     for rate in rates:

@@ -24,10 +24,7 @@ from planetary_twin_py.model.train import build_train
 from planetary_twin_py.run.engine import Engine
 
 TOLERANCE = 1e-3
-RUNOUT = {
-    "mesh.runout": {"sun": 2e-6},
-    "mesh.sun_planet_error": {"amplitudes": [1e-6]},
-}
+RUNOUT = {"mesh.runout": {"sun": 2e-6}, "mesh.sun_planet_error": {"amplitudes": [1e-6]}}
 RUNNING = {
     "paper": PAPER,
     "backwards": PAPER.replace(input_speed=-pt.rpm(1000)),
@@ -89,7 +86,7 @@ def test_energy_closes_over_repeated_cycles(scene):
     assert abs(machines.sum() - lost - run.gain) < 1e-5 * np.abs(machines).sum()
 
 
-def test_ten_minutes_later_the_gears_are_where_the_set_point_says():
+def test_ten_minutes_later_gears_are_where_the_set_point_says():
     twin = pt.Twin(PAPER, 1.0)
     twin.advance(10.0)
     begin = twin.advance(1.0)
@@ -167,7 +164,7 @@ def test_what_does_not_come_round_is_computed(changes):
         ({"torque_ripple": 1.0, "drive.speed_control.ripple_order": 30}, 1),
     ],
 )
-def test_all_is_as_before_when_all_teeth_and_the_fluctuation_have_come_round(changes, cycles):
+def test_all_is_as_before_when_teeth_and_waves_come_round(changes, cycles):
     scene = PAPER.replace(**changes)
     train = build_train(scene)
     assert common_cycles(train, build_load(scene, scene.operating_point, train)) == cycles
@@ -210,7 +207,7 @@ class Followed:
 
 
 @pytest.mark.slow
-def test_periodic_motion_that_loses_stability_slowly_is_not_repeated():
+def test_a_motion_that_slowly_loses_stability_is_not_repeated():
     """Where the period doubles, 0.4 rpm past the bifurcation, the motion stays near the unstable
     cycle for a second before it leaves it by several tolerances."""
     scene = RESONANT.replace(input_torque=10.0)
@@ -228,7 +225,7 @@ def test_periodic_motion_before_its_period_doubles_is_repeated():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("speed", "leaves"), [(10335.0, False), (10336.0, True)])
-def test_near_a_fold_the_run_stays_on_the_branch_on_which_computed_cycles_stay(speed, leaves):
+def test_near_a_fold_the_run_stays_on_its_branch(speed, leaves):
     """Without separation, at 3 N m, the cycle ends in a fold at 10335.4 rpm."""
     holds = (10150.0, 1.0), (10334.8, 5.0), (speed, 3.0)
     found, computed = (

@@ -40,7 +40,7 @@ def test_global_error_falls_with_the_third_power_of_the_step():
     assert order == pytest.approx(3.0, abs=0.2)
 
 
-def test_a_state_that_is_not_finite_ends_the_run_instead_of_stalling_it():
+def test_a_state_that_is_not_finite_ends_the_run():
     engine = Engine(load_scene("paper"), 1e-3)
     engine.integrator.end.x[0] = np.nan
     with pytest.raises(ArithmeticError, match="no finite state"):

@@ -35,7 +35,7 @@ def test_fit_is_positive_and_never_rises(function, n):
     assert np.diff(values[:1200]).max() < 0.0
 
 
-def test_printed_polynomials_are_those_of_the_appendix_with_their_defects():
+def test_printed_polynomials_have_their_defects():
     ratios = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0, 3.0, 3.01)
     area = [printed_area_function(x) for x in ratios]
     load = [printed_load_function(x) for x in ratios]

@@ -25,7 +25,7 @@ def test_torque_is_that_of_the_formula(f0, f1, diameter, viscosity, rpm, load, e
     assert found == pytest.approx(expected, rel=1e-2)  # 160 stands for 1e-7 2000^(2/3) = 158.7e-7
 
 
-def test_torque_of_a_roller_bearing_in_a_train_is_that_of_its_catalogued_friction_coefficient():
+def test_a_roller_bearing_has_its_catalogued_friction():
     """Makers give 0.0011 for caged cylindrical rollers, at the bore, M = mu F d/2, under a tenth of
     the load rating: of an NU 208, 40 by 80 mm, 62 kN. Palmgren's f1 of its series is 3e-4, f0 2 and
     more. The oil, 20 mm^2/s at 1000 rpm, counts for a quarter of the torque."""
@@ -38,7 +38,7 @@ def test_torque_of_a_roller_bearing_in_a_train_is_that_of_its_catalogued_frictio
     assert found == pytest.approx(0.0011 * load * 0.020, rel=0.1)
 
 
-def test_both_branches_meet_at_2000_to_the_accuracy_of_the_printed_coefficients():
+def test_branches_meet_at_2000_within_the_printed_digits():
     """1e-7 * 2000^(2/3) is 158.7e-7, printed as 160e-7; the first is used for both."""
     slow = bearing_torque(1.0, 0.0, 1e-4, 19.999 * math.pi / 30, 0.0)
     fast = bearing_torque(1.0, 0.0, 1e-4, 20.001 * math.pi / 30, 0.0)

@@ -7,14 +7,14 @@ from planetary_twin_py._core import boundary_shear
 from planetary_twin_py.scene import load_scene
 
 
-def test_boundary_friction_at_the_pitch_point_falls_with_the_lambda_ratio():
+def test_boundary_friction_falls_with_the_lambda_ratio():
     asperities = oil_of(load_scene("paper")).asperities
     area = pitch_point("sp", 1000).area
     friction = [boundary_shear(asperities, False, x) * area for x in (1.0, 1.25, 1.5, 1.75, 2.0)]
     assert friction == pytest.approx([1.217, 0.662, 0.345, 0.172, 0.082], abs=6e-4)
 
 
-def test_printed_asperity_functions_turn_the_asperity_pressure_negative_at_lambda_two():
+def test_the_printed_asperity_pressure_is_negative_at_two():
     """P_m = W_a/A_a: 3.73 GPa at 1.75, -5.59 GPa at 2, where the exact functions give 1.616 GPa."""
     oil = oil_of(load_scene("paper")).asperities
     area = pitch_point("sp", 1000).area

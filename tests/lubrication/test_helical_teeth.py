@@ -41,7 +41,7 @@ def test_both_methods_have_the_same_friction_of_helical_teeth(method):
     assert loss[0] == pytest.approx(loss[1], rel=1e-3)
 
 
-def test_the_pressure_is_that_of_the_curvature_normal_to_the_line_of_contact():
+def test_pressure_is_that_of_curvature_normal_to_line_of_contact():
     """p = sqrt(F E*/(pi L R)) (Johnson 1985, eq. 4.45), R = R_t/cos(beta_b)."""
     scene = helical()
     figures = describe_meshes(scene).sun_planet

@@ -59,7 +59,7 @@ def test_loss_factors_of_the_papers_gearset(mesh, expected):
 
 
 @pytest.mark.parametrize("kind, mesh, published", [(0, SUN, 0.9925), (1, RING, 0.9958)])
-def test_mesh_efficiency_of_a_run_is_that_of_ohlendorf_with_its_own_friction(kind, mesh, published):
+def test_mesh_efficiency_is_that_of_ohlendorf(kind, mesh, published):
     """mu from friction over force, both means. The dynamic load is shared by stiffness, not
     equally, and friction sinks around the pitch point: within 4 % of the loss."""
     run = pt.simulate(pt.load_scene("paper"), 0.1)

@@ -31,7 +31,7 @@ def travelled(share, distances, speed=1e-5):
     return shares
 
 
-def test_below_break_away_a_contact_is_a_spring_that_does_not_creep():
+def test_below_break_away_contact_is_spring_that_does_not_creep():
     there = 0.6 * DISPLACEMENT
     shares = travelled(0.0, [there, -there, -there, there] * 5)
     assert shares == pytest.approx([0.6, 0.0, -0.6, 0.0] * 5, abs=1e-9)
@@ -51,7 +51,7 @@ def test_sliding_on_it_comes_to_full_friction_and_stays_there():
     )
 
 
-def test_the_loop_of_hysteresis_has_the_area_that_its_branches_enclose():
+def test_loop_of_hysteresis_has_area_that_its_branches_enclose():
     """After a reversal friction falls as a spring to -ELASTIC, then bends towards -1."""
 
     def bend(y):  # of the distance, per share
@@ -68,7 +68,7 @@ def test_the_loop_of_hysteresis_has_the_area_that_its_branches_enclose():
 
 
 @pytest.mark.parametrize("slide_to_layer", [1e-6, 0.3, 1.0, 4.0, -0.5])
-def test_while_flanks_roll_the_traction_curve_is_where_the_share_rests(slide_to_layer):
+def test_while_flanks_roll_traction_curve_is_where_share_rests(slide_to_layer):
     layer = 1e-5
     steady = math.tanh(slide_to_layer)
     slope = (1.0 - steady**2) / layer

@@ -27,7 +27,7 @@ def test_force_at_the_pitch_point():
 
 
 @pytest.mark.parametrize("speed", [1000.0, -1000.0])
-def test_rolling_takes_power_in_both_directions_and_the_balance_closes(speed):
+def test_rolling_takes_power_in_both_directions(speed):
     scene = pt.load_scene("paper").replace(
         input_speed=pt.rpm(speed), input_torque=math.copysign(63.0, speed)
     )
@@ -40,7 +40,7 @@ def test_rolling_takes_power_in_both_directions_and_the_balance_closes(speed):
     assert abs(with_.energy.residual) < 1e-6 * with_.energy.driving_work
 
 
-def test_resistance_vanishes_with_the_load_so_that_meeting_flanks_do_not_chatter():
+def test_resistance_vanishes_with_the_load():
     """In cold oil it would exceed a light mesh force, part the flanks, and vanish with them."""
     scene = pt.load_scene("paper").replace(
         **ROLLING,

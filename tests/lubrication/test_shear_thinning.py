@@ -38,7 +38,7 @@ def over_the_contact(stress, load, area):
     return area * quad(lambda x: stress(peak * math.sqrt(1.0 - x * x)), 0.0, 1.0, limit=200)[0]
 
 
-def test_little_shear_under_a_light_load_is_that_of_a_newtonian_film():
+def test_little_shear_under_light_load_is_that_of_newtonian_film():
     """f = eta0 Vs/h A where alpha p vanishes; the pressure adds its mean alpha p."""
     load, speed = 1e-6, 1e-7
     area, log_film, _ = contact(load)
@@ -47,7 +47,7 @@ def test_little_shear_under_a_light_load_is_that_of_a_newtonian_film():
     assert friction(2 * speed, load) == pytest.approx(2 * friction(speed, load), rel=1e-5)
 
 
-def test_little_shear_under_pressure_has_the_mean_viscosity_of_the_contact():
+def test_little_shear_has_the_mean_viscosity_of_the_contact():
     """Two Gauss points are exact to the third power of alpha p."""
     load, speed = LOAD / 3000, 1e-6
     area, log_film, _ = contact(load)
@@ -60,22 +60,6 @@ def test_little_shear_under_pressure_has_the_mean_viscosity_of_the_contact():
 def test_heavy_load_and_fast_sliding_end_at_the_limiting_stress():
     load = 20 * LOAD
     assert friction(1.0, load, COOL) == pytest.approx(LIMIT * load, rel=1e-12)
-
-
-@pytest.mark.parametrize("mesh, rpm", CASES)
-@pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1, 1.0])
-@pytest.mark.parametrize("slide_to_roll", [0.01, 0.1, 0.5])
-def test_two_points_represent_the_pressure_over_the_contact(mesh, rpm, share, slide_to_roll):
-    load, speed = share * LOAD, slide_to_roll * pitch_point(mesh, rpm).speed
-    area, log_film, _ = contact(load, mesh, rpm)
-
-    def stress(p):
-        x = VISCOSITY * math.exp(ALPHA * p - log_film) * speed / EYRING_STRESS
-        return min(EYRING_STRESS * math.asinh(x), LIMIT * p)
-
-    expected = over_the_contact(stress, load, area)
-    found = friction(speed, load, COOL, mesh=mesh, rpm=rpm)
-    assert found == pytest.approx(expected, rel=0.1, abs=2e-3 * load)
 
 
 def contacts_by_chance(count, oils):
@@ -126,7 +110,7 @@ def test_two_points_are_within_the_stated_error_of_the_integral(oils, share, coe
 
 
 @pytest.mark.parametrize("mesh, rpm", CASES)
-def test_under_a_heavy_load_it_is_near_the_plateau_of_evans_and_johnson(mesh, rpm):
+def test_heavy_loads_are_near_the_plateau_of_evans_and_johnson(mesh, rpm):
     """Their law is a fit of its own to discs; it has no sliding speed in it."""
     area, log_film, log_heat = contact(LOAD, mesh, rpm)
     plateau = viscous_friction(OIL.traction, LOAD, area, log_film, log_heat)
@@ -156,7 +140,7 @@ def test_the_warm_film_is_in_balance_with_its_heat(speed):
         assert friction(speed) < 0.95 * friction(speed, oil=COOL)
 
 
-def test_friction_grows_with_load_and_cool_with_speed_and_never_jumps():
+def test_friction_grows_with_load_and_never_jumps():
     loads = np.logspace(-6, 6, 4001)
     by_load = np.array([friction(0.1, load) for load in loads])
     assert np.all(np.diff(by_load) > 0.0)

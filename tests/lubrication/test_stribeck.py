@@ -66,7 +66,7 @@ def test_share_of_the_film(ratio, share):
     assert film_share(math.log(max(ratio, THINNEST))) == pytest.approx(share, abs=1e-3)
 
 
-def test_a_film_thinner_than_a_molecule_carries_less_in_proportion():
+def test_film_thinner_than_a_molecule_carries_less_in_proportion():
     whole = film_share(math.log(0.1))
     assert film_share(math.log(0.1), 1.0) == whole  # thicker
     for part in (0.5, 1e-3, 1e-9):
@@ -79,7 +79,7 @@ DEFAULT = load_scene("wind_turbine_stage")
 
 @pytest.mark.parametrize("roughness", [5e-8, 2e-7, 8e-7])
 @pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1, 1.0])
-def test_default_laws_rise_to_the_left_of_the_full_film_down_to_none(share, roughness):
+def test_default_laws_rise_to_left_of_the_full_film_down_to_none(share, roughness):
     """Boundary and viscous friction; beyond, a cool film rises, and a warm one falls again."""
     scene = load_scene("paper").replace(
         **{

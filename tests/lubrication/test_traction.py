@@ -26,7 +26,7 @@ def test_coefficients_at_the_pitch_points():
 
 
 @pytest.mark.parametrize("mesh, rpm", CASES)
-def test_friction_is_equation_12_with_the_temperature_coefficient(mesh, rpm):
+def test_friction_is_equation_12_with_temperature_coefficient(mesh, rpm):
     point, h = pitch_point(mesh, rpm), film("salagianni", mesh, rpm)
     p = LOAD / point.area
     zeta = 4 / math.pi * 0.137 / (h / point.radius)
@@ -36,7 +36,7 @@ def test_friction_is_equation_12_with_the_temperature_coefficient(mesh, rpm):
     assert friction(mesh, rpm) == pytest.approx(mu * LOAD, rel=1e-9)
 
 
-def test_friction_is_zero_not_negative_under_a_load_too_light_for_the_law():
+def test_friction_is_zero_under_a_load_too_light_for_the_law():
     assert friction("pr", 1000, LOAD / 1000) == 0.0
 
 
@@ -54,7 +54,7 @@ def test_friction_acts_above_the_pressure_that_the_film_asks_for(film, heating):
     assert below == 0.0 < above
 
 
-def test_sense_of_sliding_is_an_odd_tanh_of_the_slide_to_roll_ratio():
+def test_sense_of_sliding_is_odd_tanh_of_the_slide_to_roll_ratio():
     for ratio in (0.0, 1e-4, 0.015, 0.1, 3.0):
         expected = math.tanh(ratio / 0.015)
         assert sliding_sense(ratio / 0.015) == pytest.approx(expected, abs=1e-11)
@@ -71,7 +71,7 @@ PRINTED = load_scene("paper").replace(**{"lubrication.traction": "printed"})
         (0.137, [0.0366, 0.0359, 0.0353, 0.0321, 0.0309, 0.0300]),
     ],
 )
-def test_printed_coefficients_with_the_printed_and_with_a_real_conductivity(conductivity, expected):
+def test_printed_coefficients_with_both_conductivities(conductivity, expected):
     scene = PRINTED.replace(**{"lubrication.oil_conductivity": conductivity})
     traction = oil_of(scene).traction
     found = [friction(mesh, rpm, traction=traction) / LOAD for mesh, rpm in CASES]

@@ -29,9 +29,7 @@ DATA_SHEETS = [
 
 
 @pytest.mark.parametrize("grade", AT_50)
-def test_between_the_two_known_points_viscosities_are_in_the_middle_of_the_range_of_the_standard(
-    grade,
-):
+def test_viscosities_are_in_the_middle_of_the_standard_range(grade):
     cold = 1e-6 * grade
     slope = walther_slope((COLD, cold), (HOT, hot_viscosity(cold, 95.0)))
     found = viscosity_at(323.15, (COLD, 890.0 * cold), slope, 890.0) / 890.0

@@ -83,7 +83,7 @@ def test_edges_are_those_of_the_lines_of_contact_alone(overlap):
 
 
 @OVERLAPS
-def test_parts_of_a_contact_line_are_before_and_after_the_pitch_point(overlap):
+def test_parts_of_contact_line_are_before_and_after_pitch_point(overlap):
     """Each part has the weight of its slices, and its contact in their middle."""
     table = FaceMean(PATH, 0.0, overlap, GIVEN).table()
     for j, p in zip(*np.nonzero(table.present), strict=True):
@@ -102,7 +102,7 @@ def test_parts_of_a_contact_line_are_before_and_after_the_pitch_point(overlap):
 
 
 @OVERLAPS
-def test_friction_over_a_mesh_cycle_is_that_of_spur_teeth_at_a_steady_load(overlap):
+def test_friction_over_a_mesh_cycle_is_that_of_spur_teeth(overlap):
     """Slices slide as spur teeth do, so the mean of weight times sliding distance is the same."""
     ends = np.linspace(-PATH.approach, PATH.recess, 40001)
     expected = np.trapezoid(np.abs(ends), ends)
@@ -145,7 +145,7 @@ def test_a_fault_weakens_the_mean_of_the_slices_it_is_in():
         assert found == pytest.approx(expected, abs=2e-4)
 
 
-def test_the_largest_overlap_is_the_last_for_which_the_table_has_room():
+def test_largest_overlap_is_last_for_which_the_table_has_room():
     largest = largest_overlap(PATH)
     assert FaceMean(PATH, 0.03, largest, GIVEN).table().present.sum(axis=1).max() == PAIRS
     with pytest.raises(NoRoomError, match="17 parts of tooth pairs are in contact at once"):

@@ -67,7 +67,7 @@ def test_deflection_and_loads_balance_the_force(ratio, ramp, amounts, shapes):
         assert shares == pytest.approx(loads, abs=1e-3 * FORCE)
 
 
-def test_relief_of_one_static_deflection_makes_the_transmission_error_constant():
+def test_relief_of_one_deflection_makes_the_error_constant():
     """At the design load, linear over the whole zone of two pairs (Harris 1958; long relief)."""
     law, zone = given_stiffness(STIFFNESS, 2.0), PATH.contact_ratio - 1.0
     ideal = Relief(FORCE / STIFFNESS, zone, "linear")
@@ -86,7 +86,7 @@ def test_no_amount_of_relief_changes_nothing():
         assert np.array_equal(getattr(plain, name), getattr(relieved, name))
 
 
-def test_relief_lowers_the_dynamic_transmission_error_and_keeps_the_ledger():
+def test_relief_lowers_the_dynamic_error_and_energy_balances():
     paper = pt.load_scene("paper").replace(
         **{"mesh.double_pair_ratio": 2.0, "mesh.damping.law": "viscous", "input_speed": 20.0}
     )

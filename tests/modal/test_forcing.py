@@ -31,7 +31,7 @@ def crossings(scene, lowest, highest):
 
 
 @pytest.mark.slow
-def test_the_strongest_crossings_are_the_peaks_of_the_vibration_of_runs():
+def test_strongest_crossings_are_peaks_of_the_vibration_of_runs():
     speeds = np.arange(1250.0, 2500.0, 12.5)
     runs = pt.simulate_many(
         (QUIET.replace(input_speed=pt.rpm(s)) for s in speeds), 0.05, tolerance=1e-3
@@ -82,7 +82,7 @@ def test_an_error_of_form_pulls_with_the_stiffness_of_the_mesh():
     assert not pull[[0, 2, 3]].any() and not pull[:, 3:].any()
 
 
-def test_shafts_turn_and_planets_pass_at_the_orders_of_the_diagram():
+def test_shafts_turn_and_planets_pass_at_orders_of_the_diagram():
     from planetary_twin_py.modal.campbell import shaft_orders
 
     scene = pt.load_scene("wind_turbine_stage")  # the carrier drives the sun

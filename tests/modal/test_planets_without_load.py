@@ -22,7 +22,7 @@ def displaced(pin=AWAY, **changes):
     return scene_of(FLOWS[0], **(given | {"backlash": 1e-3, "input_torque": 10.0} | changes))
 
 
-def test_without_its_meshes_a_planet_turns_freely_beside_the_modes_of_the_others():
+def test_a_planet_without_meshes_turns_freely():
     """With the carrier held a planet without load has no part in the motion of the others."""
     scene = displaced()
     assert carrying_planets(scene, "torsional") == (0.0, 1.0, 1.0, 1.0, 1.0)
@@ -42,7 +42,7 @@ def test_all_planets_count_as_in_contact_without_a_torque():
     assert carrying_planets(displaced(input_torque=0.0), "torsional") == (1.0,) * 5
 
 
-def test_a_planet_that_carries_at_times_has_the_mean_stiffness_of_its_meshes():
+def test_a_planet_that_carries_at_times_has_its_mean_stiffness():
     """Thick teeth of a planet with runout carry while they are at the flanks."""
     scene = planar(
         **{
@@ -71,7 +71,7 @@ def test_open_meshes_take_no_part_in_what_the_meshing_excites():
     assert felt[0] == felt[1]
 
 
-def test_the_planar_matrix_lacks_the_meshes_of_a_planet_without_load():
+def test_planar_matrix_lacks_the_meshes_of_a_planet_without_load():
     """K without both meshes of planet 1, from the rows of the meshes (Lin and Parker 1999)."""
     scene = planar(
         **{
@@ -94,7 +94,7 @@ def test_the_planar_matrix_lacks_the_meshes_of_a_planet_without_load():
     assert pt.natural_modes(scene).frequencies == pytest.approx(expected, rel=1e-6, abs=0.1)
 
 
-def test_it_is_said_that_all_planets_count_as_loaded_where_no_static_load_is_found():
+def test_without_a_static_load_all_planets_count_as_loaded():
     soft = pt.load_scene("floating_sun").replace(**{"supports.planet.bearing": 1e3})
     with pytest.warns(AccuracyWarning, match="all planets count as loaded, because"):
         pt.natural_modes(soft, "planar")

@@ -21,7 +21,7 @@ def soft_drive(coupling):
     return pt.load_scene("paper").replace(**changes)
 
 
-def test_a_soft_coupling_to_a_great_inertia_leaves_a_mode_between_motor_and_load():
+def test_a_soft_coupling_leaves_a_mode_of_motor_and_load():
     """Two inertias on two springs in series, the gears between them being without mass.
 
     In turns of the motor the load has J (Zs/Zr)^2 and its coupling k (Zs/Zr)^2.
@@ -53,7 +53,7 @@ def inertia_at_the_sun(scene):
 
 
 @pytest.mark.parametrize("model", ["planar", "spatial"])
-def test_a_soft_support_against_turning_leaves_a_mode_in_which_the_train_turns(model):
+def test_a_soft_support_leaves_a_mode_of_turning(model):
     firm = {f"supports.{body}.{way}": 1e9 for body in BODIES for way in ("axial", "tilting")}
     scene, torsion = pt.load_scene("wind_turbine_stage").replace(**firm), 1e-3
     assert scene.gearset.held == "ring"

@@ -79,7 +79,7 @@ def test_moving_and_turning_the_unsupported_whole_stores_nothing(helix):
 
 
 @pytest.mark.parametrize("helix", [0.25, -0.4])
-def test_a_planet_that_screws_along_its_own_helix_disturbs_neither_mesh(helix):
+def test_a_planet_that_screws_along_its_helix_is_free(helix):
     model = spatial_model(spatial(helix))
     q = np.zeros(len(model.coordinates))
     q[model.coordinates.index("planet_1.z")] = 1.0
@@ -96,7 +96,7 @@ def test_mesh_rows_have_the_torsional_arm_of_a_helical_gear():
             assert spring.stiffness * spring.row[5] ** 2 == pytest.approx(5e8)
 
 
-def test_helical_modes_are_rotational_translational_or_of_the_planets():
+def test_helical_modes_have_three_kinds():
     modes = modes_of(spatial_model(spatial(0.3, planets=5)))
     assert len(modes.frequencies) == 48
     assert "mixed" not in modes.kinds
@@ -113,7 +113,7 @@ def test_helical_modes_are_rotational_translational_or_of_the_planets():
     angles=st.lists(st.floats(0.0, 6.28), min_size=2, max_size=7),
     ring=st.floats(1e6, 1e10),
 )
-def test_stored_energy_is_never_negative_and_planets_may_be_renamed(helix, angles, ring):
+def test_energy_is_never_negative_however_planets_are_named(helix, angles, ring):
     data = spatial(helix, planet_angles=tuple(angles), planet_ring=ring)
     other = spatial(helix, planet_angles=tuple(angles[::-1]), planet_ring=ring)
     k = spatial_model(data).stiffness
@@ -122,7 +122,7 @@ def test_stored_energy_is_never_negative_and_planets_may_be_renamed(helix, angle
     assert first == pytest.approx(second, rel=1e-6, abs=1e-4 * first[-1])
 
 
-def test_wind_turbine_stage_turns_freely_and_its_planar_modes_have_their_kinds():
+def test_the_wind_turbine_stage_turns_freely():
     modes = pt.natural_modes(pt.load_scene("wind_turbine_stage"), "planar")
     assert len(modes.frequencies) == 17  # 3 (3 + 3) less the held ring
     assert modes.kinds.count("rigid") == 1
@@ -135,7 +135,7 @@ def test_wind_turbine_stage_turns_freely_and_its_planar_modes_have_their_kinds()
 PIN = PinStiffness(2.0, 3.0, 5.0, 0.7, 0.9)
 
 
-def test_printed_mesh_block_of_a_spur_gear_is_a_spring_and_of_a_helical_one_is_not():
+def test_the_printed_mesh_block_is_no_spring_if_helical():
     assert np.linalg.matrix_rank(mesh_block(1.0, 0.7, 0.0)) == 1
     block = mesh_block(1.0, 0.7, 0.3)
     assert np.allclose(block, block.T)

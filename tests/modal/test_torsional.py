@@ -93,7 +93,7 @@ def test_the_end_of_a_shaft_whose_motion_is_given_is_at_rest():
     assert not any(name.startswith("motor") for name in modes.coordinates)
 
 
-def test_a_given_torque_leaves_the_inertia_of_its_port_in_the_train():
+def test_given_torque_leaves_inertia_of_its_port_in_the_train():
     given, machine = (pt.natural_modes(driven(port), "machines") for port in ("torque", "machine"))
     assert given.frequencies == pytest.approx(machine.frequencies, rel=1e-12)
     assert given.kinds[0] == "rigid"
@@ -118,7 +118,7 @@ def test_a_twin_swings_at_the_lowest_frequency_of_its_ports(port):
     assert found == pytest.approx(lowest, rel=0.02)
 
 
-def test_an_unknown_model_and_a_scene_without_supports_end_in_one_line():
+def test_an_unknown_model_ends_in_one_line():
     scene = pt.load_scene("paper")
     with pytest.raises(ValueError, match="model = 'flat': must be one of torsional"):
         pt.natural_modes(scene, "flat")

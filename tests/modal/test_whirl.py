@@ -60,7 +60,7 @@ def soft(input_speed, **changes):
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "quasi_static_planar"])
-def test_runs_above_the_critical_speed_stay_where_load_sharing_has_the_axes(dynamics):
+def test_above_the_critical_speed_axes_are_as_load_sharing_says(dynamics):
     scene = soft(18_000, dynamics=dynamics)
     expected = np.linalg.norm(pt.load_sharing(scene).displacement, axis=2).mean(axis=0)
     run = pt.simulate(scene, 0.004, tolerance=1e-5)
@@ -69,7 +69,7 @@ def test_runs_above_the_critical_speed_stay_where_load_sharing_has_the_axes(dyna
     assert expected[0] == pytest.approx(2.04e-6, rel=0.01)
 
 
-def test_a_carrier_far_above_its_critical_speed_turns_about_its_centre_of_mass():
+def test_a_fast_carrier_turns_about_its_centre_of_mass():
     """Its displacement falls with the speed, as that of a rotor does (Jeffcott 1919)."""
     sizes = []
     for input_speed in (18_000, 30_000, 40_000):

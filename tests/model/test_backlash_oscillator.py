@@ -26,7 +26,7 @@ def separates(x):
 
 
 @pytest.mark.parametrize("ratio, published", [(0.5, 0.0166), (0.7, 0.0476), (0.8, 0.0868)])
-def test_below_grazing_the_response_is_that_of_the_linear_oscillator(ratio, published):
+def test_below_grazing_response_is_that_of_the_linear_oscillator(ratio, published):
     oscillator = Oscillator()
     oscillator.set(ratio)
     x = oscillator.settled()
@@ -35,7 +35,7 @@ def test_below_grazing_the_response_is_that_of_the_linear_oscillator(ratio, publ
     assert x.mean() == pytest.approx(1.0 + MEAN, rel=1e-5)
 
 
-def test_sweeping_up_the_flanks_part_where_the_linear_amplitude_reaches_the_mean_squeeze():
+def test_flanks_part_where_the_amplitude_reaches_the_squeeze():
     """Closed form: W = 0.8206; the sweep passes it in steps of 0.002."""
     oscillator = Oscillator()
     for ratio in (0.7, 0.75, 0.79, 0.8, 0.805):
@@ -67,7 +67,7 @@ def near_grazing(ratio, tolerance):
 
 
 @pytest.mark.parametrize("ratio", [0.822, 0.828])
-def test_near_grazing_the_amplitude_keeps_to_the_default_tolerance(ratio):
+def test_near_grazing_amplitude_keeps_to_the_default_tolerance(ratio):
     """The tolerance refers to half the backlash, 1; the amplitude is a tenth of it."""
     exact = near_grazing(ratio, 1e-8)
     assert near_grazing(ratio, TOLERANCE) == pytest.approx(exact, abs=TOLERANCE)

@@ -61,7 +61,7 @@ def test_balance_closes_for_any_number_of_planets(planets):
     ],
     ids=str,
 )
-def test_balance_closes_for_steps_of_the_stiffness_and_for_every_direction(changes):
+def test_balance_closes_for_steps_of_the_stiffness(changes):
     assert_balanced(scene_of(FLOWS[0], **changes))
 
 
@@ -72,7 +72,7 @@ def test_residual_falls_with_the_tolerance():
     assert residuals[-1] < 1e-7
 
 
-def test_residual_of_collocation_is_below_a_bound_that_falls_with_the_tolerance():
+def test_residual_of_collocation_falls_with_the_tolerance():
     """It passes through zero on the way."""
     for tolerance, bound in ((1e-2, 1e-4), (1e-4, 1e-6), (1e-6, 1e-7)):
         assert imbalance(scene_of(FLOWS[0]), tolerance) < bound

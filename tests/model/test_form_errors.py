@@ -27,7 +27,7 @@ def lines(signal, cycles, orders):
     return 2 * np.hypot(np.cos(phase) @ signal, np.sin(phase) @ signal) / len(signal)
 
 
-def test_without_errors_and_with_a_constant_stiffness_nothing_moves():
+def test_without_errors_at_constant_stiffness_nothing_moves():
     run = pt.simulate(STEADY, 0.1)
     assert run.dte.std(axis=0).max() < 1e-4 * run.dte.mean()
 

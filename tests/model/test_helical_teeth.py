@@ -43,7 +43,7 @@ WIDE = {"gearset.module": "1.379 mm", "gearset.face_width": "30 mm"}  # normal m
 
 
 @pytest.mark.parametrize(("angle", "changes"), [("4 deg", {}), ("-18 deg", {}), ("25 deg", WIDE)])
-def test_the_transmission_error_is_the_force_over_the_mean_of_the_slices(angle, changes):
+def test_transmission_error_is_force_over_the_mean_of_the_slices(angle, changes):
     scene = helical(**{"gearset.helix_angle": angle}, **changes)
     run = pt.simulate(scene, 0.002, sample_rate=50e3)
     teeth = scene.gearset.teeth.sun
@@ -57,15 +57,6 @@ def test_the_transmission_error_is_the_force_over_the_mean_of_the_slices(angle, 
         assert run.dte[n, 0] == pytest.approx(expected, rel=2e-4)
 
 
-def test_overlap_quietens_the_gears():
-    """Fluctuation of the stiffness falls with the overlap, and so does that of the DTE."""
-    swings = []
-    for angle in ("0 deg", "4 deg", "8 deg"):
-        run = pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.02)
-        swings.append(run.dte[:, 0].std())
-    assert swings[0] > swings[1] > swings[2]
-
-
 def test_the_sense_of_the_helix_does_not_matter_to_rotations():
     one, two = (
         pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.01).dte
@@ -74,14 +65,14 @@ def test_the_sense_of_the_helix_does_not_matter_to_rotations():
     assert np.array_equal(one, two)
 
 
-def test_the_ledger_closes_with_friction_on_parts_of_contact_lines():
+def test_ledger_closes_with_friction_on_parts_of_contact_lines():
     scene = helical(dynamics="torsional", **{"lubrication.friction": True})
     run = pt.simulate(scene, 0.02, tolerance=1e-5)
     assert abs(run.energy.residual) < 1e-6 * abs(run.energy.input)
 
 
 @pytest.mark.parametrize("overlap", [3.4, 4.0])
-def test_a_whole_overlap_of_a_wide_face_does_not_excite_the_gears(overlap):
+def test_whole_overlap_of_a_wide_face_does_not_excite_the_gears(overlap):
     pitch = math.pi * 1.379e-3  # of the transverse section; the overlap is L tan(beta)/pitch
     width = overlap * pitch / math.tan(math.radians(25.0))
     wide = WIDE | {"gearset.helix_angle": "25 deg", "gearset.face_width": width}
@@ -131,7 +122,7 @@ def test_tip_relief_is_for_spur_teeth():
         helical(**{"mesh.tip_relief.sun": {"amount": "5 um", "length": "0.3 mm"}})
 
 
-def test_a_face_that_is_too_wide_is_refused_with_the_largest_that_is_allowed():
+def test_a_face_too_wide_is_refused_with_the_largest_allowed():
     scene = helical(**{"gearset.face_width": "300 mm"})
     with pytest.raises(ValueError, match=r"gearset.face_width = 300 mm: must be at most") as error:
         pt.simulate(scene, 0.001)

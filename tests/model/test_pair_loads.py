@@ -108,14 +108,14 @@ def shared(depth, force, cycle):
     return loads_at(np.array([cycle, cycle - 1.0]), found.position[0], found.load[0])
 
 
-def test_a_worn_tooth_leaves_the_load_that_its_missing_material_takes_to_the_next():
+def test_a_worn_tooth_leaves_its_load_to_the_next():
     """Two equal springs k of which one begins late by w: they carry F/2 -+ k w/2."""
     stiffness, force, depth = 1.75 / 2 * 2e8, 1500.0, 2e-6  # [N/m] of each of two pairs
     expected = [(force - stiffness * depth) / 2, (force + stiffness * depth) / 2]
     assert shared(depth, force, 0.5) == pytest.approx(expected)
 
 
-def test_a_tooth_worn_further_than_the_mesh_yields_carries_nothing():
+def test_tooth_worn_further_than_the_mesh_yields_carries_nothing():
     worn, healthy = shared(1e-4, 1500.0, 0.5)
     assert worn == 0.0
     assert healthy == pytest.approx(1500.0)

@@ -26,7 +26,7 @@ def turning(dynamics: str, speed: float, stiffness: float) -> pt.Scene:
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "quasi_static_planar"])
-def test_a_bearing_that_the_centrifugal_force_overcomes_is_refused(dynamics):
+def test_bearing_that_the_centrifugal_force_overcomes_is_refused(dynamics):
     speed = -300.0
     least = MASS * speed**2
     with pytest.raises(pt.SceneError, match=r"^supports\.planet\.bearing = .* must be above"):
@@ -34,7 +34,7 @@ def test_a_bearing_that_the_centrifugal_force_overcomes_is_refused(dynamics):
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "quasi_static_planar"])
-def test_a_twin_refuses_a_speed_at_which_planets_have_no_equilibrium_and_goes_on(dynamics):
+def test_a_speed_without_equilibrium_is_refused_by_a_twin(dynamics):
     stiffness = 5e7
     twin = pt.Twin(turning(dynamics, 20.0, stiffness))
     twin.advance(0.001)

@@ -75,7 +75,7 @@ def fault(gear, **changes):
     ],
     ids=str,
 )
-def test_different_teeth_split_groups_unless_the_same_teeth_return(scene, changes, group):
+def test_different_teeth_split_groups_unless_same_teeth_return(scene, changes, group):
     assert planet_groups(scene.replace(**changes)).group == group
 
 
@@ -143,7 +143,7 @@ def test_one_planet_of_each_group_gives_the_results_of_all(scene, method):
     ids=["losses", "errors", "fault"],
 )
 @pytest.mark.parametrize("planets", [4, 5])
-def test_one_planet_of_each_group_gives_the_results_of_all_without_dynamics(planets, changes):
+def test_one_planet_of_each_group_serves_without_dynamics(planets, changes):
     scene = evenly(planets, dynamics="quasi_static", **changes)
     one = pt.simulate(scene, 0.01, tolerance=TOLERANCE)
     assert_equal_results(one, pt.simulate(scene.replace(**APART), 0.01, tolerance=TOLERANCE))

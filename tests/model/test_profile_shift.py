@@ -43,7 +43,7 @@ SCENES = pytest.mark.parametrize(
 
 
 @SCENES
-def test_rigid_turning_moves_no_mesh_and_slides_at_no_pitch_point(scene):
+def test_rigid_turning_moves_no_mesh(scene):
     train = build_train(scene)
     for i in range(train.meshes):
         kind, bodies = train.kind[i], train.body[i]
@@ -133,7 +133,7 @@ OFF = STAGE.replace(
 )
 
 
-def test_one_pair_has_the_largest_stiffness_of_its_path_that_may_not_reach_the_pitch_point():
+def test_the_largest_stiffness_is_that_of_one_pair():
     """c' of ISO 6336-1, its maximum: it is that of the modes and of the damping."""
     figures, width = describe_meshes(OFF).planet_ring, OFF.gearset.face_width
     assert min(figures.approach, figures.recess) == pytest.approx(-0.012, abs=1e-4)
@@ -158,9 +158,7 @@ def test_one_pair_has_the_largest_stiffness_of_its_path_that_may_not_reach_the_p
 
 
 @pytest.mark.parametrize("shift, tip", [(0.0, 1.906), (0.6, 1.94)])
-def test_hertz_pressure_is_that_of_the_end_of_a_path_that_does_not_reach_the_pitch_point(
-    shift, tip
-):
+def test_hertz_pressure_is_that_of_the_end_of_the_path(shift, tip):
     """The planets touch the ring's tips there: rho = sqrt(r_a^2 - r_b^2), a sin(a_w) less."""
     scene = OFF.replace(**{
         "gearset.profile_shift": {"sun": 0.389 - shift, "planet": 0.504 + shift,

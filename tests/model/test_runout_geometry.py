@@ -129,7 +129,7 @@ INVOLUTE = involute(math.cos(ANGLE))
 @pytest.mark.parametrize(
     ("gear", "ring"), [("sun", False), ("planet", False), ("planet", True), ("ring", True)]
 )
-def test_runout_agrees_to_first_order_with_the_closed_form_of_involutes(gear, ring, flank):
+def test_runout_is_that_of_the_closed_form_of_involutes(gear, ring, flank):
     """The rest is of second order: 1/10 of the runout leaves 1/100 of it."""
     rate, begin = TURNING[gear]
     left = []

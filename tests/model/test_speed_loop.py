@@ -11,7 +11,6 @@ from stability.sound import PAPER, PLAIN
 import planetary_twin_py as pt
 from planetary_twin_py.model.speed_loop import (
     FIELD,
-    LinearTrain,
     bandwidth,
     check_speed_loop,
     linear_loop,
@@ -37,7 +36,7 @@ def loop_of(scene, mesh_frequency=500.0):
 
 
 @pytest.mark.parametrize("share", [1e-3, 0.1, 0.5, 0.9, 0.99])
-def test_two_masses_on_a_shaft_are_stable_up_to_the_limit_of_routh_and_hurwitz(share):
+def test_two_masses_are_stable_up_to_the_limit_of_routh(share):
     """J w^2/4 = k, whatever share of the inertia J the motor has."""
     ratio, total, shaft = 3.0 / 7.0, 0.02, 500.0
     scene = UNDAMPED.replace(
@@ -56,7 +55,7 @@ def test_two_masses_on_a_shaft_are_stable_up_to_the_limit_of_routh_and_hurwitz(s
     assert loop_of(scene).limit(100.0) == pytest.approx(limit, rel=1e-3)
 
 
-def test_without_a_loop_the_eigenvalues_are_the_natural_modes_with_machines():
+def test_without_a_loop_eigenvalues_are_natural_modes():
     loop = loop_of(UNDAMPED)
     found = np.sort(np.abs(loop.eigenvalues(1e-9).imag))[::2] / math.tau
     frequencies = pt.natural_modes(UNDAMPED, "machines", "mean").frequencies
@@ -96,7 +95,7 @@ DRIVES = [(ratio, coupling) for ratio in (1e-3, 1.0, 1e3) for coupling in (1e1, 
 
 
 @ALL_FLOWS
-def test_every_default_is_steady_and_every_loop_that_grows_is_refused(flow):
+def test_every_default_is_steady_and_growing_loops_are_refused(flow):
     """By another model, with rigid gears, stepped in time; inertia of the load, couplings."""
     refused = 0
     for ratio, coupling in DRIVES:
@@ -116,35 +115,13 @@ def test_every_default_is_steady_and_every_loop_that_grows_is_refused(flow):
     assert refused >= 1
 
 
-@pytest.mark.parametrize("name", ["paper", "run_up", "differential", "cracked_tooth"])
-def test_the_default_of_the_packaged_gearbox_is_three_hertz(name):
-    assert bandwidth(pt.load_scene(name)) == 3.0
-
-
-def test_the_default_of_a_very_heavy_load_on_a_soft_shaft_is_stable():
-    """Without damping its loop grows by 0.01 1/s at 12 Hz, beside a decay of 4e10 1/s."""
-    scene = UNDAMPED.replace(
-        **{
-            "drive.input.member": "sun",
-            "drive.output.member": "carrier",
-            "gearset.held": "ring",
-            "drive.input.inertia": 8e-4,
-            "drive.input.coupling_stiffness": 81.0,
-            "drive.output.inertia": 4.3e6,
-            "drive.output.coupling_stiffness": 0.0157,
-        }
-    )
-    assert bandwidth(scene) < 1e-4
-    check_speed_loop(scene, build_train(scene), scene.operating_point)
-
-
 @pytest.mark.parametrize("point", [{"input_speed": 0.0}, {"backlash": 0.0, "torque_ripple": 5.0}])
 def test_the_default_does_not_follow_the_operating_point(point):
     assert bandwidth(HEAVY.replace(**point)) == bandwidth(HEAVY) < 3.0
 
 
 @pytest.mark.parametrize("scene", [HEAVY, WIND], ids=["e-axle", "wind stage"])
-def test_an_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
+def test_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     with pytest.raises(pt.SceneError) as error:
         pt.Twin(scene.replace(**{FIELD: 3.0}))
     text = str(error.value)
@@ -156,29 +133,6 @@ def test_an_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     above = scene.replace(**{FIELD: 1.1 * largest})
     with pytest.raises(pt.SceneError):
         check_speed_loop(above, build_train(above), above.operating_point)
-
-
-def excited():
-    """A loop that is unstable at any bandwidth: dampers that give energy to the shafts."""
-    loop = loop_of(PAPER)
-    return loop._replace(damping=-loop.damping)
-
-
-@pytest.mark.parametrize("highest", [3.0, 4.4e-10])
-def test_a_loop_without_stable_bandwidth_has_a_limit_of_zero(highest):
-    assert excited().limit(highest) == 0.0
-    assert loop_of(PAPER).limit(highest) == highest
-
-
-@pytest.mark.parametrize("chosen", [3.0, 3.1e-10, None])
-def test_a_loop_without_stable_bandwidth_is_refused_without_a_bound(chosen, monkeypatch):
-    loop = excited()
-    monkeypatch.setattr(LinearTrain, "loop", lambda self, frequency: loop)
-    scene = PAPER.replace(**{FIELD: chosen, "description": "loop without stable bandwidth"})
-    with pytest.raises(pt.SceneError, match="is unstable at any bandwidth, where") as error:
-        check_speed_loop(scene, build_train(scene), scene.operating_point)
-    assert "must be at most" not in str(error.value)
-    assert ("the default" in str(error.value)) == (chosen is None)
 
 
 @pytest.mark.parametrize(
@@ -195,7 +149,7 @@ def test_drives_with_large_inertias_run_steadily_by_default(scene, duration):
     assert last.input_speed == pytest.approx(scene.operating_point.input_speed, rel=3e-3)
 
 
-def test_a_speed_at_which_the_loop_is_unstable_is_refused_and_nothing_changes():
+def test_a_speed_of_an_unstable_loop_is_refused():
     """Teeth of rubber are damped at a low speed alone, where tau = loss_factor/f_m is long."""
     soft = PAPER.replace(
         input_speed=pt.rpm(10.0),

@@ -30,7 +30,7 @@ def positions(pair, x, margin):
 
 
 @pytest.mark.parametrize("kind", first(1, [0, 1]), ids=["sun_planet", "planet_ring"])
-def test_a_pair_alone_is_as_stiff_as_its_teeth_and_two_share_their_gear_bodies(kind):
+def test_two_pairs_share_their_gear_bodies(kind):
     pair, ramp = tooth_pairs(INVOLUTE)[kind], INVOLUTE.mesh.ramp
     width = INVOLUTE.gearset.face_width
     cycles = np.linspace(0.0, 1.0, 400, endpoint=False)
@@ -63,7 +63,7 @@ def test_the_nominal_load_stiffens_the_contact_by_little():
     assert np.all((heavy > 1.02 * light) & (heavy < 1.2 * light))
 
 
-def test_a_deep_crack_softens_more_than_a_shallow_one_and_bends_further_at_the_tip():
+def test_a_deep_crack_softens_more_and_bends_at_the_tip():
     dte = {}
     for depth in (None, "0.3 mm", "0.6 mm"):
         faults = [{"kind": "crack", "gear": "sun", "tooth": 1, "depth": depth}] if depth else []
@@ -72,13 +72,3 @@ def test_a_deep_crack_softens_more_than_a_shallow_one_and_bends_further_at_the_t
         dte[depth] = pt.simulate(scene, 0.04, tolerance=1e-5).dte[:, 0]
     grown = [np.max(dte[depth] - dte[None]) for depth in ("0.3 mm", "0.6 mm")]
     assert 0.0 < grown[0] < 0.6 * grown[1]
-
-
-def test_teeth_that_cannot_be_are_refused_in_one_line():
-    teeth = {"sun": 12, "planet": 60, "ring": 132}
-    scene = INVOLUTE.replace(
-        **{"gearset.teeth": teeth, "gearset.planet_angles": (0.0, 3.141592653589793)}
-    )
-    with pytest.raises(ValueError, match="sun = 12") as error:
-        pt.simulate(scene, 0.01)
-    assert "\n" not in str(error.value)

@@ -47,7 +47,7 @@ def by_row(internal, side, k, shift, turn):
 
 @SIDES
 @MESHES
-def test_rows_are_those_of_the_pitch_point_in_the_middle_of_the_face(internal, side):
+def test_rows_are_those_of_pitch_point_in_the_middle_of_the_face(internal, side):
     rng = np.random.default_rng(1)
     outwards = np.array([math.cos(PSI), math.sin(PSI), 0.0])
     point = (RING if internal else SUN) * outwards
@@ -108,7 +108,7 @@ def test_energy_of_the_slope_is_that_of_slices_along_the_face(internal, side):
     assert found == pytest.approx(energy, rel=1e-6)
 
 
-def test_along_a_leaning_contact_line_the_energy_is_larger_by_little():
+def test_along_leaning_contact_line_energy_is_larger_by_little():
     """Followed along the line of one tooth, a part of the face at z is z tan(beta_b) further along
     the plane of action: the slope grows by 1/cos(beta_b)^2, its energy by 9 per cent at 12 deg.
     Lines of several teeth lie all over the plane of action, so this is the most it can be."""

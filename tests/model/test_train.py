@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from power_flows import ALL_FLOWS, DIFFERENTIALS, FLOWS, scene_of
+from modal.test_torsional import CASES
+from power_flows import ALL_FLOWS, DIFFERENTIALS, FLOWS, flow_name, scene_of
 from scipy.linalg import eigvalsh
 
 from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
@@ -56,14 +57,7 @@ def natural_frequencies(flow, **changes):
 
 
 @pytest.mark.parametrize(
-    "flow, expected",
-    [
-        (FLOWS[0], [0, 5500.36, 9375.70, 9375.70, 11112.99]),
-        (FLOWS[2], [0, 5620.95, 9375.70, 9375.70, 10928.67]),
-        (FLOWS[4], [0, 4724.50, 9375.70, 9375.70, 9879.57]),
-        (DIFFERENTIALS[0], [0, 0, 6664.08, 9375.70, 9375.70, 11135.22]),
-    ],
-    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+    "flow, expected", CASES, ids=lambda v: flow_name(v) if isinstance(v, tuple) else ""
 )
 def test_natural_frequencies_of_the_bare_gearset(flow, expected):
     found = natural_frequencies(flow)

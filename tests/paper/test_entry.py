@@ -30,14 +30,14 @@ def test_verdict(claims, verdict):
     assert entry(*(claim(*c) for c in claims)).verdict is verdict
 
 
-def test_a_claim_that_only_the_printed_form_reaches_counts_but_is_explained():
+def test_what_only_the_printed_form_reaches_is_explained():
     found = entry(claim("number", False, True, "ours differs"))
     assert found.verdict is Verdict.REPRODUCED
     only = "one statement is reached in the printed form only, because ours differs"
     assert found.reason == only
 
 
-def test_reasons_are_given_once_and_only_where_something_is_missed():
+def test_reasons_are_given_once_where_something_is_missed():
     found = entry(
         claim("number", False, why="a"), claim("number", False, why="a"), claim("trend", 1)
     )

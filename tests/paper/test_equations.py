@@ -36,7 +36,7 @@ def test_files_named_exist(equation):
 
 
 @pytest.mark.parametrize("equation, choice", CHOICES, ids=lambda x: getattr(x, "label", None))
-def test_choices_named_are_fields_of_a_scene_and_on_in_paper_printed(equation, choice):
+def test_choices_named_are_fields_and_on_in_paper_printed(equation, choice):
     ((name, value),) = yaml.safe_load(choice).items()
     chosen = pt.load_scene("paper").replace(**{name: value})
     field = attrgetter(name)

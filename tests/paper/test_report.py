@@ -90,7 +90,7 @@ def test_efficiency_is_in_the_band_of_the_literature(found):
     assert efficiency[0, 0, 0] == pytest.approx(0.9883, abs=5e-4)  # 63 N m, 1000 rpm, lambda 1
 
 
-def test_power_of_the_printed_friction_torque_is_twice_the_sliding_loss(found):
+def test_power_of_printed_friction_torque_is_twice_sliding_loss(found):
     values = found["Figure 11"].figures
     gain = values["ledger_efficiency_printed"] - 1.0
     assert gain.min() > 0.0
@@ -111,7 +111,7 @@ def test_frequencies_and_crossings(found):
     assert modes["stiffness_at_8643_hz"] == pytest.approx(2.0e7, rel=0.05)
 
 
-def test_highest_mode_at_a_thousand_times_the_stated_stiffness_is_that_of_a_chain(found):
+def test_the_highest_mode_is_that_of_a_chain(found):
     """Sun, planets as one and ring on two springs; the carrier of (38) hangs on one of its own."""
 
     def highest(sun, planet, ring):
@@ -127,7 +127,7 @@ def test_highest_mode_at_a_thousand_times_the_stated_stiffness_is_that_of_a_chai
     assert "8632 Hz (-0.12 %)" in found["Figure 14"].reason
 
 
-def test_masses_fitted_to_table_5_are_no_evidence_of_what_it_was_computed_from(found):
+def test_masses_fitted_to_table_5_are_no_evidence(found):
     """Four masses meet four other frequencies as well, here by a solver."""
     entry = found["Table 5"]
     assert not entry.claims[1].reached and "no evidence" in entry.remarks
@@ -143,7 +143,7 @@ def test_masses_fitted_to_table_5_are_no_evidence_of_what_it_was_computed_from(f
     assert solved.success and np.abs(missed(solved.x)).max() < 1e-8
 
 
-def test_figure_6_is_that_of_the_scenes_and_a_third_curve_is_labelled_as_another_model(found):
+def test_a_third_curve_of_figure_6_is_labelled_as_another(found):
     """A prescribed law of load sharing has the regimes, the scenes' own laws do not."""
     entry = found["Figure 6"]
     own, mixed = (entry.figures[f"friction_coefficient{name}"] for name in ("", "_mixed"))
@@ -165,7 +165,7 @@ def test_the_largest_force_is_not_limited_by_the_sampling(evidence):
     )
 
 
-def test_a_largest_value_that_the_samples_do_not_resolve_is_refused():
+def test_largest_value_that_samples_do_not_resolve_is_refused():
     with pytest.raises(ArithmeticError, match="does not resolve it"):
         largest(np.array([[0.0], [1.0], [0.5], [0.9]]))
     assert largest(np.array([[0.9995], [1.0], [0.9996], [0.2]])) == 1.0
@@ -177,9 +177,7 @@ def test_contact_ratios_and_jumps(found):
 
 
 @pytest.mark.exhaustive
-def test_page_and_figures_are_the_same_on_a_second_run_with_more_processes(
-    found, evidence, tmp_path
-):
+def test_a_second_run_with_more_processes_is_the_same(found, evidence, tmp_path):
     again = run_studies(("paper",), GRID, 2)["paper"]
     assert again.outcomes == evidence.study.outcomes
     (tmp_path / "vector").mkdir()

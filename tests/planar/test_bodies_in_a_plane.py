@@ -51,7 +51,7 @@ def at_rest(data, free, guess):
 
 @pytest.mark.parametrize("speed", [0.0, 300.0])
 @pytest.mark.parametrize("angles", [(0.3, 2.0, 4.4), (0.0, 1.5708, 3.1416, 4.7124)])
-def test_small_vibration_has_the_natural_frequencies_at_rest_and_turning(angles, speed):
+def test_small_vibration_has_the_natural_frequencies(angles, speed):
     torsion = np.array([0.0, 1e9 * (PITCH["ring"] * math.cos(ANGLE)) ** 2, 0.0])
     data = bodies(angles, linear=True, speed=speed, torsion=torsion)
     free = np.arange(3 * len(data.mass))

@@ -73,11 +73,7 @@ def test_planets_out_of_phase_move_the_axes_and_stay_apart():
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize(
-    "flow",
-    [FLOWS[0], FLOWS[2]],
-    ids=["held carrier", "turning carrier"],
-)
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=["held carrier", "turning carrier"])
 def test_repeated_cycles_show_the_axes_as_if_they_were_computed(flow):
     scene = planar(flow, {"sun": 0.0}, **{"errors.pin_tangential": (-1e-5, 0.0, 0.0)})
     repeated, computed = (

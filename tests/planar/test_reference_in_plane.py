@@ -1,18 +1,16 @@
 """Runs with moving axes against a model of vectors and points, integrated by SciPy."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
+from integrators.test_reference import errors as reference_errors
 from planar.moving_scenes import MASSES, planar
 from planar.reference_in_plane import PlanarReference
 from power_flows import FLOWS
 
-from planetary_twin_py._core import DTE
 from planetary_twin_py.model.bodies import build_bodies
-from planetary_twin_py.run.engine import Engine
-
-RATE = 50_000.0
 
 
 def absolute(engine, reference):
@@ -42,22 +40,7 @@ def absolute(engine, reference):
     return np.concatenate([angle, speed, state.trim[:1]]), state.side[:meshes].copy()
 
 
-def errors(scene, begin, duration, tolerances):
-    """Difference of the DTE of all flanks from the reference over their rms, per tolerance."""
-    source = Engine(scene, 1e-6)
-    source.advance(begin, 1, RATE, 0)
-    start = source.integrator.end.time
-    first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
-    times = np.arange(first, last + 1) / RATE
-    reference = PlanarReference(scene)
-    exact, flank_events = reference.transmission_errors(*absolute(source, reference), times - start)
-    found = []
-    for tolerance in tolerances:
-        engine = Engine(scene, tolerance)
-        engine.integrator.end = source.integrator.end
-        mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
-        found.append(np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)))
-    return found, flank_events
+errors = partial(reference_errors, model=PlanarReference, state=absolute)
 
 
 @pytest.mark.parametrize(
@@ -94,7 +77,7 @@ def test_rolling_bearings_converge_to_the_reference(clearance):
 
 
 @pytest.mark.exhaustive
-def test_rattling_with_gaps_and_clearance_converges_to_the_reference():
+def test_rattling_with_gaps_and_clearance_converges_to_reference():
     scene = planar(
         FLOWS[0],
         **{

@@ -7,13 +7,7 @@ import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, planar
 from planar.published_set import MESH, PIN, TORQUE, scene
-from planar.rolling_law import (
-    element,
-    force_of_elements,
-    size_under,
-    slope,
-    spread_force,
-)
+from planar.rolling_law import element, force_of_elements, size_under, slope, spread_force
 from power_flows import FLOWS, flow_name
 from scipy.integrate import quad
 from spatial.tilting_scenes import spatial
@@ -39,7 +33,7 @@ THIRD = 2.0 * math.pi / 3.0
 
 @pytest.mark.parametrize("rolling", [ROLLERS, BALLS], ids=["rollers", "balls"])
 @pytest.mark.parametrize("clearance", [0.0, 1e-6, 2e-5])
-def test_energy_force_and_stiffness_are_those_of_elements_all_around(rolling, clearance):
+def test_energy_force_and_stiffness_are_those_of_elements(rolling, clearance):
     law = rolling_bearing(rolling)
     for size in clearance + np.array([1e-9, 1e-7, 3e-6, 4e-5]):
         energy, force, stiffness = press(law, clearance, np.array([size]))[:, 0]
@@ -55,7 +49,7 @@ def test_energy_force_and_stiffness_are_those_of_elements_all_around(rolling, cl
     assert (press(law, clearance, np.array([0.0, 0.5 * clearance, clearance])) == 0.0).all()
 
 
-def test_a_bearing_of_14_rollers_yields_as_published_laws_have_it():
+def test_bearing_of_14_rollers_yields_as_published_laws_have_it():
     law = rolling_bearing(ROLLERS)
     size = eccentricity(law, 0.0, 3500.0)
     assert size == pytest.approx(5.374e-6, rel=1e-3)
@@ -77,7 +71,7 @@ def test_the_most_loaded_element_has_the_share_of_stribeck(rolling, factor):
     assert found == pytest.approx(factor * 3500.0 / count, rel=2e-3)
 
 
-def test_with_a_clearance_the_bearing_is_between_those_of_two_places_of_its_rollers():
+def test_a_clearance_is_between_two_places_of_its_rollers():
     """One in line with the load, or two beside it: 28.22 um with 5.65e8 N/m is the first."""
     clearance, load, law = 2e-5, 3500.0, rolling_bearing(ROLLERS)
     found = []
@@ -97,7 +91,7 @@ def test_with_a_clearance_the_bearing_is_between_those_of_two_places_of_its_roll
 
 @pytest.mark.parametrize("rolling", [ROLLERS, BALLS], ids=["rollers", "balls"])
 @pytest.mark.parametrize("clearance", [0.0, 5e-6])
-def test_a_sun_on_rolling_elements_is_where_they_balance_the_error_of_a_pin(rolling, clearance):
+def test_a_sun_on_rollers_balances_the_error_of_a_pin(rolling, clearance):
     """(2/N) eps is the place of a sun that floats, N K/2 the stiffness that pulls it there."""
     error, angle = -2e-5, math.radians(21.34)
     branch = 1.0 / (2.0 / MESH + 4.0 * math.cos(angle) ** 2 / PIN)
@@ -139,7 +133,7 @@ def test_the_energy_of_a_run_balances(build, flow, clearance):
 
 
 @pytest.mark.parametrize("clearance", [0.0, 1e-5])
-def test_mean_loads_and_displacements_of_a_run_are_those_of_statics(clearance):
+def test_means_of_a_run_are_those_of_statics(clearance):
     given = rolling(
         clearance=clearance,
         **{

@@ -11,9 +11,22 @@ NO_FRICTION = {"lubrication.friction": False}
 CAUSALITIES = ("machine", "torque", "motion")
 
 
-def driven(input, output, **changes):
-    """The paper's gearbox with these ports."""
-    return PAPER.replace(**{"drive.input.port": input, "drive.output.port": output, **changes})
+def driven(input, output, scene=PAPER, **changes):
+    """The paper's gearbox, or another one, with these ports."""
+    return scene.replace(**{"drive.input.port": input, "drive.output.port": output, **changes})
+
+
+def course(scene, ports, interpolation, count=40):
+    """Commands around steady running, each millisecond, as the ports take them."""
+    shown, time = pt.Twin(driven("motion", "motion", scene)).port_states, np.arange(count) * 1e-3
+    wave = np.sin(2.0 * np.pi * 70.0 * time)
+    swing = {"torque": 0.2 * wave, "speed": 3e-3 * wave * (interpolation == "linear")}
+    names = {"torque": "torque", "motion": "speed"}
+    sides = zip(("input", "output"), ports, strict=True)
+    used = [(f"{side}_{names[port]}", names[port]) for side, port in sides if port != "machine"]
+    return pt.Commands(
+        time, **{name: getattr(shown, name) * (1.0 + swing[kind]) for name, kind in used}
+    )
 
 
 def at_rest(input, output, **changes):

@@ -1,7 +1,6 @@
 """Ports at which torque or motion is given, against closed forms of the rigid and elastic train."""
 
 import math
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -148,7 +147,7 @@ def test_straight_lines_between_commands():
 
 
 @pytest.mark.parametrize(("input", "output"), [("machine", "torque"), ("torque", "machine")])
-def test_the_machine_at_one_port_holds_the_speed_against_a_torque_at_the_other(input, output):
+def test_machine_at_one_port_holds_speed_against_torque_at_other(input, output):
     twin = pt.Twin(driven(input, output))
     given = {"output_torque": 100.0} if output == "torque" else {"input_torque": 40.0}
     twin.step(1.0, **given)
@@ -158,64 +157,13 @@ def test_the_machine_at_one_port_holds_the_speed_against_a_torque_at_the_other(i
     assert shown.output_torque / shown.input_torque == pytest.approx(-1.0 / RATIO, rel=0.05)
 
 
-def test_a_machine_gives_its_torque_where_the_motion_of_the_other_shaft_is_given():
+def test_a_machine_gives_torque_where_the_other_shaft_is_given():
     twin = pt.Twin(driven("machine", "motion"))
     shown = twin.step(0.5, output_speed=RATIO * 90.0)
     assert shown.input_torque == pytest.approx(63.0, rel=1e-9)
     assert shown.output_speed == pytest.approx(RATIO * 90.0, rel=1e-13)
     window = twin.advance(0.5)
     assert window.input_speed == pytest.approx(90.0, rel=1e-2)
-
-
-def test_ports_change_while_the_twin_runs_and_nothing_jumps():
-    twin = pt.Twin(PAPER, tolerance=1e-4)
-    twin.advance(0.05)
-    before = twin.step(1e-4).copy()
-    assert twin.set_ports(input="torque", output="motion") == twin.time
-    after = twin.step(1e-6)
-    assert after.input_torque == pytest.approx(before.input_torque, rel=1e-9)
-    assert after.output_speed == pytest.approx(before.output_speed, rel=1e-9)
-    assert after.input_speed == pytest.approx(before.input_speed, rel=1e-4)
-    assert after.output_torque == pytest.approx(before.output_torque, rel=0.02)
-    assert twin.ports == ("torque", "motion")
-    assert twin.log[-1].ports == twin.ports
-    twin.set_ports(input="machine", output="machine")
-    for _ in range(20):
-        window = twin.advance(0.1)
-    assert window.input_speed == pytest.approx(pt.rpm(1000), rel=1e-3)
-
-
-def test_two_twins_in_series_are_a_train_of_two_stages():
-    """Motion of the first output to the second input, torque back: stiffness and inertia add up."""
-    first = pt.Twin(at_rest("torque", "torque", **DAMPED), tolerance=1e-4)
-    scene = at_rest("motion", "torque", **DAMPED)
-    second = pt.Twin(scene, tolerance=1e-4)
-    back, torque, dt, steps = 0.0, 3.0, 1e-4, 4000
-    for _ in range(steps):
-        front = first.step(dt, input_torque=torque, output_torque=back)
-        behind = second.step(dt, input_speed=front.output_speed, output_torque=0.0)
-        back = -behind.input_torque
-    inertia = inertia_at_input(first.scene)
-    inertia += RATIO**2 * inertia_at_input(scene, without=("motor",))
-    assert front.input_speed == pytest.approx(steps * dt * torque / inertia, rel=2e-3)
-    assert behind.output_speed == pytest.approx(RATIO**2 * front.input_speed, rel=2e-3)
-
-
-def test_two_twins_in_series_twist_as_their_shafts_in_series():
-    first = pt.Twin(at_rest("torque", "torque", **DAMPED), tolerance=1e-4)
-    second = pt.Twin(at_rest("motion", "motion", **DAMPED), tolerance=1e-4)
-    back, dt = 0.0, 2e-4
-    for n in range(8000):
-        torque = 5.0 * (1.0 - math.cos(math.pi * min(1.0, n / 5000)))
-        front = first.step(dt, input_torque=torque, output_torque=back)
-        behind = second.step(dt, input_speed=front.output_speed, output_speed=0.0)
-        back = -behind.input_torque
-    r, k_in, k_out = abs(RATIO), 500.0, 3000.0
-    compliance = 1.0 / k_in + 1.0 / (r**2 * k_out)  # of a stage at its input, but for its teeth
-    teeth = 2 / (3 * 2e8 * 1.3 * _base_radius(30) ** 2)
-    expected = 10.0 * (compliance + teeth) * (1.0 + 1.0 / r**2)
-    assert behind.output_torque == pytest.approx(-10.0 / r**2, rel=1e-4)
-    assert front.input_angle == pytest.approx(expected, rel=0.01)
 
 
 @pytest.mark.parametrize("method", ["collocation", "rosenbrock"])
@@ -275,7 +223,7 @@ NO_NUMBERS = [np.array([0.1]), np.array([0.1, 0.2]), [0.1], "0.1", 1j]
 
 @pytest.mark.parametrize("value", NO_NUMBERS, ids=repr)
 @pytest.mark.parametrize("port", ["machine", "torque"])
-def test_a_torque_that_is_no_number_is_refused_with_its_name_and_changes_nothing(port, value):
+def test_a_torque_that_is_no_number_is_refused(port, value):
     twin, untouched = (pt.Twin(driven(port, "torque")) for _ in range(2))
     for call in (twin.step, twin.advance):
         with pytest.raises(ValueError) as refusal:
@@ -299,17 +247,8 @@ def test_a_duration_that_is_no_number_is_refused_with_its_name(value):
     assert twin.time == 0.0
 
 
-@pytest.mark.parametrize("kind", [np.float64, np.float32, np.array, np.int64, int, Fraction])
-def test_numbers_of_other_types_act_as_their_float(kind):
-    one, other = (pt.Twin(driven("torque", "torque")) for _ in range(2))
-    a, b = one.step(1e-3, input_torque=kind(2)), other.step(1e-3, input_torque=2.0)
-    assert (a.input_torque, a.output_speed) == (b.input_torque, b.output_speed)
-
-
 @pytest.mark.parametrize(("input", "output", "command", "message"), REFUSED)
-def test_commands_that_a_port_does_not_take_are_refused_and_change_nothing(
-    input, output, command, message
-):
+def test_commands_that_a_port_does_not_take_are_refused(input, output, command, message):
     twin, untouched = pt.Twin(driven(input, output)), pt.Twin(driven(input, output))
     for call in (twin.step, twin.advance):
         with pytest.raises(ValueError) as refusal:
@@ -327,7 +266,7 @@ def test_ports_that_a_scene_cannot_give_are_refused():
         pt.Twin(PAPER).step(2.0)
 
 
-def test_a_constant_torque_on_a_free_train_stops_the_run_with_a_reason():
+def test_constant_torque_on_free_train_stops_run_with_a_reason():
     twin = pt.Twin(at_rest("torque", "torque"))
     with pytest.raises(pt.RunawayError, match=r"speed of .* must be at most .* drive.speed_limit"):
         for _ in range(1000):
@@ -338,15 +277,7 @@ def test_a_constant_torque_on_a_free_train_stops_the_run_with_a_reason():
     assert twin.time == reached
 
 
-def test_speeds_far_from_the_operating_point_are_reached():
-    """A free train is sped up from rest to three times the speed of the scene, with friction."""
-    twin = pt.Twin(driven("torque", "torque", input_speed=0.0, input_torque=0.0))
-    while twin.step(1e-3, input_torque=10.0, output_torque=0.0).input_speed < 300.0:
-        assert twin.time < 1.0
-    assert twin.advance(0.01).power_loss > 0.0
-
-
-def test_only_torques_at_the_ports_change_the_momentum_of_the_train():
+def test_only_torques_at_ports_change_the_momentum_of_the_train():
     """Springs, dampers and backlash between the bodies do no work in its rigid motion."""
     scene = driven("torque", "torque", **NO_FRICTION)
     time = np.arange(20) * 1e-3
@@ -366,7 +297,7 @@ def test_only_torques_at_the_ports_change_the_momentum_of_the_train():
     assert abs(impulse) > 1e-3 * momentum_at(0.02)
 
 
-def test_a_given_torque_starts_at_the_value_without_losses_which_a_machine_has_not():
+def test_a_given_torque_starts_at_the_value_without_losses():
     lossless = PAPER.operating_point.input_torque / -RATIO
     for given in (("machine", "torque"), ("torque", "torque"), ("torque", "motion")):
         assert pt.Twin(driven(*given)).port_states.output_torque == pytest.approx(lossless)

@@ -49,7 +49,7 @@ def test_a_free_train_of_two_stages_speeds_up_as_a_rigid_one():
     assert behind.output_speed == pytest.approx(RATIO**2 * speed, abs=swing)
 
 
-def test_a_locked_train_of_two_stages_twists_as_its_springs_in_series():
+def test_a_locked_train_twists_as_its_springs_in_series():
     twins, back = pair("motion", **DAMPED), 0.0
     touching = [twin.advance(2e-5).waveform.dte[-1] for twin in twins]  # drive flanks just touch
     start = angles(step(twins, 2e-4, back, 0.0, output_speed=0.0)[:2])

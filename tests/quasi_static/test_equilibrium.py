@@ -29,7 +29,7 @@ def twisted(reference, angle):
 
 @pytest.mark.parametrize("backlash", [0.0, 2e-7, 1e-3])
 @pytest.mark.parametrize("sense", [1.0, -1.0])
-def test_rectangular_stiffness_shares_force_and_deflection_in_closed_form(backlash, sense):
+def test_rectangular_stiffness_has_the_closed_form(backlash, sense):
     """Planets in parallel, the two meshes of each in series, half the backlash on the flank."""
     changes = {"mesh.ramp": 0.0, "lubrication.friction": False}
     scene = PAPER.replace(**changes, backlash=backlash, input_torque=sense * 63.0)
@@ -106,7 +106,7 @@ class Still(Reference):
         return np.unique(np.mod(ends - start, 1.0)) * PERIOD
 
 
-def test_forces_and_errors_are_those_of_bodies_that_no_torque_accelerates():
+def test_forces_are_those_of_bodies_that_do_not_accelerate():
     run, still = pt.simulate(PAPER, 0.004, tolerance=1e-8), Still(PAPER)
     for row in range(0, len(run.time), 7):
         dte, force, loss = still.seen(run.time[row])
@@ -116,7 +116,7 @@ def test_forces_and_errors_are_those_of_bodies_that_no_torque_accelerates():
 
 
 @pytest.mark.exhaustive
-def test_mean_power_loss_is_that_of_adaptive_quadrature_over_the_mesh_cycle():
+def test_mean_loss_is_that_of_adaptive_quadrature():
     still = Still(PAPER)
     corners = still.corners()
     edges = np.append(corners, corners[0] + PERIOD)

@@ -25,7 +25,7 @@ def steps_of(rub, sun, ring):
 @pytest.mark.parametrize("rub", [-3.0, 2.0])
 @pytest.mark.parametrize("sun", [(0.0, 0.0), (1e-7, 1e-7), (1e-7, 3e-7)])
 @pytest.mark.parametrize("ring", [(0.0, 0.0), (2e-7, 1e-7)])
-def test_a_planet_is_in_equilibrium_with_both_meshes_and_friction(rub, sun, ring):
+def test_planet_is_in_equilibrium_with_both_meshes_and_friction(rub, sun, ring):
     steps = steps_of(rub, sun, ring)
     for w in np.linspace(-1e-6, 1e-6, 41):
 

@@ -81,7 +81,7 @@ def test_dynamics_tends_to_statics_as_the_speed_falls(changes):
     assert differences[1] < 0.6 * differences[0]
 
 
-def test_loss_equals_that_of_dynamics_at_low_speed_except_for_the_compliance_of_meshes():
+def test_loss_is_that_of_dynamics_but_for_mesh_compliance():
     """Flanks also slide as their mesh yields, which is less the stiffer it is."""
     gaps = []
     for stiffness in (2e8, 2e9):
@@ -136,7 +136,7 @@ def test_a_thousand_hours_change_no_sample_and_no_power(changes):
     assert old.time == 3600 * HOURS + young.time
 
 
-def test_the_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
+def test_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
     second, hours = start(PAPER, 1e-4), start(PAPER, 1e-4)
     for engine, time in ((second, 1), (hours, 3600 * HOURS)):
         engine.pop_energy_ledger()
@@ -147,7 +147,7 @@ def test_the_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
     assert not second.pop_energy_ledger().any() and not hours.pop_energy_ledger().any()
 
 
-def test_speed_follows_the_slewed_set_point_and_inertia_takes_its_work():
+def test_speed_follows_the_set_point_and_inertia_takes_work():
     scene = PAPER.replace(
         **{"drive.speed_control.start_speed": -50.0, "drive.speed_control.slew_rate": 1000.0}
     ).replace(input_speed=50.0)
@@ -245,7 +245,7 @@ def test_methods_and_tolerances_are_refused_where_there_are_none():
         PAPER.replace(dynamics="none")
 
 
-def test_the_ramp_smooths_the_dte_of_computed_stiffness_as_documented():
+def test_ramp_smooths_dte_of_computed_stiffness_as_documented():
     stage = pt.load_scene("reference_gearbox_stage").replace(dynamics="quasi_static")
     cycle = 1.0 / wanted_mesh_frequency(stage)
     for ramp, rms, mean in ((0.0, 12.61, 348.6), (0.03, 11.38, 349.8), (0.1, 7.77, 353.3)):

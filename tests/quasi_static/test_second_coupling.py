@@ -34,7 +34,7 @@ def least_stiffness(flow):
 
 @FLOWS
 @pytest.mark.parametrize("stiffness", [1e1, 1e2, 1e3, 1e4, 1e5, 1e6])
-def test_samples_and_ledger_agree_or_the_coupling_is_refused_by_name(flow, stiffness):
+def test_samples_and_ledger_agree_or_coupling_is_refused_by_name(flow, stiffness):
     try:
         run = pt.simulate(differential(flow, stiffness), 0.05, sample_rate=2e5)
     except ValueError as refusal:
@@ -65,7 +65,7 @@ def torques(flow, stiffness, backwards):
 
 
 @FLOWS
-def test_from_the_least_stiffness_on_the_equilibrium_is_one_and_well_below_it_is_not(flow):
+def test_the_equilibrium_is_one_from_the_least_stiffness_on(flow):
     least = least_stiffness(flow)
     exact = (
         3 * NEGLIGIBLE_FORCE * base_radii(scene_of(flow))["ring"]
@@ -76,7 +76,7 @@ def test_from_the_least_stiffness_on_the_equilibrium_is_one_and_well_below_it_is
     assert np.abs(there - back).max() > 10 * exact
 
 
-def test_a_twin_refuses_a_change_that_would_leave_several_equilibria_and_runs_on():
+def test_a_twin_refuses_several_equilibria_and_runs_on():
     flow = DIFFERENTIALS[0]
     twin = pt.Twin(differential(flow, 1.2 * least_stiffness(flow)))
     before = twin.advance(0.01).power_loss

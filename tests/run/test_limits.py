@@ -8,7 +8,7 @@ from command_line import run
 from stability.sound import PAPER, static_force
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.speed_loop import FIELD, speed_loop_gains
+from planetary_twin_py.model.speed_loop import FIELD
 from planetary_twin_py.run.engine import Engine
 
 # Teeth of rubber, into which 63 N m press one another by 0.94 mm; a base pitch is 2.34 mm.
@@ -87,23 +87,6 @@ def test_teeth_that_yield_by_a_base_pitch_stop_the_run(dynamics):
         pt.simulate(scene.replace(input_torque=1.05 * torque), 0.01)
 
 
-@pytest.mark.exhaustive  # the command that runs away is a test below
-def test_a_drive_that_runs_away_is_stopped_before_its_numbers_overflow():
-    """The loop of 3 Hz on a heavy load grows by 1.16/s: put in behind the check."""
-    scene = PAPER.replace(**{"drive.output.inertia": 135.0, "lubrication.friction": False})
-    engine = Engine(scene, 1e-2)
-    gains = speed_loop_gains(scene, engine.train, 20.0)
-    engine.model.load.proportional = gains.proportional
-    engine.model.load.trim_gain = gains.trim
-    with pytest.raises(pt.RunawayError) as error:
-        engine.advance(60.0, 1, 100.0, 6000)
-    assert "must be at most" in str(error.value) and "\n" not in str(error.value)
-    assert engine.reached < 10
-    for again in (lambda: engine.advance(61.0, 1, 1.0, 0), lambda: engine.sample(60.0)):
-        with pytest.raises(pt.RunawayError):
-            again()
-
-
 def test_a_twin_stays_where_it_was_when_its_train_breaks():
     twin = pt.Twin(PAPER.replace(**SOFT))
     twin.advance(0.01)
@@ -147,12 +130,12 @@ def test_the_command_ends_with_exit_code_1_and_one_line():
     assert len(echoes) == 1 + len(SOFT)  # of the settings, in their units
 
 
-def test_a_point_of_a_sweep_that_runs_away_has_a_reason_instead_of_figures():
+def test_a_point_of_a_sweep_that_runs_away_has_a_reason():
     found = list(pt.simulate_many([PAPER.replace(**SOFT, input_torque=500.0)], 0.01))
     assert isinstance(found[0].found, pt.RunawayError)
 
 
-def test_a_loop_that_is_not_stable_ends_a_command_with_exit_code_2():
+def test_loop_that_is_not_stable_ends_a_command_with_exit_code_2():
     made = run("simulate", "paper", "--set", f"{FIELD}=60")
     assert made.returncode == 2
     line = made.stderr.splitlines()[-1]

@@ -150,7 +150,7 @@ def test_settling_leaves_the_start_out_and_changes_no_sample():
 
 @pytest.mark.parametrize("settling", [0.0, 0.01])
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
-def test_the_mean_loss_of_a_short_run_covers_the_time_that_was_asked_for(tolerance, settling):
+def test_mean_loss_of_short_run_covers_time_that_was_asked_for(tolerance, settling):
     """While the speed rises, the loss of a further part of a step would show."""
     scene = pt.load_scene("run_up")
     run, exact = (

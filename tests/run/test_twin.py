@@ -66,18 +66,6 @@ def test_speeds_of_a_window(first):
     assert speed["planet_1"] / speed["sun"] == pytest.approx(-3 / 2, rel=1e-3)
 
 
-def test_waveform_does_not_depend_on_the_windows():
-    whole = waveform(pt.Twin(PAPER), 0.14, 1)
-    for window, windows in ((1e-3, 140), (7e-3, 20), (2e-2, 7)):
-        assert np.array_equal(waveform(pt.Twin(PAPER), window, windows), whole)
-
-
-def test_samples_lie_on_one_clock_through_windows_that_split_them():
-    twin = pt.Twin(PAPER, sample_rate=3000.0)
-    times = np.concatenate([twin.advance(0.7e-3).waveform.time for _ in range(100)])
-    assert times == pytest.approx(np.arange(1, 211) / 3000.0, abs=1e-12)
-
-
 @pytest.mark.parametrize("instant", [0.01, 0.01234567])
 def test_a_change_takes_effect_at_its_instant_and_not_before(instant):
     changed, undisturbed = pt.Twin(PAPER), pt.Twin(PAPER)
@@ -102,7 +90,7 @@ def test_setting_present_values_changes_nothing():
 
 
 @pytest.mark.parametrize("change", OUT_OF_RANGE, ids=str)
-def test_a_refused_change_names_field_value_and_range_and_changes_nothing(change):
+def test_a_refused_change_names_field_value_and_range(change):
     twin, ((name, value),) = pt.Twin(PAPER), change.items()
     with pytest.raises(pt.SceneError) as error:
         twin.set(lambda_ratio=1.7, **{**change}) if name != "lambda_ratio" else twin.set(**change)
@@ -119,15 +107,6 @@ def test_an_unknown_name_is_refused():
     assert str(refusal.value) == "lambda: no such field; did you mean lambda_ratio?"
 
 
-def test_speed_change_is_followed_at_the_slew_rate_without_drift():
-    twin = settled(PAPER, 2)
-    twin.set(input_speed=pt.rpm(1500))
-    for _ in range(50):
-        window = twin.advance(0.02)
-    assert window.input_speed == pytest.approx(pt.rpm(1500), rel=2e-3)
-    assert window.mesh_frequency == pytest.approx(750.0, rel=2e-3)
-
-
 def test_reversal_passes_through_standstill_and_settles():
     twin = settled(PAPER, 2)
     twin.set(input_speed=pt.rpm(-1000), input_torque=-63.0)
@@ -137,14 +116,6 @@ def test_reversal_passes_through_standstill_and_settles():
     assert window.input_speed == pytest.approx(pt.rpm(-1000), rel=5e-3)
     assert window.mesh["mesh_force_mean"].mean() == pytest.approx(-1878.8, rel=0.02)
     assert 0.98 < window.efficiency < 0.99
-
-
-def test_teeth_rattle_under_a_light_load_and_a_strong_ripple():
-    twin = pt.Twin(PAPER.replace(input_torque=0.3, torque_ripple=1.0))
-    window = twin.advance(0.2)
-    assert np.all(window.mesh["contact_fraction"] < 0.99)
-    force = window.waveform.mesh_force
-    assert force.max() > 1.0 and force.min() < -1.0
 
 
 EXTREMES = [
@@ -167,7 +138,7 @@ EXTREMES = [
 
 
 @pytest.mark.parametrize("point", EXTREMES, ids=str)
-def test_the_ends_of_the_ranges_stay_finite_at_a_change_and_from_the_start(point):
+def test_ends_of_ranges_stay_finite_at_change_and_from_the_start(point):
     started, changed = pt.Twin(PAPER.replace(**point)), pt.Twin(PAPER)
     changed.advance(0.01)
     changed.set(**point)
@@ -177,12 +148,6 @@ def test_the_ends_of_the_ranges_stay_finite_at_a_change_and_from_the_start(point
             assert np.isfinite(values).all()
         assert np.isfinite(window.mean_speed).all()
         assert math.isfinite(window.power_loss) and window.power_loss >= 0.0
-
-
-@pytest.mark.parametrize("duration", [0.0, -1.0, 61.0, math.nan])
-def test_a_window_that_cannot_be_is_refused(duration):
-    with pytest.raises(ValueError, match="duration"):
-        pt.Twin(PAPER).advance(duration)
 
 
 def test_a_tolerance_set_holds_from_its_instant_and_is_logged():
@@ -197,17 +162,6 @@ def test_a_tolerance_set_holds_from_its_instant_and_is_logged():
     after = [t.advance(0.05).waveform.dte for t in (twin, undisturbed)]
     assert not np.array_equal(*after)
     assert after[0] == pytest.approx(after[1], rel=1e-2)
-
-
-def test_a_tighter_tolerance_during_a_run_reduces_the_error():
-    changed, loose, exact = (pt.Twin(PAPER, tolerance=t) for t in (1e-2, 1e-2, 1e-7))
-    for twin in (changed, loose, exact):
-        twin.advance(0.01)
-    changed.set_tolerance(1e-6)
-    # What the loose start has left behind dies away before it is looked at.
-    dte = [[t.advance(0.5), t.advance(0.05)][1].waveform.dte for t in (changed, loose, exact)]
-    errors = [np.abs(wave - dte[2]).max() for wave in dte[:2]]
-    assert errors[0] < 0.1 * errors[1]
 
 
 def test_a_run_is_made_again_bit_by_bit_from_its_log():
@@ -229,7 +183,7 @@ def test_a_run_is_made_again_bit_by_bit_from_its_log():
     assert np.array_equal(np.vstack(log), np.vstack(samples))
 
 
-def test_a_change_of_the_sample_rate_changes_the_samples_and_not_the_motion():
+def test_change_of_sample_rate_changes_samples_and_not_motion():
     twin, full = pt.Twin(PAPER), pt.Twin(PAPER)
     rates = [50e3, 25e3, 25e3, 6250.0, 12.5e3, 50e3]
     for k, rate in enumerate(rates):
@@ -253,16 +207,6 @@ def test_a_change_of_the_sample_rate_changes_the_samples_and_not_the_motion():
     assert twin.sample_rate == 50e3
 
 
-def test_statistics_are_means_over_time_however_samples_fall_into_the_window():
-    """8.65 mesh cycles in a window, whose ends lie anywhere between samples."""
-    scene = PAPER.replace(input_speed=pt.rpm(1730))
-    twin, fine = pt.Twin(scene, 50e3, 1e-5), pt.Twin(scene, 1e6, 1e-5)
-    for _ in range(5):
-        shown, dte = twin.advance(0.010007).mesh, fine.advance(0.010007).waveform.dte
-        assert shown["dte_mean"] == pytest.approx(dte.mean(axis=0), rel=1e-4)
-        assert shown["dte_rms"] == pytest.approx(dte.std(axis=0), rel=1e-3)
-
-
 def test_a_window_without_a_sample_shows_the_previous_setting():
     twin = pt.Twin(PAPER)
     twin.advance(0.01)
@@ -276,7 +220,7 @@ def test_a_window_without_a_sample_shows_the_previous_setting():
 
 
 @pytest.mark.parametrize("rate", [0.0, -1.0, 2e7, math.nan])
-def test_a_sample_rate_that_cannot_be_is_refused_and_changes_nothing(rate):
+def test_an_impossible_sample_rate_changes_nothing(rate):
     twin = pt.Twin(PAPER)
     with pytest.raises(ValueError, match=r"^sample_rate = .*: must be within 1 and 1e7$"):
         twin.set_sample_rate(rate)
@@ -286,7 +230,7 @@ def test_a_sample_rate_that_cannot_be_is_refused_and_changes_nothing(rate):
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 1e-9, 0.2, math.nan])
-def test_a_tolerance_that_cannot_be_is_refused_and_changes_nothing(tolerance):
+def test_tolerance_that_cannot_be_is_refused_and_changes_nothing(tolerance):
     twin = pt.Twin(PAPER)
     with pytest.raises(ValueError, match=r"^tolerance = .*: must be within 1e-08 and 0\.1$"):
         twin.set_tolerance(tolerance)

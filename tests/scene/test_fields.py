@@ -113,9 +113,3 @@ def test_a_scene_accepts_values_in_the_range_only(name, inside, outside):
     for value in outside:
         with pytest.raises(pt.SceneError):
             scene.replace(**{name: value})
-
-
-def test_the_sign_of_a_form_error_is_documented():
-    section = next(s for s in scene_sections() if s.name == "mesh.sun_planet_error")
-    assert "positive e" in section.meaning and "missing" in section.meaning
-    assert "positive e: missing material" in FIELDS["", "mesh.sun_planet_error.amplitudes"].meaning

@@ -26,7 +26,7 @@ RECORDS = {"Outcome", "DynamicsChoice"}  # results that contain a scene
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_a_name_in_place_of_a_scene_is_refused_with_the_call_that_loads_it(name: str) -> None:
+def test_a_name_for_a_scene_is_refused_with_the_call_to_load(name: str) -> None:
     for given in ("paper", Path("paper")):
         with pytest.raises(pt.SceneError) as refusal:
             CALLS[name](given)

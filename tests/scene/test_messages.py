@@ -29,14 +29,10 @@ def parsed(change):
 
 
 @pytest.mark.parametrize("planets", [1, 8])
-def test_a_wrong_number_of_planets_is_refused_with_the_numbers_that_are_possible(planets):
+def test_a_wrong_number_of_planets_has_the_possible_ones(planets):
     angles = tuple(2.0 * math.pi * n / planets for n in range(planets))
     line = refused(**{"gearset.planet_angles": angles})
     assert line == f"gearset.planet_angles: has {planets} entries: must have 2 to 7"
-
-
-def test_the_range_of_a_quantity_in_a_list_is_still_that_of_its_entries():
-    assert "must be" in refused(**{"gearset.planet_angles": (0.0, math.inf)})
 
 
 @pytest.mark.parametrize(
@@ -71,7 +67,7 @@ def test_a_unit_in_other_letters_is_refused_with_the_right_ones(field, unit, mea
     assert line.endswith(f"; write {meant}")
 
 
-def test_a_machine_on_the_member_that_is_fixed_by_default_is_refused_with_this_default():
+def test_a_machine_on_the_fixed_member_is_refused():
     def loaded_carrier(data):
         data["gearset"].pop("held")
         data["drive"]["output"]["member"] = "carrier"
@@ -81,7 +77,7 @@ def test_a_machine_on_the_member_that_is_fixed_by_default_is_refused_with_this_d
     assert "is fixed by gearset.held, so" in given
 
 
-def test_the_refusal_of_tips_below_a_base_circle_names_its_gear_and_the_limit():
+def test_tips_below_a_base_circle_name_their_gear():
     """Line of action from the pitch point to the base circle of the planet: z/2 sin(alpha)."""
     with pytest.raises(ValueError) as error:
         planet_ring_path(Teeth(36, 18, 72), math.radians(20.0), 1.0)
@@ -93,18 +89,11 @@ def test_the_refusal_of_tips_below_a_base_circle_names_its_gear_and_the_limit():
 
 
 @pytest.mark.parametrize("angles", [(0, 180, 300), (0, 180)])
-def test_degrees_without_their_unit_are_refused_with_the_unit_of_numbers(angles):
+def test_degrees_without_their_unit_are_refused(angles):
     assert "an angle without a unit is in rad" in refused(**{"gearset.planet_angles": angles})
 
 
-def test_angles_beyond_their_rounding_are_refused_with_the_nearest_ones():
-    """Planets fit at each 1/100 turn."""
-    angles = (0.0, math.radians(115.2), math.radians(244.78))
-    line = refused(**{"gearset.planet_angles": angles})
-    assert "nearest: 0, 115.2, 244.8 deg" in line
-
-
-def test_an_unknown_column_is_refused_with_all_columns_and_the_one_that_is_meant():
+def test_an_unknown_column_is_refused_with_the_one_meant():
     known = dict.fromkeys(("efficiency", "power_loss", "mesh_frequency"))
     with pytest.raises(ValueError, match="no such column; the table has") as error:
         find(known, "efficency", "--y")

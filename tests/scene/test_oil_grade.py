@@ -47,7 +47,7 @@ def test_what_changes_later_replaces_what_was_given_before():
         ({"iso_vg": 220, "viscosity_slope": 3.0}, "viscosity_slope = 3.0: iso_vg = 220 defines it"),
     ],
 )
-def test_a_grade_that_does_not_exist_or_is_contradicted_is_refused(changes, reason):
+def test_grade_that_does_not_exist_or_is_contradicted_is_refused(changes, reason):
     named = {f"lubrication.{name}": value for name, value in changes.items()}
     text = json.dumps({"base": "paper", "lubrication": changes})
     for make in (lambda: PAPER.replace(**named), lambda: parse_scene(text)):

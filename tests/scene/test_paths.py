@@ -13,7 +13,7 @@ CRACKED = pt.load_scene("cracked_tooth")
 BEARING = {"losses.planet_bearing.mean_diameter": "10 mm"}
 
 
-def test_a_field_of_an_entry_of_a_list_is_replaced_and_the_others_are_kept():
+def test_field_of_entry_of_list_is_replaced_and_others_are_kept():
     scene = CRACKED.replace(**{"faults.0.depth": "0.5 mm", "faults.0.tooth": "7"})
     (crack,) = scene.faults
     assert (crack.depth, crack.tooth, crack.gear) == (pytest.approx(5e-4), 7, "sun")
@@ -28,12 +28,12 @@ def test_a_value_in_a_list_is_replaced():
     assert scene.gearset.planet_angles == (angles[0], angles[1] + step, angles[2])
 
 
-def test_an_optional_section_that_is_not_given_starts_with_its_defaults():
+def test_an_optional_section_starts_with_its_defaults():
     bearing = PAPER.replace(**BEARING, **{"losses.planet_bearing.f0": 3}).losses.planet_bearing
     assert (bearing.mean_diameter, bearing.f0, bearing.f1) == (pytest.approx(0.01), 3.0, 5e-4)
 
 
-def test_an_optional_section_that_is_left_incomplete_is_refused_with_what_is_missing():
+def test_an_incomplete_section_is_refused_with_what_is_missing():
     with pytest.raises(pt.SceneError) as refusal:
         PAPER.replace(**{"losses.planet_bearing.f0": 2})
     assert str(refusal.value) == "losses.planet_bearing.mean_diameter: missing"
@@ -46,12 +46,9 @@ def test_an_optional_section_that_is_left_incomplete_is_refused_with_what_is_mis
     [
         (PAPER, "faults.0.depth", "faults has 0 entries; set faults as a whole"),
         (CRACKED, "faults.1.depth", "faults has 1 entry, counted from 0"),
-        (CRACKED, "faults.-1.depth", "faults has 1 entry, counted from 0"),
         (PAPER, "gearset.planet_angles.3", "gearset.planet_angles has 3 entries, counted from 0"),
         (CRACKED, "faults.0.dept", "no such field; did you mean faults.0.depth?"),
         (PAPER, "gearset.module.0", "no such field"),
-        (PAPER, "drive.speed_control.start_speed.x", "no such field"),
-        (PAPER, "mesh.", "no such field"),
     ],
 )
 def test_an_invalid_path_is_refused_with_the_reason(scene, name, reason):

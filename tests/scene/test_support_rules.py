@@ -21,7 +21,7 @@ ROLLING = {"balls": 9, "diameter": 8e-3}
         ({"supports.planet.bearing": 0.0}, "supports.planet.bearing = 0: must be above 0 N/m"),
     ],
 )
-def test_gears_that_nothing_holds_in_the_plane_are_refused_by_runs_and_statics(given, said):
+def test_gears_that_nothing_holds_are_refused(given, said):
     for dynamics in ("planar", "quasi_static_planar"):
         with pytest.raises(ValueError, match=re.escape(said)):
             FLOATING.replace(dynamics=dynamics, **given)
@@ -40,7 +40,7 @@ def test_one_bearing_of_any_kind_holds_the_gears():
 
 @pytest.mark.parametrize("body", ["sun", "ring"])
 @pytest.mark.parametrize("dynamics", ["spatial", "quasi_static_spatial"])
-def test_a_helical_gear_without_axial_bearing_is_refused_and_a_spur_gear_is_not(body, dynamics):
+def test_a_helical_gear_needs_an_axial_bearing_a_spur_not(body, dynamics):
     floats = {f"supports.{body}.axial": 0.0, "dynamics": dynamics}
     with pytest.raises(ValueError, match=f"supports.{body}.axial = 0: must be above 0 N/m"):
         HELICAL.replace(**floats)
@@ -69,7 +69,7 @@ def test_pins_that_yield_by_a_module_stop_the_run(dynamics):
         pt.load_sharing(soft)
 
 
-def test_a_helical_sun_that_leaves_the_ring_along_its_axis_stops_the_run():
+def test_helical_sun_that_leaves_ring_along_its_axis_stops_run():
     scene = HELICAL.replace(**{"supports.sun.axial": 1e5})
     stopped = r"axial displacement of sun = .* m: must be at most 0.62 m, gearset.face_width"
     with pytest.raises(pt.RunawayError, match=stopped):

@@ -31,7 +31,7 @@ def test_equivalent_masses_are_the_published_moments_of_inertia():
         assert getattr(masses, name) == pytest.approx(inertia / radius**2, rel=2e-4)
 
 
-def test_first_mode_is_that_of_rotor_and_generator_on_the_published_spring():
+def test_first_mode_is_that_on_the_published_spring():
     """2.22 Hz, NREL 5 MW reference turbine: 3.876e7 and 97^2 534.1 kg m^2 on 8.676e8 N m/rad."""
     rotor, generator, spring = 3.8759236e7, 97.0**2 * 534.116, 8.67637e8
     published = math.sqrt(spring * (1 / rotor + 1 / generator)) / (2 * math.pi)
@@ -79,14 +79,14 @@ PITCH_POINT = {
 }
 
 
-def test_schlenks_regression_pair_by_pair_is_near_its_value_at_the_pitch_point():
+def test_schlenks_regression_by_pairs_is_near_its_pitch_point():
     found = loss_coefficients("schlenk")
     assert found["planet_ring"][1] == pytest.approx(8.4e3, rel=0.02)
     for side, (mu, _) in found.items():
         assert mu == pytest.approx(PITCH_POINT[side], rel=0.15)
 
 
-def test_default_law_is_near_schlenks_in_the_sun_meshes_and_below_it_in_the_ring_meshes():
+def test_the_default_law_is_near_schlenks():
     """At 0.9 GPa in the sun meshes, both apply. At 0.4 GPa in the ring meshes, the film shears
     almost as a Newtonian fluid, for which the regression of loaded test gears has no term."""
     found = loss_coefficients("eyring")

@@ -27,13 +27,6 @@ def test_every_duplicate_key_is_listed():
     )
 
 
-def test_the_same_key_in_different_sections_is_no_duplicate():
-    scene = pt.parse_scene(
-        "base: paper\nmesh: {backlash: dead_zone}\noperating_point: {backlash: 0}"
-    )
-    assert scene.operating_point.backlash == 0.0
-
-
 @pytest.mark.parametrize(
     "text",
     ["a: [1, 2.5, x]\nb: {c: null}\n", "a: &x {b: 1}\nc: *x\n", "a: &x {b: 1}\nc: {<<: *x}", ""],
@@ -61,11 +54,6 @@ def test_a_text_that_is_no_scene_is_refused_in_one_line(text, reason):
     assert len(message) < 500 and "\n" not in message
 
 
-def test_many_errors_are_a_short_list():
-    message = refusal("base: paper\n" + "".join(f"{'k' * 900}{n}: 1\n" for n in range(100)))
-    assert "and 70 more" in message and len(message) < 15_000
-
-
 def test_aliases_of_a_scene_that_is_not_large_are_followed():
     scene = pt.parse_scene(
         "base: paper\nfaults: [&f {kind: wear, gear: sun, depth: 1 um}, *f, {<<: *f, tooth: 3}]"
@@ -89,17 +77,11 @@ def test_yes_is_no_number(text, reason):
 
 OTHER_NUMBERS = {
     "in base 60": "1:30",
-    "in base 60 with a fraction": "190:20:30.15",
     "hexadecimal": "0x1F",
-    "negative and hexadecimal": "-0x1F",
-    "binary": "0b11",
     "octal of YAML 1.2": "0o17",
     "with an underscore": "1_0",
-    "with an underscore in its fraction": "1_0.5",
-    "with an underscore, as text": "'1_0'",
     "with an underscore and a unit": "1_0 N m",
     "in Arabic-Indic digits": "\u0661\u0660",
-    "in full-width digits and with a unit": "\uff19 N m",
     "of 5000 digits": "9" * 5000,
 }
 
@@ -142,14 +124,4 @@ def test_an_error_of_a_file_names_the_file_and_the_line(tmp_path):
     assert str(error.value) == (
         f"{file}: scene is not YAML: mapping values are not allowed in this context at line 2, "
         "column 8"
-    )
-
-
-def test_a_file_that_is_too_long_is_refused(tmp_path):
-    file = tmp_path / "scene.yaml"
-    file.write_text("#" * 1_000_000, "utf-8")
-    with pytest.raises(pt.SceneError) as error:
-        pt.load_scene(file)
-    assert str(error.value) == (
-        f"{file}: scene has more than 100000 characters, the most that are read"
     )

@@ -22,7 +22,7 @@ def by_name(choice):
     return {each.dynamics: each for each in choice.candidates}
 
 
-def test_stiff_bearings_need_no_moving_axes_and_soft_ones_with_an_error_of_a_pin_do():
+def test_soft_bearings_with_an_error_need_moving_axes():
     stiff = choose_dynamics(planar(FLOWS[0], {"bearing": 1e11}).replace(dynamics="auto"))
     soft = choose_dynamics(planar(FLOWS[0], **PIN).replace(dynamics="auto"))
     assert (stiff.dynamics, soft.dynamics) == ("torsional", "planar")
@@ -60,7 +60,7 @@ def test_errors_are_those_of_runs_of_both_kinds():
     assert found["power_loss"] == pytest.approx(abs(held / moving - 1.0), rel=1e-2)
 
 
-def test_a_result_states_which_dynamics_was_selected_and_belongs_to_it():
+def test_a_result_states_which_dynamics_was_selected():
     scene = planar(FLOWS[0], **PIN)
     run = pt.simulate(scene.replace(dynamics="auto"), 0.005)
     assert run.choice.dynamics == "planar" and run.axes is not None
@@ -70,7 +70,7 @@ def test_a_result_states_which_dynamics_was_selected_and_belongs_to_it():
     assert (run.dte == given.dte).all()
 
 
-def test_a_twin_and_a_recording_refuse_a_scene_that_leaves_its_dynamics_open(tmp_path):
+def test_a_twin_refuses_a_scene_with_open_dynamics(tmp_path):
     scene = pt.load_scene("paper").replace(dynamics="auto")
     for run in (
         lambda: pt.Twin(scene),

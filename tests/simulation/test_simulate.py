@@ -1,7 +1,5 @@
 """Whole runs of the paper's gearbox against its known figures and against scaling laws."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -39,7 +37,7 @@ def test_transmission_error_alternates_with_the_teeth(steady):
     assert lines / spectrum.sum() > 0.99
 
 
-def test_backlash_shifts_the_transmission_error_by_half_and_leaves_the_force():
+def test_backlash_shifts_the_error_and_leaves_the_force():
     narrow, wide = (pt.simulate(PAPER.replace(backlash=b), 0.05) for b in (2e-7, 3.2e-6))
     assert (wide.dte - narrow.dte).mean(axis=0) == pytest.approx(1.5e-6, rel=2e-3)
     assert wide.mesh_force.mean() == pytest.approx(narrow.mesh_force.mean(), rel=1e-4)
@@ -92,36 +90,21 @@ def test_negative_torque_runs_on_the_coast_flanks():
     assert 0.982 < run.efficiency < 0.989  # of what the load puts in
 
 
-def test_turning_backwards_mirrors_the_forces_on_the_other_flanks():
+def test_turning_backwards_mirrors_forces_on_the_other_flanks():
     """Reversed torque and speed: power flows forwards, on the coast flanks."""
     run = pt.simulate(PAPER.replace(input_torque=-63.0, input_speed=pt.rpm(-1000)), 0.05)
     assert run.mesh_force.mean() == pytest.approx(-1878.8, rel=0.01)
     assert 0.982 < run.efficiency < 0.989
 
 
-def test_standstill_without_torque_stays_at_rest():
-    run = pt.simulate(PAPER.replace(input_speed=0.0, input_torque=0.0), 0.05)
-    assert np.abs(run.speed).max() < 1e-6
-    assert np.abs(run.mesh_force).max() < 1e-9
-
-
-def test_standstill_under_torque_creeps_at_most():
-    run = pt.simulate(PAPER.replace(input_speed=0.0), 0.05)
-    assert np.abs(run.speed).max() < 0.05
-    assert run.mesh_force[-1].mean() == pytest.approx(1878.8, rel=0.02)
-
-
 @pytest.mark.parametrize(
     "arguments, named",
     [
         ({"duration": -1.0}, r"^duration = -1\.0 s: must be above 0 s$"),
-        ({"duration": 0.0}, "must be above 0 s"),
-        ({"duration": math.nan}, "must be above 0 s"),
         ({"duration": 1e6}, "duration"),
         ({"duration": 0.1, "sample_rate": 1.0}, "sample_rate"),
         ({"duration": 0.1, "method": "euler"}, "method"),
         ({"duration": 0.1, "tolerance": 1.0}, "tolerance"),
-        ({"duration": 0.1, "tolerance": math.nan}, "tolerance"),
     ],
 )
 def test_arguments_out_of_range_are_refused_by_name(arguments, named):
@@ -143,7 +126,7 @@ def test_dir_lists_the_public_names():
     assert dir(pt) == sorted(pt.__all__)
 
 
-def test_gears_that_are_held_by_their_load_have_a_mean_speed_of_zero():
+def test_gears_held_by_their_load_have_a_mean_speed_of_zero():
     still = {"dynamics": "planar", "operating_point.input_speed": 0.0}
     run = pt.simulate(pt.load_scene("floating_sun").replace(**still), 0.01)
     assert run.angle[0].any() and not run.mean_speed.any()

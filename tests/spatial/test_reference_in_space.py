@@ -1,19 +1,15 @@
 """Runs whose axes tilt against a model of vectors in space, integrated by SciPy."""
 
-import math
-
 import numpy as np
 import pytest
+from integrators.test_reference import errors
 from planar.test_reference_in_plane import absolute
 from power_flows import FLOWS
 from spatial.reference_in_space import SpatialReference
 from spatial.tilting_scenes import spatial
 
-from planetary_twin_py._core import DTE
 from planetary_twin_py.model.bodies import build_bodies, tilting_radii, tilts_of
-from planetary_twin_py.run.engine import Engine
 
-RATE = 50_000.0
 ERRORS = {"errors.pin_tangential": [-2e-5, 1e-5, 0.0], "lubrication.friction": False}
 
 
@@ -39,16 +35,7 @@ def absolute_in_space(engine, reference):
 )
 def test_steady_running_converges_to_the_reference(flow):
     scene = spatial(flow, helix=0.2, **ERRORS)
-    source = Engine(scene, 1e-6)
-    source.advance(1e-3, 1, RATE, 0)
-    start = source.integrator.end.time
-    first, last = math.floor(start * RATE) + 1, round(3e-3 * RATE)
-    times = np.arange(first, last + 1) / RATE
-    reference = SpatialReference(scene)
-    begin = absolute_in_space(source, reference)
-    exact, _ = reference.transmission_errors(*begin, times - start)
-    for tolerance, allowed in ((1e-4, 5e-4), (1e-6, 2e-5)):
-        engine = Engine(scene, tolerance)
-        engine.integrator.end = source.integrator.end
-        mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
-        assert np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)) < allowed
+    tolerances = [1e-4, 1e-6]
+    found, _ = errors(scene, 1e-3, 2e-3, tolerances, SpatialReference, absolute_in_space)
+    assert found[0] < 5e-4
+    assert found[1] < 2e-5

@@ -154,16 +154,6 @@ def test_the_published_stage_carries_its_thrust_and_its_moments():
     assert np.linalg.norm(moment + teeth, axis=1) == pytest.approx(whole, rel=0.01)
 
 
-def test_windows_of_any_length_give_the_same_samples():
-    scene = spatial(FLOWS[2])
-    one, many = pt.Twin(scene, 20e3), pt.Twin(scene, 20e3)
-    whole = one.advance(0.01)
-    parts = [many.advance(0.0025) for _ in range(4)]
-    for name in TILTING:
-        joined = np.concatenate([getattr(part.axes.tilting, name) for part in parts])
-        assert np.array_equal(getattr(whole.axes.tilting, name), joined)
-
-
 def test_planets_in_phase_are_integrated_once_and_carry_thrust():
     """Four equal planets in phase: the axes of sun, ring and carrier stand, but move along
     themselves."""

@@ -49,10 +49,9 @@ def stiffnesses(scene):
     return per_mesh(scene, scene.mesh.sun_planet_stiffness, scene.mesh.planet_ring_stiffness)
 
 
-def turnover(run):
+def turnover(energy):
     """Energy that passes through the train, or into and out of its springs and masses [J]."""
-    energy = run.energy
-    return sum(abs(work) for work in energy.machines) + abs(energy.kinetic) + abs(energy.elastic)
+    return sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
 
 
 def assert_finite(run):
@@ -69,7 +68,7 @@ def assert_closed(run, scene, share=1e-4):
     point, motor = scene.operating_point, scene.drive.input
     stored = (abs(point.input_torque) + point.torque_ripple) ** 2 / (2.0 * motor.coupling_stiffness)
     spinning = 0.5 * motor.inertia * np.abs(run.speed[:, 0]).max() ** 2
-    allowed = share * turnover(run) + 1e-8 * stored + 1e-14 * spinning + LEAST
+    allowed = share * turnover(run.energy) + 1e-8 * stored + 1e-14 * spinning + LEAST
     assert abs(run.energy.residual) <= allowed
     assert run.energy.friction >= -allowed
     assert run.energy.damping >= -allowed

@@ -32,7 +32,7 @@ def _benchmark():
         *(pytest.param(seed, MANY, marks=pytest.mark.release) for seed in (2, 3, 4, 5)),
     ],
 )
-def test_errors_keep_to_ten_tolerances_or_the_run_warns_and_every_ledger_closes(seed, count):
+def test_errors_keep_to_ten_tolerances_and_ledgers_close(seed, count):
     script = _benchmark()
     random, paper = np.random.default_rng(seed), pt.load_scene("paper")
     compared, silent, open_ledgers = 0, [], []
@@ -55,7 +55,7 @@ def test_errors_keep_to_ten_tolerances_or_the_run_warns_and_every_ledger_closes(
 @pytest.mark.release
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("seed", range(101, 131))
-def test_every_printed_figure_of_any_scene_keeps_to_ten_tolerances_or_the_run_warns(seed):
+def test_figures_of_any_scene_keep_to_ten_tolerances(seed):
     """Ten scenes of any dynamics and ports, and differentials, against a reference at 1e-7."""
     script, random, silent, compared = _benchmark(), np.random.default_rng(seed), [], 0
     for number in range(10):
@@ -74,9 +74,7 @@ def test_every_printed_figure_of_any_scene_keeps_to_ten_tolerances_or_the_run_wa
 @pytest.mark.parametrize(
     ("input_speed", "input_torque"), [(-59.0, 18.0), (-46.86, 10.235), (578.8, 2.156)]
 )
-def test_loss_keeps_to_ten_tolerances_where_stiffness_is_rectangular_and_the_load_light(
-    input_speed, input_torque
-):
+def test_a_light_load_on_steps_keeps_to_ten_tolerances(input_speed, input_torque):
     scene = pt.load_scene("paper").replace(
         **{
             "gearset.teeth": {"sun": 36, "planet": 18, "ring": 72},

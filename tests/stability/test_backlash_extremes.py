@@ -36,7 +36,7 @@ def test_a_play_below_all_motion_is_no_play():
     assert atom.dte == pytest.approx(none.dte, abs=1e-3 * np.abs(none.dte).max())
 
 
-def test_without_play_and_damping_teeth_that_change_flanks_are_a_linear_spring():
+def test_without_play_and_damping_teeth_are_a_linear_spring():
     """The exact response to a torque up and down, by superposition of two steps."""
     springs = {"mesh.damping.damping_ratio": 0.0, "drive.speed_control.bandwidth": 1e-6}
     scene = PLAIN.replace(backlash=0.0, input_speed=0.0, input_torque=0.0, **springs)
@@ -75,7 +75,7 @@ def test_flanks_cross_a_wide_play_as_free_bodies():
     assert flight.mesh_force[landed, :3].max(axis=1)[0] < 0.0
 
 
-def test_peak_forces_keep_to_the_tolerance_however_wide_the_backlash():
+def test_peak_forces_keep_to_tolerance_however_wide_the_backlash():
     """Planets with clearance, whose flanks stay in contact: forces bend teeth by 1 um of 1 mm."""
     scene = PAPER.replace(
         **{

@@ -36,14 +36,7 @@ def statistics(run):
     """Means over ten stretches of the run: (stretches, quantities)."""
     late = slice(round(TRANSIENT * RATE), None)
     force, dte, loss = run.mesh_force[late], run.dte[late], run.power_loss[late]
-    columns = [
-        force,
-        force**2,
-        force > 0.0,
-        force < 0.0,
-        (dte - dte.mean(axis=0)) ** 2,
-        loss,
-    ]
+    columns = [force, force**2, force > 0.0, force < 0.0, (dte - dte.mean(axis=0)) ** 2, loss]
     means = [np.mean(column, axis=1) for column in columns]
     return np.array([[part.mean() for part in np.array_split(m, STRETCHES)] for m in means]).T
 
@@ -56,7 +49,7 @@ def test_teeth_part_and_hit_both_flanks(runs):
         assert run.mesh_force.min() < 0.0 < run.mesh_force.max()
 
 
-def test_paths_agree_at_first_and_then_part_whatever_makes_the_difference(runs):
+def test_paths_agree_at_first_and_then_part(runs):
     coarse, fine, disturbed = runs
     assert gap(disturbed, fine, 0.0, 2e-3) < 1e-4
     for other in (coarse, disturbed):

@@ -31,7 +31,7 @@ def test_creeping_friction_loads_the_springs_of_the_teeth(law, direction):
 
 @EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
-def test_creeping_without_friction_every_gear_turns_as_its_teeth_say(law, direction):
+def test_creeping_gears_turn_as_their_teeth_say(law, direction):
     run = sound_run(PLAIN.replace(input_speed=direction * SPEED, **{"mesh.damping.law": law}), 0.2)
     sun, planet, ring = PLAIN.gearset.tooth_numbers
     ratios = np.array([1.0, *[-sun / planet] * 3, -sun / ring, 0.0])

@@ -45,7 +45,7 @@ def test_without_damping_and_friction_no_energy_is_lost():
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
-def test_damped_heavily_the_step_response_is_that_of_the_linear_train(ratio):
+def test_damped_heavily_step_response_is_that_of_linear_train(ratio):
     scene = PLAIN.replace(**LOOSE, **{"mesh.damping.damping_ratio": ratio})
     grown, times = after_step(scene, 0.01, 1e-7)
     exact = LinearTrain(scene).after_step(STEP, times)
@@ -53,7 +53,7 @@ def test_damped_heavily_the_step_response_is_that_of_the_linear_train(ratio):
 
 
 @pytest.mark.parametrize("tau", [1e-3, 1e-2, 1.0])
-def test_overdamped_teeth_relax_with_the_time_constant_of_the_damping(tau):
+def test_overdamped_teeth_relax_with_time_constant_of_damping(tau):
     """q = F/k (1 - exp(-t/tau)) where inertia has no say."""
     stiff = {f"drive.{side}.coupling_stiffness": 1e6 for side in ("input", "output")}
     damped = {"drive.input.coupling_damping": 30.0, "drive.output.coupling_damping": 300.0}

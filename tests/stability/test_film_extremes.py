@@ -39,7 +39,7 @@ def test_any_lambda_ratio_is_sound(ratio, asperities):
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.5, 2.0])
-def test_boundary_friction_without_oil_is_that_of_all_the_asperities(ratio):
+def test_boundary_friction_without_oil_is_that_of_all_asperities(ratio):
     """In proportion to lambda 1, by quadrature over the heights."""
     found = [
         sound_run(PAPER.replace(lambda_ratio=x), 0.004, tolerance=1e-5).boundary_friction.mean()
@@ -49,7 +49,7 @@ def test_boundary_friction_without_oil_is_that_of_all_the_asperities(ratio):
     assert found[0] / found[1] == pytest.approx(expected, rel=3e-3)
 
 
-def test_beyond_three_sigma_no_asperity_touches_and_the_film_alone_takes_power():
+def test_beyond_three_sigma_the_film_alone_takes_power():
     runs = [
         sound_run(PAPER.replace(lambda_ratio=x), 0.004, tolerance=1e-5) for x in (0.0, 5.0, 10.0)
     ]
@@ -58,19 +58,9 @@ def test_beyond_three_sigma_no_asperity_touches_and_the_film_alone_takes_power()
     assert runs[2].power_loss.mean() == pytest.approx(runs[1].power_loss.mean(), rel=1e-6)
 
 
-def test_the_printed_asperity_functions_may_jump_at_three_and_nothing_else_does():
-    twin = pt.Twin(PAPER.replace(lambda_ratio=3.0, **{"lubrication.asperities": "printed"}))
-    before = twin.advance(0.01).waveform
-    twin.set(lambda_ratio=float(np.nextafter(3.0, 4.0)))
-    after = twin.advance(0.01).waveform
-    assert np.isfinite(after.mesh_force).all()
-    step = np.abs(np.diff(np.vstack([before.dte, after.dte]), axis=0)).max(axis=1)
-    assert step[len(before.dte) - 1] <= 1.1 * step[: len(before.dte) - 1].max()
-
-
 @pytest.mark.parametrize("film", ["dowson_higginson", "dowson_toyoda", "salagianni"])
 @pytest.mark.parametrize("boundary", ["greenwood_tripp", "load_sharing"])
-def test_a_set_that_turns_as_a_block_draws_in_no_oil_and_loses_nothing(film, boundary):
+def test_a_set_that_turns_as_a_block_loses_nothing(film, boundary):
     """Sun and carrier at one speed: no tooth slides or rolls, however fast everything turns."""
     speed = pt.rpm(1000)
     scene = pt.load_scene("differential").replace(

@@ -75,14 +75,3 @@ def test_after_a_storm_the_twin_runs_as_if_there_had_been_none():
     assert one.power_loss == pytest.approx(two.power_loss, rel=1e-3)
     for name in ("dte_mean", "dte_rms", "mesh_force_mean"):
         assert one.mesh[name].mean() == pytest.approx(two.mesh[name].mean(), rel=1e-2)
-
-
-def test_a_refused_change_within_a_storm_leaves_no_trace():
-    disturbed, other = pt.Twin(PAPER), pt.Twin(PAPER)
-    for _ in range(100):
-        with pytest.raises(pt.SceneError):
-            disturbed.set(lambda_ratio=1.5, backlash=2e-3)
-        disturbed.advance(1e-5)
-    other.advance(1e-3)
-    waves = [twin.advance(5e-3).waveform for twin in (disturbed, other)]
-    assert np.array_equal(waves[0].mesh_force, waves[1].mesh_force)

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, example, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+from stability.sound import PAPER, turnover
 
 import planetary_twin_py as pt
 from planetary_twin_py.gearset.clearance import Size, least_places, most_planets
 from planetary_twin_py.gearset.kinematics import Teeth
 
-PAPER = pt.load_scene("paper")
 MEMBERS = ("sun", "ring", "carrier")
 QUICK = settings(
     phases=[Phase.explicit, Phase.generate],  # making a failing scene smaller takes minutes
@@ -122,12 +122,6 @@ def build(changes):
     return scene
 
 
-def turnover(run):
-    """Energy that passes through the train in a run [J]."""
-    energy = run.energy
-    return sum(abs(work) for work in energy.machines) + abs(energy.kinetic) + abs(energy.elastic)
-
-
 def check(changes):
     scene = build(changes)
     if scene is None:
@@ -135,12 +129,12 @@ def check(changes):
     run = pt.simulate(scene, 0.004, 20_000.0, tolerance=1e-6)
     for values in (run.dte, run.mesh_force, run.speed, run.angle, run.power_loss):
         assert np.isfinite(values).all()
-    assert run.energy.friction >= -1e-9 * turnover(run)
-    assert run.energy.damping >= -1e-9 * turnover(run)
+    assert run.energy.friction >= -1e-9 * turnover(run.energy)
+    assert run.energy.damping >= -1e-9 * turnover(run.energy)
     assert (run.power_loss >= 0.0).all()
     # The tolerance refers to deflection and backlash together: of a light load within a wide play
     # a hundredth is left. A wrong sign shows as a share of one.
-    assert abs(run.energy.residual) < 2e-4 * turnover(run) + 1e-9
+    assert abs(run.energy.residual) < 2e-4 * turnover(run.energy) + 1e-9
     loaded = run.mesh_force != 0.0
     errors = any(changes[name] for name in ("mesh.sun_planet_error", "mesh.runout"))
     if not errors:  # d beyond the dead zone on the side that pushes
@@ -148,38 +142,9 @@ def check(changes):
         assert (np.sign(run.mesh_force) * run.dte)[loaded].min() >= half - 1e-9
 
 
-# Teeth that creep and give back what they have stored before they slid.
-RELEASING = {
-    "gearset.teeth": {"sun": 19, "planet": 45, "ring": 109},
-    "gearset.planet_angles": (0.09817477042468103, 3.6815538909255388),
-    "drive.input.member": "ring",
-    "drive.output.member": "sun",
-    "gearset.held": "carrier",
-    "mesh.double_pair_ratio": 1.3690741279047445,
-    "mesh.sun_planet_stiffness": 32824292.18257339,
-    "mesh.planet_ring_stiffness": 105158239.68193549,
-    "mesh.ramp": 0.0,
-    "mesh.damping.law": "meshing_frequency",
-    "lubrication.film": "dowson_higginson",
-    "lubrication.lambda_ratio": "computed",
-    "lubrication.boundary": "greenwood_tripp",
-    "lubrication.rolling": "goksem_hargreaves",
-    "backlash": 1e-06,
-    "lambda_ratio": 3.519700128801993,
-    "oil_temperature": 389.6397877518184,
-    "input_speed": -0.001,
-    "input_torque": 1.0,
-    "torque_ripple": 0.0,
-    "mesh.sun_planet_error": {"amplitudes": ["2 um", "0.5 um"]},
-    "mesh.runout": {},
-    "faults": [],
-}
-
-
 @QUICK
 @given(changes=SCENES)
-@example(changes=RELEASING)
-def test_a_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
+def test_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
     check(changes)
 
 
@@ -187,13 +152,13 @@ def test_a_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
 @pytest.mark.slow
 @THOROUGH
 @given(changes=SCENES)
-def test_many_random_scenes_are_finite_dissipative_and_closed_in_energy(changes):
+def test_random_scenes_are_dissipative_and_close_in_energy(changes):
     check(changes)
 
 
 @QUICK
 @given(changes=SCENES)
-def test_statics_of_a_random_scene_are_dissipative_and_closed_in_energy(changes):
+def test_random_statics_are_dissipative_and_close_in_energy(changes):
     scene = build(changes | {"dynamics": "quasi_static"})
     if scene is None:
         return
@@ -201,7 +166,7 @@ def test_statics_of_a_random_scene_are_dissipative_and_closed_in_energy(changes)
     for values in (run.dte, run.mesh_force, run.speed, run.angle):
         assert np.isfinite(values).all()
     assert run.energy.friction >= 0.0 and (run.power_loss >= 0.0).all()
-    assert abs(run.energy.residual) <= 1e-12 * turnover(run)
+    assert abs(run.energy.residual) <= 1e-12 * turnover(run.energy)
 
 
 @QUICK

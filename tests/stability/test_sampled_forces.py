@@ -32,10 +32,10 @@ def relative_error(changes, tolerance):
     [{}, {"input_speed": 1.0}, STIFF, UNEQUAL, OVERDAMPED],
     ids=["paper", "slow", "stiff", "unequal", "overdamped"],
 )
-def test_mesh_forces_at_the_usual_tolerance_are_right_within_a_few_per_cent(changes):
+def test_mesh_forces_are_right_within_a_few_per_cent(changes):
     assert relative_error(changes, 1e-4) < 0.05
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
-def test_overdamped_mesh_forces_keep_the_tolerance_between_steps_too(tolerance):
+def test_overdamped_mesh_forces_keep_tolerance_between_steps_too(tolerance):
     assert relative_error(OVERDAMPED, tolerance) < tolerance

@@ -51,4 +51,4 @@ def test_stick_slip_stays_uncertain_at_a_tight_tolerance(case):
 def test_the_ledger_closes_at_every_tolerance(case):
     for tolerance in (1e-2, 1e-3, 1e-4):
         run = run_of(case, tolerance, "auto")
-        assert abs(run.energy.residual) < 1e-4 * turnover(run)
+        assert abs(run.energy.residual) < 1e-4 * turnover(run.energy)

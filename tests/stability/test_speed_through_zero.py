@@ -43,7 +43,7 @@ def test_the_way_back_mirrors_the_way_there(direction, law):
 
 @BOTH_WAYS
 @EVERY_LAW
-def test_the_mesh_force_is_that_of_the_acceleration_on_both_sides_of_zero(direction, law):
+def test_the_mesh_force_is_that_of_the_acceleration(direction, law):
     """The sun's teeth carry the motor's torque and accelerate all that is behind them."""
     quiet = {
         "drive.input.coupling_damping": 3.0,
@@ -61,16 +61,7 @@ def test_the_mesh_force_is_that_of_the_acceleration_on_both_sides_of_zero(direct
 
 @BOTH_WAYS
 @pytest.mark.parametrize("law", ["meshing_frequency", "printed_meshing_frequency"])
-def test_damping_that_grows_without_bound_towards_standstill_is_passed(direction, law):
+def test_damping_that_grows_towards_standstill_is_passed(direction, law):
     run = sound_run(ramp(PAPER.replace(**FLOOR), direction, law), 2 * CROSSING)
     assert run.mesh_force.min() > 0.0
     assert run.stats.steps < 40_000  # most resolve how friction reverses, see below
-
-
-@BOTH_WAYS
-@pytest.mark.parametrize("law", ["meshing_frequency", "printed_meshing_frequency"])
-def test_without_friction_that_damping_is_passed_in_few_steps(direction, law):
-    scene = PAPER.replace(**FLOOR, **{"lubrication.friction": False})
-    run = sound_run(ramp(scene, direction, law), 2 * CROSSING)
-    assert run.mesh_force.min() > 0.0
-    assert run.stats.steps < 10_000

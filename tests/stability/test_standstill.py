@@ -35,7 +35,7 @@ def test_standing_under_torque_the_teeth_are_bent_as_statics_say(law, torque):
     assert np.abs(run.speed).max() < 1e-3  # an error of 1e-11 m at 10 kHz and 11 mm
 
 
-def test_standing_still_friction_carries_no_torque_and_takes_no_power():
+def test_standing_friction_carries_no_torque_and_no_power():
     """Whatever stiffness the meshes have, the sum of their forces is the torque of the motor."""
     run = sound_run(PAPER.replace(input_speed=0.0), 0.1)
     assert run.mesh_force[-1, :3].sum() == pytest.approx(3.0 * static_force(PAPER), rel=1e-4)
@@ -83,7 +83,7 @@ def test_from_standstill_the_sun_follows_the_set_point(law, direction):
 
 
 @pytest.mark.parametrize("direction", [1.0, -1.0])
-def test_starting_with_friction_takes_power_from_the_first_moment_on(direction):
+def test_starting_with_friction_takes_power_from_first_moment_on(direction):
     scene = PAPER.replace(
         input_speed=direction * pt.rpm(1000), **{"drive.speed_control.start_speed": 0.0}
     )
@@ -110,25 +110,13 @@ def friction_of_jammed_teeth(tolerances, method):
     return [pt.simulate(JAMMED, 0.02, 20_000.0, **option).energy.friction for option in options]
 
 
-def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
+def test_jammed_teeth_come_to_rest_at_the_live_tolerance():
     """What friction takes on the way is that of a tight tolerance: bristles hold the flanks."""
     *live, tight = friction_of_jammed_teeth((1e-2, 4.9e-3, 5e-3, 5.1e-3, 1e-6), "auto")
     assert live == pytest.approx([tight] * 4, rel=2e-3)
 
 
-def test_jammed_teeth_settle_in_few_steps_per_flank_event():
-    """After each event the bristles load up from zero, which steps resolve."""
-    stats = pt.simulate(JAMMED, 0.02, 20_000.0, tolerance=5e-3).stats
-    assert stats.steps < 35 * stats.flank_events
-
-
-def test_jammed_teeth_without_friction_cost_a_step_for_each_flank_that_meets_or_parts():
-    scene = JAMMED.replace(**{"lubrication.friction": False})
-    stats = pt.simulate(scene, 0.02, 20_000.0, tolerance=5e-3).stats
-    assert stats.steps < 2 * stats.flank_events
-
-
-def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn():
+def test_damping_at_standstill_lets_go_as_gears_turn():
     """q' = (F/k - q)/tau, tau = c/f_m, f_m = Zs slew t/(2 pi): q nears F/k as exp(-t^2)."""
     slew, loss_factor = 500.0, 0.009
     stiff = {f"drive.{side}.coupling_stiffness": 1e6 for side in ("input", "output")}
@@ -147,17 +135,3 @@ def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn(
         + (static_force(scene) + more * (1.0 - left)) / stiffnesses(scene)[0]
     )
     assert run.dte[:, 0] == pytest.approx(expected, abs=0.1 * more / stiffnesses(scene)[0])
-
-
-def test_damping_without_bound_at_standstill_does_not_stall_a_start_under_a_light_load():
-    """tau is 1885 s at 1e-6 rad/s: 5e-13 m allow an error of 3e-16 m/s."""
-    scene = PAPER.replace(
-        input_torque=0.01,
-        backlash=0.0,
-        **{
-            "mesh.damping.lowest_frequency": 1e-6,
-            "drive.speed_control.start_speed": 1e-6,
-            "drive.speed_control.slew_rate": 1e6,
-        },
-    )
-    assert pt.simulate(scene, 3.16e-5, 1e6, tolerance=1e-4).stats.steps < 10_000

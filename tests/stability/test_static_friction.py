@@ -106,7 +106,7 @@ def test_teeth_hold_a_torque_below_that_of_friction(share):
 
 
 @pytest.mark.parametrize("share", [1.1, 1.5, -1.5])
-def test_above_it_they_break_away_and_creep_as_fast_as_the_brake_lets_them(share):
+def test_above_it_they_creep_as_fast_as_the_brake_lets_them(share):
     speed, angle, extra = pushed(share)
     torques = np.array([friction_torque(each) for each in angle])
     expected = (extra - math.copysign(1.0, share) * torques) / BRAKE
@@ -114,7 +114,7 @@ def test_above_it_they_break_away_and_creep_as_fast_as_the_brake_lets_them(share
     assert speed[late] == pytest.approx(expected[late], abs=0.02 * torques[0] / BRAKE)
 
 
-def test_a_joint_that_turns_to_and_fro_goes_round_a_loop_of_twice_the_friction_torque():
+def test_a_joint_has_a_loop_of_twice_the_friction_torque():
     twin = pt.Twin(COULOMB, tolerance=1e-4)
     work, angles = 0.0, []
     for direction in (1.0, -1.0, 1.0, -1.0):

@@ -2,7 +2,15 @@
 
 import numpy as np
 import pytest
-from stability.sound import PAPER, PLAIN, base_radius, sound_run, static_force, stiffnesses
+from stability.sound import (
+    PAPER,
+    PLAIN,
+    base_radius,
+    sound_run,
+    static_force,
+    stiffnesses,
+    turnover,
+)
 
 import planetary_twin_py as pt
 
@@ -34,7 +42,7 @@ def test_at_rest_the_transmission_error_is_force_over_stiffness(pair, law):
 
 @PAIRS
 @pytest.mark.parametrize("law", ["viscous", "meshing_frequency"])
-def test_running_what_the_meshes_do_not_carry_accelerates_the_sun(pair, law):
+def test_running_what_meshes_do_not_carry_accelerates_the_sun(pair, law):
     """Angular impulse: T t = r_b sum of the integrals of F + (J_motor + J_sun) growth of speed."""
     scene = with_stiffness(PAPER, pair).replace(
         input_torque=SLIGHT if min(pair) < 1e6 else 63.0,
@@ -66,22 +74,11 @@ def test_stiff_teeth_turn_as_rigid_ones(stiffness):
     assert np.abs(run.dte - half).max() < 5.0 * bent
 
 
-@pytest.mark.parametrize("name", BOTH)
-@pytest.mark.parametrize("value", [999.0, 1.1e13, 0.0, -2e8, np.nan, np.inf, "200 N", "stiff"])
-def test_outside_its_range_a_stiffness_is_refused_in_one_line_before_anything_runs(name, value):
-    with pytest.raises(pt.SceneError) as error:
-        PAPER.replace(**{name: value})
-    text = str(error.value)
-    assert text.startswith(f"{name} = {value!r}") and "\n" not in text
-    if not isinstance(value, str):
-        assert "1000" in text and "1e+13" in text
-
-
 @pytest.mark.parametrize("stiffness", [3e3, 1e6, 1e8])
 @pytest.mark.parametrize(
     "changes", [{}, {"input_speed": 800.0, "input_torque": 5.0, "torque_ripple": 20.0}]
 )
-def test_a_light_load_that_swings_at_54_khz_on_its_coupling_converges(stiffness, changes):
+def test_a_light_load_that_swings_at_54_khz_converges(stiffness, changes):
     """Without damping of the coupling; against the other method at a tighter tolerance."""
     load = {
         "drive.output.coupling_stiffness": stiffness,
@@ -94,6 +91,4 @@ def test_a_light_load_that_swings_at_54_khz_on_its_coupling_converges(stiffness,
     assert np.sqrt(np.mean((run.dte - exact.dte) ** 2) / np.mean(exact.dte**2)) < 1e-4
     losses = [each.mesh["power_loss"].sum() for each in (run, exact)]
     assert losses[0] == pytest.approx(losses[1], rel=1e-4)
-    energy = run.energy
-    turnover = sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
-    assert abs(energy.residual) < 1e-6 * turnover
+    assert abs(run.energy.residual) < 1e-6 * turnover(run.energy)

@@ -27,7 +27,7 @@ def seen(twin, window, until):
 
 
 @pytest.mark.parametrize("name", ["steady", "rattle", "creep", "through zero"])
-def test_windows_of_1_7_and_1000_milliseconds_pass_the_same_states(name):
+def test_windows_of_1_7_and_1000_milliseconds_pass_same_states(name):
     scene = PAPER.replace(**REGIMES[name])
     runs = [seen(pt.Twin(scene, 2e4), window, 1.001) for window in (1.001, 1e-3, 7e-3)]
     for samples, angle in runs[1:]:
@@ -52,7 +52,7 @@ def test_a_change_has_the_same_effect_for_all_lengths_of_windows(name):
         assert np.array_equal(run(window), whole)
 
 
-def test_windows_of_a_nanosecond_pass_the_same_states_and_give_speeds():
+def test_windows_of_nanosecond_pass_same_states_and_give_speeds():
     twin, other = pt.Twin(PAPER), pt.Twin(PAPER)
     windows = [twin.advance(1e-9) for _ in range(2000)]
     assert twin.time == pytest.approx(2e-6, rel=1e-9)
@@ -67,17 +67,8 @@ def test_a_window_shorter_than_the_clock_resolves_is_refused():
         pt.Twin(PAPER).advance(4e-13)
 
 
-@pytest.mark.parametrize("speed", [0.0, 1.0, -1e-6])
-def test_the_longest_window_is_as_good_as_a_short_one(speed):
-    scene = PAPER.replace(input_speed=speed, **{"lubrication.friction": False})
-    window = pt.Twin(scene, 1.0).advance(60.0)
-    assert len(window.waveform.time) == 60
-    assert np.isfinite(window.waveform.mesh_force).all()
-    assert window.input_speed == pytest.approx(speed, rel=1e-3, abs=1e-9)
-
-
 @pytest.mark.parametrize("duration", [3600.0, 60.000001, 0.0, -1e-9, np.inf, np.nan])
-def test_an_impossible_window_is_refused_in_one_line_and_no_time_passes(duration):
+def test_an_impossible_window_is_refused_in_one_line(duration):
     twin = pt.Twin(PAPER)
     with pytest.raises(ValueError, match=r"^duration = .*at most 60$"):
         twin.advance(duration)

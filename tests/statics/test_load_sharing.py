@@ -49,7 +49,7 @@ def shares(planets, approach, free, angles=None):
 
 @pytest.mark.parametrize("sun", [HELD, FREE])
 @pytest.mark.parametrize("planets", [4, 5])
-def test_a_pin_that_lags_carries_less_and_a_free_sun_evens_it_out(planets, sun):
+def test_pin_that_lags_carries_less_and_a_free_sun_evens_it_out(planets, sun):
     error = -1e-5
     found = load_sharing(scene(planets, {"pin_tangential": [error] + [0.0] * (planets - 1)}, sun))
     approach = np.zeros(planets)
@@ -68,7 +68,7 @@ def test_a_pin_that_lags_carries_less_and_a_free_sun_evens_it_out(planets, sun):
     ],
     ids=["tangential pin", "radial pin", "thickness"],
 )
-def test_unequal_working_angles_have_the_closed_form_of_both_angles(errors, closing):
+def test_unequal_working_angles_have_closed_form_of_both_angles(errors, closing):
     """28.1 deg at the sun and 17.2 deg at the ring: the force of a pin has a radial part, too."""
     stiffness, pin = {"sun_planet": 2e9, "planet_ring": 3e9}, 5e9
     stage = load_scene("reference_gearbox_stage")
@@ -116,7 +116,7 @@ def test_figures_of_another_model_with_three_freedoms_a_body(planets):
 
 
 @pytest.mark.parametrize("sun", [HELD, FREE])
-def test_three_equally_spaced_planets_share_evenly_only_with_a_free_sun(sun):
+def test_three_planets_share_evenly_only_with_a_free_sun(sun):
     paper = load_scene("paper").gearset.planet_angles
     third = 2.0 * math.pi / 3.0
     equal = scene(3, {"pin_tangential": [-1e-5, 0.0, 0.0]}, sun, [0.0, third, 2 * third],
@@ -127,7 +127,7 @@ def test_three_equally_spaced_planets_share_evenly_only_with_a_free_sun(sun):
     assert uneven.share[0] == pytest.approx([0.97537, 1.01231, 1.01231], abs=6e-6)
 
 
-def test_teeth_that_are_thicker_and_pins_that_lead_have_the_load_of_their_approach():
+def test_thick_teeth_and_leading_pins_carry_their_approach():
     thicker, ahead = 4e-6, -3e-6
     found = load_sharing(
         scene(4, {"planet_thickness": [0, thicker, 0, 0], "pin_tangential": [0, 0, ahead, 0]}, HELD)
@@ -148,9 +148,7 @@ def test_teeth_that_are_thicker_and_pins_that_lead_have_the_load_of_their_approa
         (6, 2e-4, [0.0, 0.27778, 0.16667, 0.11111, 0.16667, 0.27778]),
     ],
 )
-def test_large_errors_leave_the_load_to_the_planets_that_balance_a_free_sun(
-    planets, error, expected
-):
+def test_large_errors_load_the_planets_that_balance_the_sun(planets, error, expected):
     errors = {"pin_tangential": [error] + [0.0] * (planets - 1)}
     changes = {"backlash": 1e-3} | (SIX if planets == 6 else {})
     found = load_sharing(scene(planets, errors, FREE, **changes))
@@ -161,9 +159,7 @@ def test_large_errors_leave_the_load_to_the_planets_that_balance_a_free_sun(
     ("clearance", "float_um", "share"),
     [(5e-6, 9.984, 1.17686), (1e-5, 13.728, 1.13228), (4e-5, 24.838, 1.0)],
 )
-def test_a_sun_within_its_bearing_clearance_floats_and_beyond_it_does_not(
-    clearance, float_um, share
-):
+def test_a_sun_floats_within_its_bearing_clearance_alone(clearance, float_um, share):
     third = 2.0 * math.pi / 3.0
     given = scene(3, {"pin_tangential": [-2e-5, 0.0, 0.0]}, 1e8, [0.0, third, 2 * third],
                   **{"supports.sun.clearance": clearance} | THREE)  # fmt: skip
@@ -175,7 +171,7 @@ def test_a_sun_within_its_bearing_clearance_floats_and_beyond_it_does_not(
 @pytest.mark.parametrize(
     ("backlash", "coast"), [(2e-7, 336.0), (5e-6, 174.0), (1.014e-5, None), (1.016e-5, 0.0)]
 )
-def test_a_floating_sun_closes_the_play_until_both_flanks_of_a_mesh_touch(backlash, coast):
+def test_a_floating_sun_closes_the_play_until_flanks_touch(backlash, coast):
     paper = load_scene("paper").gearset.planet_angles
     found = load_sharing(
         scene(3, {"pin_tangential": [-2e-5, 0.0, 0.0]}, FREE, list(paper), backlash=backlash)
@@ -188,7 +184,7 @@ def test_a_floating_sun_closes_the_play_until_both_flanks_of_a_mesh_touch(backla
         assert found.mesh_force[0, 0, :3] == pytest.approx([1996.0, 2175.0, 1802.0], abs=0.6)
 
 
-def test_runout_of_the_sun_moves_a_free_sun_by_as_much_and_leaves_the_loads_even():
+def test_runout_of_a_free_sun_leaves_the_loads_even():
     size = 7e-6
     found = load_sharing(
         scene(3, None, FREE, **THREE | {"mesh.runout.sun": size, "backlash": 1e-3})
@@ -209,7 +205,7 @@ def test_a_free_sun_follows_an_offset_of_the_ring():
     assert np.hypot(*found.displacement[0, 0]) == pytest.approx(size, rel=1e-4)
 
 
-def test_pins_all_displaced_by_one_vector_are_a_displacement_of_the_carrier():
+def test_pins_displaced_alike_are_a_displaced_carrier():
     size, angle = 5e-6, 0.4
     third = 2.0 * math.pi / 3.0
     pins = {
@@ -254,7 +250,7 @@ def test_torques_of_sun_ring_and_carrier_add_up_to_nothing(member):
     assert found.bearing.sum(axis=1) == pytest.approx(0.0, abs=1e-5)
 
 
-def test_the_opposite_torque_on_a_mirrored_set_mirrors_all_forces():
+def test_opposite_torque_on_a_mirrored_set_mirrors_all_forces():
     angles, error = [0.0, 1.5079644737231006, 3.0159289474462012], [-2e-5, 5e-6, 0.0]
     plain = scene(3, {"pin_tangential": error}, 1e7, angles)
     mirrored = scene(

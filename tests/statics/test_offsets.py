@@ -45,7 +45,7 @@ def orders(samples):
 
 
 @OFFSETS
-def test_with_held_axes_shares_swing_once_in_a_turn_of_the_carrier(member, approach):
+def test_with_held_axes_shares_swing_once_in_turn_of_the_carrier(member, approach):
     shares = orders(one_turn(turning(member, HELD, "quasi_static_planar")).axes.load_share)
     assert shares[1] == pytest.approx(BRANCH * approach / FORCE, rel=1e-4)
     assert shares[2:] == pytest.approx(0.0, abs=1e-6)
@@ -73,7 +73,7 @@ def test_loads_and_float_are_those_of_statics(member, approach, sun):
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize(("member", "approach"), first_rows(1, BY_MEMBER, pytest.mark.release))
-def test_a_vibrating_set_shares_the_load_so_in_the_mean_and_its_energy_balances(member, approach):
+def test_a_vibrating_set_shares_so_in_the_mean(member, approach):
     run = one_turn(turning(member, HELD, "planar"), settling=0.05)
     first = orders(run.axes.load_share)[1]
     assert first == pytest.approx(BRANCH * approach / FORCE, rel=5e-3)

@@ -84,7 +84,7 @@ def test_a_mirrored_set_moves_in_the_mirror(flow, weight):
 
 
 @pytest.mark.exhaustive
-def test_a_mirrored_set_shows_the_same_samples_half_a_mesh_cycle_later():
+def test_mirrored_set_shows_same_samples_half_a_mesh_cycle_later():
     """Teeth are as thick as their spaces, so coast flanks are where drive flanks are then."""
     scene = uneven(*SETS[0])
     lead = [mesh.coast_lead for mesh in scene.gearset.geometry.meshes]
@@ -99,7 +99,7 @@ def test_a_mirrored_set_shows_the_same_samples_half_a_mesh_cycle_later():
     assert seen == pytest.approx(moved, abs=1e-3 * np.abs(moved).max())
 
 
-def test_turning_set_and_weight_turns_displacements_and_nothing_else():
+def test_turning_set_and_weight_turns_displacements_alone():
     angle = 0.7
     scene = uneven(*SETS[0])
     turned = scene.replace(

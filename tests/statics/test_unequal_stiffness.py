@@ -62,7 +62,7 @@ def test_runs_with_moving_axes_share_the_load_as_statics(sun, shares, still):
 
 
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
-def test_planets_rigid_on_their_pins_share_the_load_by_their_meshes(dynamics):
+def test_planets_rigid_on_their_pins_share_load_by_their_meshes(dynamics):
     given = scene(4, UNEQUAL, dynamics=dynamics, **QUIET)
     assert len(planet_groups(given).leaders) > 1
     forces = simulate(given, 0.01, settling=0.02).mesh["mesh_force_mean"]
@@ -71,13 +71,13 @@ def test_planets_rigid_on_their_pins_share_the_load_by_their_meshes(dynamics):
     assert forces[4:] / forces[4:].mean() == pytest.approx(shares, rel=1e-6)
 
 
-def test_the_energy_of_unequal_planets_balances_with_alternating_tooth_pairs_and_friction():
+def test_energy_of_unequal_planets_balances():
     given = load_scene("paper").replace(**{"errors.planet_stiffness": (0.7, 1.0, 1.3)})
     energy = simulate(given, 0.05).energy
     assert abs(energy.residual) < 1e-6 * energy.put_in
 
 
-def test_tilting_axes_share_the_load_of_spur_gears_as_planar_ones():
+def test_tilting_axes_share_load_of_spur_gears_as_planar_ones():
     errors = {f"errors.{name}": factors[:3] for name, factors in UNEQUAL.items()}
     given = spatial(helix=0.0, **errors, **QUIET)
     in_space, in_plane = (
@@ -88,7 +88,7 @@ def test_tilting_axes_share_the_load_of_spur_gears_as_planar_ones():
     assert in_space == pytest.approx(in_plane, rel=1e-6)
 
 
-def test_torsional_modes_are_those_of_the_matrix_of_unequal_planets():
+def test_torsional_modes_are_those_of_matrix_of_unequal_planets():
     factors = (0.7, 1.0, 1.3)
     given = load_scene("paper").replace(
         **{"errors.planet_stiffness": factors, "gearset.held": "carrier"}

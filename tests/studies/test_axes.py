@@ -12,12 +12,10 @@ PAPER = pt.load_scene("paper")
 @pytest.mark.parametrize(
     ("field", "text", "values"),
     [
-        ("backlash", "2e-7:3.5e-7:4", np.linspace(2e-7, 3.5e-7, 4)),
         ("backlash", "0.2 um:0.4 um:3", [2e-7, 3e-7, 4e-7]),
         ("lubrication.viscosity", "0.01:1:3:log", [0.01, 0.1, 1.0]),
         ("input_speed", "-100:100:5", [-100.0, -50.0, 0.0, 50.0, 100.0]),
         ("input_speed", "1000rpm,2000rpm", [pt.rpm(1000), pt.rpm(2000)]),
-        ("operating_point.lambda_ratio", "1.5", [1.5]),
         ("input_torque", "5,5,7", [5.0, 7.0]),
     ],
 )
@@ -51,31 +49,18 @@ def test_a_range_without_a_count_is_sampled():
         ("nosuch", "1:2:3", "nosuch: no such field"),
         ("backlash", "1:2:3", r"backlash = 1\.0: must be a number within 0 and 0\.001 m"),
         ("backlash", "1e-7:2e-7:x", r"'1e-7:2e-7:x': 'x' must be a count within 2 and"),
-        ("backlash", "1e-7:2e-7:1", r"'1' must be a count"),
-        ("backlash", "1:2:3:4:5", r"must be a,b,c, a:b:n"),
         ("backlash", "1e-7:1e-7:3", r"both ends are equal"),
         ("backlash", "0:1e-7:3:log", r"must have the same sign"),
         ("dynamics", "torsional:quasi_static:2", r"is not a number; list its values"),
-        ("input_speed", "1000 kg", r"input_speed"),
-        (
-            "input_torque",
-            "40,5 N m,50 N m",
-            r"'40,5 N m,50 N m': 40 has no unit; write a unit with each",
-        ),
         (
             "input_speed",
             "1000,2000 rpm",
             r"'1000,2000 rpm': 1000 has no unit; write a unit with each",
         ),
-        (
-            "input_speed",
-            "1000:2000 rpm:5",
-            r"'1000:2000 rpm:5': 1000 has no unit; write a unit with each",
-        ),
         ("input_torque", "40,5 N m:50 N m:3", r"'40,5 N m': write a decimal point"),
     ],
 )
-def test_an_invalid_axis_is_refused_in_one_line_that_names_the_field(field, text, reason):
+def test_invalid_axis_is_refused_in_one_line_that_names_field(field, text, reason):
     with pytest.raises(ValueError, match=reason) as refusal:
         read_axis(PAPER, field, text)
     assert "\n" not in str(refusal.value) and field in str(refusal.value)

@@ -8,7 +8,7 @@ import sys
 import time
 
 import pytest
-from studies.small import PAPER, STUDY
+from studies.small import PAPER
 
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.cluster import Cluster
@@ -48,15 +48,6 @@ def until(found, timeout=60.0):
         assert time.monotonic() < deadline
         time.sleep(0.05)
     return result
-
-
-@pytest.mark.exhaustive
-def test_a_cluster_gives_the_same_table_to_the_last_bit(scheduler):
-    cluster = Cluster(scheduler[0])
-    try:
-        assert sweep(STUDY, cluster).equals(sweep(STUDY, Threads(1)), check_metadata=True)
-    finally:
-        cluster.close()
 
 
 @pytest.mark.exhaustive

@@ -25,8 +25,6 @@ def test_a_distribution_is_read_with_units_or_in_si():
     [
         ("backlash", "normal(2 um,0)", "2 um|0 has no unit"),
         ("backlash", "normal(2 um,0 um)", "must be above 0"),
-        ("backlash", "normal(2 um,-1 um)", "must be above 0"),
-        ("backlash", "normal(2 um,1 N)", "N"),
         ("backlash", "normal(2 um)", "must be normal"),
         ("oil_temperature", "normal(70 degC,5 degC)", "must be in K"),
         ("dynamics", "normal(1,2)", "not a number"),
@@ -38,7 +36,7 @@ def test_what_is_no_distribution_is_refused_with_its_field(field, text, reason):
     assert "\n" not in str(refusal.value)
 
 
-def test_samples_have_the_quantiles_of_the_distribution_one_in_each_stratum():
+def test_samples_are_one_in_each_stratum_of_the_distribution():
     study = latin_hypercube(PAPER, [Normal("backlash", 2e-6, 1e-7)], 200)
     drawn = np.sort([point.changes["backlash"] for point in study.points])
     law = NormalDist(2e-6, 1e-7)
@@ -46,7 +44,7 @@ def test_samples_have_the_quantiles_of_the_distribution_one_in_each_stratum():
     assert np.array_equal(np.floor(200 * shares), np.arange(200))
 
 
-def test_a_distribution_needs_samples_and_values_that_the_field_has():
+def test_distribution_needs_samples_and_values_that_field_has():
     axis = Normal("backlash", 1e-6, 1e-6)
     with pytest.raises(ValueError, match="requires a number of samples"):
         grid(PAPER, [axis], Settings())

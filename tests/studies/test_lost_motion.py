@@ -36,7 +36,7 @@ STIFFNESS = 5 * 0.5 * 2e8 * LEVER**2
 FREE_PLAY = 2.0 * PLAY / LEVER  # both meshes, from flank to flank
 
 
-def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
+def test_without_friction_it_is_play_and_elastic_twist():
     found = lost_motion(SMOOTH, TORQUE, levels=20)
     assert found.settled
     assert found.stiffness == pytest.approx(STIFFNESS, rel=1e-3)
@@ -52,7 +52,7 @@ def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
     assert found.stiffness_with_couplings == pytest.approx(1.0 / series)
 
 
-def test_the_backlash_is_a_step_at_zero_torque_in_both_directions():
+def test_backlash_is_a_step_at_zero_torque_in_both_directions():
     found = lost_motion(SMOOTH, TORQUE, levels=5)
     down, up = found.twist[found.torque == 0.0].reshape(2, 2)
     assert down[0] - down[1] == pytest.approx(FREE_PLAY, rel=1e-3)
@@ -74,7 +74,7 @@ def quasi_static_stiffness(scene, torque):
 
 
 @pytest.mark.parametrize("torque", [20.0, 400.0])
-def test_contacts_of_involute_teeth_are_as_stiff_as_at_the_torque_of_the_bench(torque):
+def test_involute_contacts_are_as_stiff_as_at_the_bench(torque):
     scene = SMOOTH.replace(**{"mesh.stiffness": "involute", "backlash": 0.0})
     found = lost_motion(scene, torque, levels=10)
     assert found.stiffness == pytest.approx(quasi_static_stiffness(scene, torque), rel=0.01)
@@ -82,7 +82,7 @@ def test_contacts_of_involute_teeth_are_as_stiff_as_at_the_torque_of_the_bench(t
     assert heavy > 1.1 * light
 
 
-def test_planets_in_phase_are_as_stiff_in_each_sense_as_the_pairs_that_carry_in_it():
+def test_planets_in_phase_are_as_stiff_as_their_pairs():
     teeth = {"sun": 18, "planet": 45, "ring": 108}
     angles = tuple(2.0 * math.pi * k / 3 for k in range(3))
     scene = SMOOTH.replace(
@@ -104,14 +104,7 @@ def test_planets_in_phase_are_as_stiff_in_each_sense_as_the_pairs_that_carry_in_
 
 
 @pytest.mark.exhaustive
-def test_the_command_says_what_is_rigid():
-    options = ["lost-motion", "floating_sun", "--torque", "20 N m", "--set", "dynamics=torsional"]
-    shown = " ".join(CliRunner().invoke(build_app(), options).output.split())
-    assert "bearings, shafts and the carrier are rigid" in shown
-
-
-@pytest.mark.exhaustive
-def test_printed_gears_have_the_lost_motion_and_the_stiffness_of_their_rig():
+def test_printed_gears_have_the_figures_of_their_rig():
     # Backlash and output coupling of the scene are chosen so; friction of 0.8, light gears.
     found = lost_motion(pt.load_scene("compact_actuator"), 7.2)
     assert found.settled
@@ -134,20 +127,13 @@ def test_friction_opens_a_loop_that_takes_energy():
     assert taken(rough) > 1e-3 * stored
 
 
-def test_more_play_is_more_lost_motion_by_as_much():
-    small, large = (
-        lost_motion(SMOOTH.replace(backlash=play), TORQUE, levels=10) for play in (PLAY, 3 * PLAY)
-    )
-    assert large.lost_motion - small.lost_motion == pytest.approx(2.0 * FREE_PLAY, rel=2e-3)
-
-
 def with_oil_and(play, share):
     oil = {"lubrication.friction": True, "lubrication.boundary": "load_sharing"}
     return lost_motion(SMOOTH.replace(**oil, backlash=play), TORQUE, share, levels=10)
 
 
 @pytest.mark.parametrize("share", first(1, [0.03, 0.01, 0.1]))
-def test_with_friction_too_lost_motion_is_backlash_and_elastic_twist(share):
+def test_with_friction_too_it_is_backlash_and_elastic_twist(share):
     elastic = 2.0 * share * TORQUE / STIFFNESS
     tight, loose = (with_oil_and(play, share).lost_motion for play in (0.0, PLAY))
     assert tight == pytest.approx(elastic, rel=0.02)
@@ -155,7 +141,7 @@ def test_with_friction_too_lost_motion_is_backlash_and_elastic_twist(share):
 
 
 @pytest.mark.exhaustive
-def test_hysteresis_is_due_to_friction_and_does_not_contain_the_backlash():
+def test_hysteresis_is_friction_without_the_backlash():
     smooth = lost_motion(SMOOTH, TORQUE, 0.1, levels=10).hysteresis
     runs = [with_oil_and(play, 0.1) for play in (0.0, PLAY)]
     assert all(run.hysteresis_resolved for run in runs)
@@ -168,11 +154,7 @@ def test_hysteresis_is_due_to_friction_and_does_not_contain_the_backlash():
 def test_any_member_may_be_held(held, output):
     driver = ({"sun", "ring", "carrier"} - {held, output}).pop()
     scene = SMOOTH.replace(
-        **{
-            "gearset.held": held,
-            "drive.output.member": output,
-            "drive.input.member": driver,
-        }
+        **{"gearset.held": held, "drive.output.member": output, "drive.input.member": driver}
     )
     found = lost_motion(scene, TORQUE, levels=10)
     lever = {"ring": GEARS.ring.base_radius, "carrier": LEVER}[output]
@@ -196,25 +178,12 @@ def test_the_command_prints_and_draws_what_the_library_finds(tmp_path):
     assert "lost motion at 3 % of it [deg]" in shown
 
 
-def test_the_largest_torque_may_be_that_of_the_limit_to_the_last_bit():
-    limit = 33.3
-    scene = SMOOTH.replace(**{"input_torque": 1.0, "drive.torque_limit": limit})
-    largest = limit * abs(static_torques(scene)[LOAD_MACHINE])
-    found = lost_motion(scene, largest, levels=3)
-    assert np.abs(found.torque).max() == pytest.approx(largest, rel=1e-3)
-    with pytest.raises(ValueError, match=r"torque = .* N m: must be above 0 and at most"):
-        lost_motion(scene, largest * (1.0 + 1e-15), levels=3)
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         (("paper", "--torque", "-1 N m"), "--torque = -1.0 N m: must be above 0 and at most"),
-        (("paper", "--torque", "0"), "--torque = 0.0 N m: must be above 0 and at most"),
-        (("paper", "--torque", "nan"), "--torque = "),
         (("paper", "--torque", "20 m"), "--torque = '20 m'"),
         (("paper", "--share", "0.7"), "--share = 0.7: must be above 0 and below 0.5"),
-        (("paper", "--share", "0"), "--share = 0.0: must be above 0 and below 0.5"),
         (("differential",), "drive.second_input"),
         (
             ("paper", "--torque", "100", "--set", "drive.torque_limit=15 N m", "--set", SMALL),

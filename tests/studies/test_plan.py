@@ -12,14 +12,14 @@ TORQUES = Axis("input_torque", (10.0, 20.0, 30.0))
 FILMS = Axis("lambda_ratio", (1.0, 2.0))
 
 
-def test_a_grid_contains_every_combination_once_and_the_last_axis_varies_fastest():
+def test_a_grid_contains_every_combination_once():
     study = grid(PAPER, [TORQUES, FILMS])
     found = [tuple(point.changes.values()) for point in study.points]
     assert found == [(t, f) for t in TORQUES.values for f in FILMS.values]
     assert [point.place for point in study.points] == list(range(6))
 
 
-def test_each_point_of_a_latin_hypercube_has_its_own_stratum_on_every_axis():
+def test_each_hypercube_point_has_its_own_stratum_on_each_axis():
     spans = [Span("input_torque", 10.0, 30.0), Span("backlash", 1e-7, 1e-5, logarithmic=True)]
     study = latin_hypercube(PAPER, [*spans, FILMS], samples=20, seed=3)
     torque, backlash, film = (
@@ -41,7 +41,7 @@ def test_whole_numbers_stay_whole_when_drawn():
     assert all(isinstance(order, int) for order in orders) and set(orders) == set(range(1, 10))
 
 
-def test_a_key_depends_on_all_inputs_of_the_figures_and_on_nothing_else():
+def test_a_key_depends_on_all_inputs_of_the_figures_alone():
     study = grid(PAPER, [TORQUES])
     first, second, _ = study.points
     keys = {
@@ -64,8 +64,6 @@ def test_a_key_depends_on_all_inputs_of_the_figures_and_on_nothing_else():
         (lambda: grid(PAPER, [Span("backlash", 1e-7, 2e-7)]), "backlash: a range without a count"),
         (lambda: grid(PAPER, [Axis("backlash", (1e-7,) * 2000)] * 3), "8000000000 points"),
         (lambda: grid(PAPER, [FILMS], Settings(duration=0.0)), r"duration = 0\.0 s"),
-        (lambda: grid(PAPER, [FILMS], Settings(settling=-1.0)), r"settling = -1\.0 s"),
-        (lambda: grid(PAPER, [FILMS], Settings(tolerance=1.0)), r"tolerance = 1\.0"),
         (lambda: latin_hypercube(PAPER, [FILMS], 0), "samples = 0"),
     ],
 )

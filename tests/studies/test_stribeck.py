@@ -15,7 +15,7 @@ from planetary_twin_py.studies.table import read
 
 
 @pytest.mark.parametrize("side", ["sun_planet", "planet_ring"])
-def test_friction_rises_as_the_film_vanishes_down_to_a_thousandth_of_a_turn_a_minute(side):
+def test_friction_rises_as_the_film_vanishes(side):
     speeds = tuple(pt.rpm(rpm) for rpm in np.logspace(-3, 1, 21))
     scene = pt.load_scene("wind_turbine_stage")
     table = stribeck(scene, Axis("input_speed", speeds), Threads())
@@ -30,7 +30,7 @@ def test_friction_rises_as_the_film_vanishes_down_to_a_thousandth_of_a_turn_a_mi
 
 
 @pytest.mark.parametrize("boundary, lines", [("greenwood_tripp", 1), ("load_sharing", 0)])
-def test_the_command_reports_where_asperities_have_no_boundary_regime(boundary, lines, tmp_path):
+def test_the_command_says_where_there_is_no_boundary_regime(boundary, lines, tmp_path):
     arguments = ["stribeck", "paper", "--set", f"lubrication.boundary={boundary}"]
     out = ["--input-speed", "10rpm,100rpm", "--out", str(tmp_path / "curve.csv")]
     done = CliRunner().invoke(build_app(), [*arguments, *out])
@@ -71,7 +71,7 @@ def test_axes_move_in_a_stribeck_curve_as_in_the_scene(name, dynamics, used, tmp
 
 
 @pytest.mark.parametrize("name", pt.packaged_scenes())
-def test_default_speeds_are_round_and_within_the_limit_of_the_drive(name):
+def test_default_speeds_are_round_and_within_limit_of_the_drive(name):
     scene = pt.load_scene(name)
     axis = read_axis(scene, "input_speed", default_speeds(scene, 1e-4, "41:log"))
     assert len(axis.values) == 41
@@ -80,10 +80,3 @@ def test_default_speeds_are_round_and_within_the_limit_of_the_drive(name):
     backwards = scene.replace(input_speed=-scene.operating_point.input_speed)
     opposite = read_axis(backwards, "input_speed", default_speeds(backwards, 1e-4, "41:log"))
     assert opposite.values == pytest.approx([-value for value in axis.values])
-
-
-def test_a_slow_machine_needs_no_speeds(tmp_path):
-    out = tmp_path / "curve.csv"
-    done = CliRunner().invoke(build_app(), ["stribeck", "wind_turbine_stage", "--out", str(out)])
-    assert done.exit_code == 0, done.output
-    assert read(out)["failure"].null_count == 41

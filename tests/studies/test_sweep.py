@@ -1,7 +1,5 @@
 """A study gives the same table with any workers; finished points survive; failures are reported."""
 
-import threading
-
 import numpy as np
 import pyarrow.parquet
 import pytest
@@ -12,7 +10,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.studies import work
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.journal import Journal
-from planetary_twin_py.studies.local import AHEAD, Threads
+from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import grid
 from planetary_twin_py.studies.sweep import sweep
@@ -37,14 +35,14 @@ def measured(monkeypatch):
     return scenes
 
 
-def test_one_worker_and_several_give_the_same_table_to_the_last_bit():
+def test_one_worker_and_several_give_same_table_to_the_last_bit():
     alone = sweep(STUDY, Threads(1))
     assert len(alone) == len(STUDY.points)
     for count in (2, 5):
         assert sweep(STUDY, Threads(count)).equals(alone, check_metadata=True)
 
 
-def test_figures_are_those_of_a_separate_run_over_the_measured_part():
+def test_figures_are_those_of_separate_run_over_measured_part():
     table = sweep(STUDY, Threads())
     scene = PAPER.replace(**STUDY.points[3].changes)
     whole = pt.simulate(scene, 0.03, 1e6, tolerance=1e-3)
@@ -111,21 +109,6 @@ def test_a_point_that_fails_is_reported_and_stops_no_other(tmp_path, measured):
     bad, good = table.to_pylist()
     assert bad["failure"].startswith("gearset.addendum = 0.3: ") and bad["efficiency"] is None
     assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
-
-
-def test_a_defect_of_the_program_is_not_reported_as_a_failed_point(monkeypatch):
-    monkeypatch.setattr(work, "measure", lambda *_: {}["defect"])
-    with pytest.raises(KeyError):
-        sweep(STUDY, Threads())
-
-
-def test_only_a_few_points_are_computed_ahead():
-    started = threading.Semaphore(0)
-    asked = iter(range(1000))
-    found = Threads(2).run(lambda point: started.release(), (next(asked) for _ in range(1000)))
-    next(found)
-    assert next(asked) <= AHEAD * 2 + 1
-    found.close()
 
 
 def test_zero_workers_are_refused():

@@ -19,22 +19,7 @@ def sun_planet_pair(
     material: Material,
     contact: ContactLaw,
 ) -> ToothPair:
-    """Tooth pair of the external mesh.
-
-    Args:
-        teeth: tooth numbers.
-        module: [m].
-        pressure_angle: [rad].
-        addendum: [modules].
-        material: of both gears.
-        contact: law of the contact.
-
-    Returns:
-        The pair.
-
-    Raises:
-        ValueError: the teeth are impossible, see `SpurGear` and `gearset.geometry`.
-    """
+    """Tooth pair of the external mesh; module in m, pressure angle in rad, addendum in modules."""
     sun, planet = (
         Tooth(SpurGear(z, module, pressure_angle, addendum), material, HUB)
         for z in (teeth.sun, teeth.planet)

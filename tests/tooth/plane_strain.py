@@ -129,10 +129,7 @@ class GearModel:
         height, _ = (x[:POINTS] for x in self.profile.outline)
         critical = np.interp(self.profile.critical_height, height, np.linspace(0, 1, POINTS))
         t = np.concatenate(
-            [
-                np.linspace(self.JOINT, critical, self.CRACK + 1),
-                np.linspace(critical, 1.0, 7)[1:],
-            ]
+            [np.linspace(self.JOINT, critical, self.CRACK + 1), np.linspace(critical, 1.0, 7)[1:]]
         )
         radius, half = self.profile.fillet(t)
         start, tip = self.profile.flank_start, self.gear.tip_radius

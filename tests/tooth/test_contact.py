@@ -16,7 +16,7 @@ LOAD, RADIUS, DEPTHS = 94e3, 1.747e-3, (0.65e-3, 0.8e-3)
 CONTACT = Contact(np.array([RADIUS]), tuple(np.array([t]) for t in DEPTHS))
 
 
-def test_weber_is_the_strain_below_the_contact_summed_to_the_centre_line():
+def test_weber_is_strain_below_contact_summed_to_the_centre_line():
     """Johnson (1985), eq. 4.46: stresses on the axis of a line contact."""
     half = half_width(LOAD, RADIUS, 1.0, contact_modulus(206e9, 0.3))
     peak = 2 * LOAD / (math.pi * half)

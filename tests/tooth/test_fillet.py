@@ -60,7 +60,7 @@ def test_fillet_touches_the_flank_and_the_root_circle(gear):
 
 
 @pytest.mark.parametrize("gear", INTERNAL, ids=lambda g: g.teeth)
-def test_internal_fillet_is_an_arc_of_the_racks_rounding_or_of_a_round_bottom(gear):
+def test_internal_fillet_is_an_arc_of_the_rack_or_the_bottom(gear):
     radius, half = fillet(gear)(np.linspace(0.0, 1.0, 5))
     at = radius * np.exp(1j * half)
     first, second, third = at[0], at[2], at[4]
@@ -84,9 +84,7 @@ ANY = [
 
 
 @pytest.mark.parametrize(("alpha", "teeth", "internal"), ANY)
-def test_outline_rises_without_a_jump_whichever_of_root_and_base_circle_is_larger(
-    alpha, teeth, internal
-):
+def test_outline_rises_without_a_jump(alpha, teeth, internal):
     profile = ToothProfile(SpurGear(teeth, 1.0, math.radians(alpha), internal=internal))
     height, half = profile.outline
     assert np.all(np.diff(height) >= 0) and half.min() > 0

@@ -24,12 +24,7 @@ def stars(h, half_angle, nu=0.3):
     matrix = GearBody(1 / h, half_angle, nu).compliance()
     root = 2 * half_angle
     return np.array(
-        [
-            matrix[0, 0] * root**2,
-            2 * matrix[0, 1] * root,
-            matrix[1, 1],
-            matrix[2, 2] / matrix[1, 1],
-        ]
+        [matrix[0, 0] * root**2, 2 * matrix[0, 1] * root, matrix[1, 1], matrix[2, 2] / matrix[1, 1]]
     )
 
 

@@ -47,7 +47,7 @@ def iso(kind, degrees, ratio):
 
 
 @pytest.mark.parametrize("degrees", [0.0, 15.0, 25.0, 35.0])
-def test_mean_stiffness_is_within_5_percent_of_iso_6336_from_0_to_35_deg(degrees):
+def test_mean_stiffness_is_within_5_percent_of_iso_6336(degrees):
     for kind, mesh in enumerate(figures(degrees)):
         expected = iso(kind, degrees, mesh.contact_ratio) * PAPER.lubrication.youngs_modulus / 206e9
         assert mesh.mean_stiffness / WIDTH == pytest.approx(expected, rel=0.05)

@@ -13,7 +13,7 @@ def test_a_polynomial_is_its_own_fit():
     assert found.error < 1e-12
 
 
-def test_error_is_the_one_a_dense_grid_shows_and_falls_with_the_degree():
+def test_error_is_one_dense_grid_shows_and_falls_with_the_degree():
     position = np.linspace(-1.0, 0.8, 4001)
     errors = []
     for degree in (2, 4, 6, 8):

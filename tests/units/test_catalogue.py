@@ -35,7 +35,7 @@ def test_the_state_has_every_quantity_of_the_train_in_its_unit():
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_state_has_the_statistics_of_a_mesh_in_their_units_and_no_others(side):
+def test_the_state_has_its_mesh_statistics_in_their_units(side):
     of_meshes = {
         name.removeprefix(f"{side}_"): unit
         for name, unit in units("GearboxState").items()
@@ -49,7 +49,7 @@ def test_the_waveform_has_its_quantities_in_their_units():
     assert all(recorded[name] == quantity.si for name, quantity in WAVEFORM.items())
 
 
-def test_the_state_of_axes_has_its_quantities_in_their_units_and_no_others():
+def test_the_state_has_its_axes_in_their_units():
     general = {"simulated_time", "interval", "sample_rate", "planets"}
     recorded = {name: unit for name, unit in units("AxesState").items() if name not in general}
     assert recorded == {name: quantity.si for name, quantity in axes_fields().items()}

@@ -52,7 +52,7 @@ def test_a_number_with_a_unit_is_converted_to_si(written, unit, meant):
 
 
 @pytest.mark.parametrize(("given", "unit"), first_rows(4, _COMMON), ids=lambda name: name)
-def test_frequent_units_have_the_bits_of_the_library_that_converts_the_others(given, unit):
+def test_frequent_units_have_the_bits_of_the_library(given, unit):
     rng = np.random.default_rng(1)
     values = rng.normal(size=2000) * 10.0 ** rng.uniform(-9.0, 9.0, 2000)
     library = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
@@ -96,7 +96,7 @@ def test_no_sign_that_is_not_understood_is_dropped(written):
         ("MPas", "m", "; write, for example, m or mm or um"),
     ],
 )
-def test_a_wrong_unit_is_named_with_the_expected_one_and_an_example(given, unit, advice):
+def test_wrong_unit_is_named_with_expected_one_and_an_example(given, unit, advice):
     message = f"[{given}] cannot be converted to {unit}{advice}"
     for read in (
         lambda: to_si(f"70 {given}", unit),

@@ -15,7 +15,7 @@ def spatial():
 
 
 @pytest.mark.parametrize("make", [planar, spatial])
-def test_means_and_peaks_of_axes_do_not_depend_on_the_samples_kept(make, monkeypatch):
+def test_means_and_peaks_of_axes_do_not_depend_on_samples_kept(make, monkeypatch):
     scene = make()
     few, dense = (pt.simulate(scene, SPAN, rate, settling=SETTLING) for rate in (700.0, 800_000.0))
     found, axes = few.axes.statistics, dense.axes

@@ -4,12 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.io import loadmat, savemat
+from scipy.io import savemat
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.loss_map import LossMap
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.studies.fit.course import read_course
 from planetary_twin_py.studies.fit.fit_course import course_remarks, fit_course
 
 RIG = Path(__file__).parents[2] / "data/compact"
@@ -59,35 +58,6 @@ def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.slow
-def test_a_run_up_determines_friction_and_drag(tmp_path):
-    path = manoeuvre(tmp_path / "rig.mat", "run-up")
-    found = fit_course(path, SCENE.replace(**{MOTOR: 3e-3}), (FRICTION, DRAG))
-    for (low, high, _), true in zip(found.estimate.intervals, (0.5, 0.05), strict=True):
-        assert low < true < high
-    assert found.estimate.values[1] == pytest.approx(0.05, rel=0.2)
-
-
-@pytest.mark.slow
-def test_codes_for_missing_readings_are_left_out_of_a_fit(tmp_path):
-    path = manoeuvre(tmp_path / "rig.mat", "run-up")
-    spoilt, found = loadmat(path, squeeze_me=True), []
-    columns = {
-        name: spoilt[name].copy()
-        for name in ("input_torque", "output_torque", "input_speed", "time")
-    }
-    columns["input_torque"][500:510] = -9999.0
-    savemat(tmp_path / "spoilt.mat", columns)
-    for file in (path, tmp_path / "spoilt.mat"):
-        found.append(fit_course(file, SCENE.replace(**{MOTOR: 3e-3}), (DRAG,)))
-    value, expected = (float(one.estimate.values[0]) for one in reversed(found))
-    low, high, _ = found[0].estimate.intervals[0]
-    assert value == pytest.approx(expected, abs=0.05 * (high - low))
-    (line,) = (one for one in course_remarks(found[1]) if "left out" in one)
-    assert "input_torque" in line and "10 readings, rows 501 to 510" in line
-
-
-@pytest.mark.exhaustive
 def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
     clean, wrong = (
         fit_course(manoeuvre(tmp_path / "rig.mat", "run-up", error), SCENE, (DRAG,))
@@ -100,15 +70,7 @@ def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
 
 
 @pytest.mark.exhaustive
-def test_an_estimate_at_the_end_of_its_range_is_remarked_upon(tmp_path):
-    path = manoeuvre(tmp_path / "rig.mat", "run-up")
-    dragging = SCENE.replace(**{DRAG: 0.2, MOTOR: 3e-3})  # more than the whole loss
-    found = fit_course(path, dragging, (FRICTION,))
-    assert any("is at the end of its range, 0" in line for line in course_remarks(found))
-
-
-@pytest.mark.exhaustive
-def test_a_run_of_the_rig_predicts_its_end_within_a_second_of_processor_time_per_second():
+def test_a_run_of_the_rig_predicts_its_end():
     scene = pt.load_scene("compact_actuator")
     found = fit_course(
         RIG / "ramp.parquet", scene, (FRICTION, DRAG), span=(1.0, 20.0), hold_out=(20.2, 34.0)
@@ -120,40 +82,10 @@ def test_a_run_of_the_rig_predicts_its_end_within_a_second_of_processor_time_per
     assert found.simulations < 60
 
 
-def test_files_that_are_no_manoeuvre_are_refused_in_one_line(tmp_path):
-    train = followed_train(SCENE)
-    (tmp_path / "no.mat").write_text("text")
-    with pytest.raises(ValueError, match="not a MAT file"):
-        read_course(tmp_path / "no.mat", train)
-    savemat(tmp_path / "short.mat", {"time": np.arange(3.0), "input_torque": np.zeros(3)})
-    with pytest.raises(ValueError, match="column 'output_torque': missing"):
-        read_course(tmp_path / "short.mat", train)
-    savemat(tmp_path / "uneven.mat", {"time": np.arange(3.0), "input_torque": np.zeros(4)})
-    with pytest.raises(ValueError, match="must be a vector as long as time"):
-        read_course(tmp_path / "uneven.mat", train)
-
-
 def test_a_part_that_overlaps_is_refused(tmp_path):
     path = manoeuvre(tmp_path / "rig.mat", "run-up")
     with pytest.raises(ValueError, match="overlaps the fitted part"):
         fit_course(path, SCENE, (DRAG,), span=(0.0, 15.0), hold_out=(10.0, 20.0))
-
-
-@pytest.mark.exhaustive
-def test_a_drag_that_starts_at_zero_is_found_as_from_another_start(tmp_path):
-    scene = pt.load_scene("paper")
-    true = scene.replace(**{DRAG: 0.03})
-    train, losses = followed_train(true), LossMap(true)
-    time = np.arange(1, 501) / RATE
-    torque, speed = np.full(len(time), 63.0), np.full(len(time), pt.rpm(1000))
-    lost = sum(losses(63.0, pt.rpm(1000), train.oil_temperature)[::2])
-    table = {"time": time, "input_speed": speed}
-    table["input_torque"] = torque + NOISE * np.random.default_rng(1).standard_normal(len(time))
-    table["output_torque"] = (lost - torque) / train.ratio
-    savemat(tmp_path / "rig.mat", table)
-    for start in (None, {DRAG: 0.2}):
-        (drag,) = fit_course(tmp_path / "rig.mat", scene, (DRAG,), start=start).estimate.values
-        assert drag == pytest.approx(0.03, abs=0.004)
 
 
 @pytest.mark.filterwarnings("error")

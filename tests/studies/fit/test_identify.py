@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from studies.fit.rig import LIGHT, PAPER, record
 
-from planetary_twin_py.studies.fit import excerpt
 from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
 from planetary_twin_py.studies.fit.remarks import remarks
@@ -31,9 +30,7 @@ def test_rattle_identifies_the_backlash(tmp_path):
 
 
 @pytest.mark.slow
-def test_steady_load_identifies_torque_and_film_and_reports_that_backlash_is_not_identifiable(
-    tmp_path,
-):
+def test_steady_load_shows_torque_and_film_but_not_backlash(tmp_path):
     path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.003)
     found = find(path, "backlash", "lambda_ratio", "input_torque", confidence=0.999)
     assert found.estimate.not_identifiable == ((0,),)
@@ -49,16 +46,9 @@ def test_steady_load_identifies_torque_and_film_and_reports_that_backlash_is_not
     assert np.isnan(found.estimate.correlation[0]).all()
 
 
-def test_the_zero_of_the_encoders_would_identify_it(tmp_path):
-    path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.001)
-    found = find(path, "backlash", observe=("dte_mean",), confidence=0.999)
-    low, high, _ = found.estimate.intervals[0]
-    assert low < 2e-7 < high
-
-
 @pytest.mark.exhaustive
 @pytest.mark.slow
-def test_without_noise_the_truth_is_found_through_a_change_that_still_rings(tmp_path):
+def test_the_truth_is_found_through_a_change_that_still_rings(tmp_path):
     changes = [(0.1, {"input_torque": 40.0})]
     path = record(tmp_path / "bag", PAPER, 0.3, changes=changes)
     found = find(path, "lambda_ratio", "input_torque", begin=0.2, end=0.3)
@@ -88,35 +78,14 @@ def test_the_longest_interval_without_a_change_is_used(tmp_path):
     assert found.segments == pytest.approx((0.08, 0.09))
 
 
-def test_late_in_a_run_the_simulation_starts_at_the_recorded_angles(tmp_path, monkeypatch):
-    path = record(tmp_path / "bag", PAPER.replace(input_speed=91.0), 0.3)
-    monkeypatch.setattr(excerpt, "HISTORY", 0.1)
-    found = find(path, "lambda_ratio", begin=0.2, end=0.3, observe=("power_loss", "dte_waveform"))
-    period = 2.0 * np.pi / 91.0
-    assert found.excerpt.begins == pytest.approx(period, rel=1e-3)
-    assert found.estimate.values == pytest.approx([1.0], rel=0.05)
-
-
 @pytest.mark.parametrize(
     ("search", "reason"),
     [
         (Search(()), "no free parameter"),
         (Search(("nosuch",)), "nosuch: no such field"),
-        (Search(("mesh.nosuch",)), "mesh.nosuch: no such field"),
-        (Search(("viscosity",)), "viscosity: no such field; did you mean lubrication.viscosity?"),
         (Search(("gearset.teeth.sun",)), "gearset.teeth.sun = 30: only a continuous quantity"),
-        (Search(("mesh.stiffness",)), "mesh.stiffness = 'given': only a continuous quantity"),
-        (Search(("second_input_speed",)), "the scene has no second input"),
-        (Search(("backlash", "backlash")), "backlash: given twice"),
         (Search(("backlash",), start={"backlash": 1.0}), "backlash = 1.0: must be a number within"),
-        (Search(("backlash",), start={"lambda_ratio": 1.0}), "lambda_ratio: is not free"),
-        (Search(("backlash",), ()), "no observable: name at least one"),
         (Search(("backlash",), ("noise",)), "observe = noise: must be one of"),
-        (
-            Search(("backlash",), noise={"dte_mean": 1.0}),
-            "noise = dte_mean: must be one of observe",
-        ),
-        (Search(("backlash",), noise={"dte_rms": 0.0}), "must be above 0"),
         (Search(("backlash",), confidence=1.0), "confidence = 1.0: must be between 0 and 1"),
         (Search(("backlash",), ("second_input_speed",)), "was not recorded in this excerpt"),
         (

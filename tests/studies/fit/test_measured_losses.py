@@ -34,7 +34,7 @@ def drag_by_regression():
 
 
 @pytest.mark.exhaustive
-def test_friction_alone_reaches_the_end_of_its_range_and_the_missing_drag_is_named(rig):
+def test_friction_at_the_end_of_its_range_names_missing_drag(rig):
     found = identify(rig, Search((FRICTION,), ("power_loss",)), begin=0.0, end=FITTED)
     assert found.estimate.at_bound == (True,) and found.estimate.unbounded[0] > 1.0
     assert found.missing_loss.field == DRAG
@@ -46,7 +46,7 @@ def test_friction_alone_reaches_the_end_of_its_range_and_the_missing_drag_is_nam
 
 
 @pytest.mark.release
-def test_with_a_load_independent_drag_friction_stays_within_its_range(rig):
+def test_with_a_drag_friction_stays_within_its_range(rig):
     found = identify(rig, Search((FRICTION, DRAG), ("power_loss",)), begin=0.0, end=FITTED)
     assert found.estimate.at_bound == (False, False)
     low, high, _ = found.estimate.intervals[1]

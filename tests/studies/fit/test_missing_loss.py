@@ -10,10 +10,7 @@ from planetary_twin_py.studies.fit.parameter import Parameter
 
 PAPER = pt.load_scene("paper")
 SPEED, TORQUE = (a.ravel() for a in np.meshgrid([1.0, 2.0, 3.0], [1.0, 5.0, 9.0]))
-EFFECT = {
-    "losses.sun_drag.coulomb": np.ones(9),
-    "losses.sun_drag.viscous": SPEED,
-}
+EFFECT = {"losses.sun_drag.coulomb": np.ones(9), "losses.sun_drag.viscous": SPEED}
 FRICTION = Parameter("friction", "", 0.0, 0.5, 0.1)
 
 

@@ -43,10 +43,3 @@ def test_predictions_hold_the_points_that_are_held_out(rig):
     assert one.rms < 0.02
     # the intervals are those of a mean of five readings, and somewhat wider at the highest torque
     assert 2.0 * NOISE / np.sqrt(ROWS) < one.reach.min() < one.reach.max() < 6.0 * NOISE
-
-
-@pytest.mark.exhaustive  # for what the rig takes
-def test_a_part_that_overlaps_the_fitted_one_is_refused(rig):
-    search = Search((FRICTION, DRAG), ("output_torque",))
-    with pytest.raises(ValueError, match=r"overlaps the fitted part, 0 to 2\.5 s"):
-        identify(rig, search, begin=0.0, end=2.5, hold_out=(2.0, 5.0))

@@ -6,7 +6,7 @@ import pytest
 from planetary_twin_py.studies.fit.residual_runs import count_runs
 
 
-def test_random_orders_have_the_expected_runs_and_are_rarely_refused():
+def test_random_orders_have_expected_runs_and_are_rarely_refused():
     chance = np.random.default_rng(1)
     found = [count_runs(chance.standard_normal(54)) for _ in range(2000)]
     assert np.mean([one.runs for one in found]) == pytest.approx(found[0].expected, rel=0.01)
