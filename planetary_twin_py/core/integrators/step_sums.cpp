@@ -18,7 +18,10 @@ namespace {
 
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
 constexpr std::int64_t CLOSER = 3;             // intervals for each one where peaks are sought
+constexpr double VERTEX_ERROR = 0.5;           // of a vertex between nodes, of its rise above them
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
+// Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
+constexpr double EARLIEST = 0.02, LATER = 1.41;
 
 // Films at two nodes of a step without friction, where nothing else depends on them.
 template <int L>
@@ -78,6 +81,22 @@ void fill_at_even_times(const Model& model, Integrator& integrator, double begin
     }
 }
 
+// The same at times that approach `begin` by equal ratios, from `end` to `earliest` [s] after it.
+template <int L>
+void fill_at_early_times(const Model& model, Integrator& integrator, double begin, double end,
+                         double earliest) {
+    Series& series = integrator.sums.series;
+    Node& node = integrator.run.shown[0];
+    const double octaves = std::log((end - begin) / earliest) / std::log(LATER);
+    series.count = std::min(static_cast<std::int64_t>(octaves) + 2, MOST_EVEN_TIMES);
+    double after = end - begin;
+    for (std::int64_t k = series.count - 1; k >= 0; --k, after /= LATER) {
+        show_meshes<L>(model, integrator, begin + after, node);
+        copy<MESH_LANES<L>>(node.d, series.d[k]);
+        copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
+    }
+}
+
 // Fill `sums.rates` with contacts and friction of an evaluation.
 void put_rates(const Model& model, const StepConstants& constants, const double* v,
                Evaluation& work, StepSums& sums) {
@@ -132,6 +151,9 @@ struct AtNodes {
     const Propagation& run;
 
     std::int64_t count() const { return run.nodes.count + 1; }
+    double time(std::int64_t n) const {
+        return n == 0 ? 0.0 : run.nodes.abscissa[n - 1] * run.motion.step;
+    }
     const Node& at(std::int64_t n) const { return n == 0 ? run.start : run.node[n - 1]; }
     double weight(std::int64_t n) const { return n == 0 ? 0.0 : run.weight[n - 1]; }
     const double* d(std::int64_t n) const { return at(n).d; }
@@ -144,6 +166,7 @@ struct AtEvenTimes {
     const Series& series;
 
     std::int64_t count() const { return series.count; }
+    double time(std::int64_t n) const { return series.at[n]; }
     double weight(std::int64_t n) const { return series.weight[n]; }
     const double* d(std::int64_t n) const { return series.d[n]; }
     const double* normal_force(std::int64_t n) const { return series.normal_force[n]; }
@@ -176,39 +199,59 @@ struct Peaks {
         value = larger(value, next);
         vertex = larger(vertex, next);
     }
-    // Whether the motion may exceed both values and `yet` between them by more than the share
-    // `allowed`: a vertex errs by less than its rise above them.
-    ALWAYS_INLINE bool may_exceed(const double* yet, double allowed) const {
-        const Row<L> rise = vertex - value;
-        return !none((rise > allowed * vertex) & (vertex + rise > Row<L>(yet)));
+    // Where the vertex may err by more than the share `allowed`.
+    ALWAYS_INLINE Mask<L> doubtful(double allowed) const {
+        return VERTEX_ERROR * (vertex - value) > allowed * vertex;
+    }
+    // Whether the motion near one of these vertices, `top`, may exceed both it and `yet`.
+    ALWAYS_INLINE bool may_exceed(const Row<L>& top, const double* yet, double allowed) const {
+        const Row<L> most = top + VERTEX_ERROR * (vertex - value);
+        return !none(doubtful(allowed) & (most > Row<L>(yet)));
     }
 };
 
 template <int L>
 struct MeshPeaks {
     Peaks<L> dte, force;
+
+    ALWAYS_INLINE bool may_exceed(const Row<L>& top_d, const Row<L>& top_force, const MeshSums& yet,
+                                  double allowed) const {
+        return dte.may_exceed(top_d, yet.dte_peak, allowed) ||
+               force.may_exceed(top_force, yet.force_peak, allowed);
+    }
 };
+
+// Vertices of the parabolas through the values at n and its neighbours.
+template <int L, class Values>
+ALWAYS_INLINE RowPair<L> vertices(const Values& values, std::int64_t n) {
+    using V = Row<L>;
+    const Neighbours& around = values.around(n);
+    const V d = vertex(around, V(values.d(n - 1)), V(values.d(n)), V(values.d(n + 1)));
+    return {absolute(d), vertex(around, V(values.normal_force(n - 1)), V(values.normal_force(n)),
+                                V(values.normal_force(n + 1)))};
+}
 
 template <int L, class Values>
 ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values) {
     using V = Row<L>;
-    V d(values.d(0)), force(values.normal_force(0));
-    const V first_d = absolute(d), first_force = larger(V(0.0), force);
-    MeshPeaks<L> peaks{{first_d, first_d}, {first_force, first_force}};
+    const V d = absolute(V(values.d(0))), force = larger(V(0.0), V(values.normal_force(0)));
+    MeshPeaks<L> peaks{{d, d}, {force, force}};
     for (std::int64_t n = 1; n < values.count(); ++n) {
-        V next_d(values.d(n)), next_force(values.normal_force(n));
-        peaks.dte.add(absolute(next_d));
-        peaks.force.add(next_force);
+        peaks.dte.add(absolute(V(values.d(n))));
+        peaks.force.add(V(values.normal_force(n)));
         if (n == values.count() - 1) break;
-        const Neighbours& around = values.around(n);
-        const V top_d = vertex(around, d, next_d, V(values.d(n + 1)));
-        const V top_force = vertex(around, force, next_force, V(values.normal_force(n + 1)));
-        peaks.dte.vertex = larger(peaks.dte.vertex, absolute(top_d));
+        const auto [top_d, top_force] = vertices<L>(values, n);
+        peaks.dte.vertex = larger(peaks.dte.vertex, top_d);
         peaks.force.vertex = larger(peaks.force.vertex, top_force);
-        d = next_d;
-        force = next_force;
     }
     return peaks;
+}
+
+// Raise the peaks of a step to these vertices.
+template <int L>
+ALWAYS_INLINE void raise(const MeshPeaks<L>& peaks, MeshSums& step) {
+    larger(Row<L>(step.dte_peak), peaks.dte.vertex).store(step.dte_peak);
+    larger(Row<L>(step.force_peak), peaks.force.vertex).store(step.force_peak);
 }
 
 template <int L>
@@ -217,15 +260,75 @@ ALWAYS_INLINE void put_vertices(const MeshPeaks<L>& peaks, MeshSums& step) {
     peaks.force.vertex.store(step.force_peak);
 }
 
-// Integrals of a part of a collocation step from `begin` to `end` [s], and its peaks.
+// Evaluate the motion at closer times around the vertices that may be the largest ones yet.
+template <int L, class Values>
+NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, const Values& values,
+                                   const MeshPeaks<MESH_LANES<L>>& peaks, const MeshSums& yet,
+                                   MeshSums& step) {
+    constexpr int M = MESH_LANES<L>;
+    const std::int64_t last = values.count() - 1;
+    const double length = values.time(last) - values.time(0);
+    double begin = values.time(last), end = begin;
+    for (std::int64_t n = 1; n < last; ++n) {
+        const auto [top_d, top_force] = vertices<M>(values, n);
+        if (!peaks.may_exceed(top_d, top_force, yet, integrator.control.tolerance)) continue;
+        begin = std::min(begin, values.time(n - 1));
+        end = values.time(n + 1);
+    }
+    const double closer = static_cast<double>(CLOSER * std::max(last, FEWEST));
+    const auto intervals = static_cast<std::int64_t>(std::ceil(closer * (end - begin) / length));
+    fill_at_even_times<L>(model, integrator, begin, end, std::min(intervals, MOST_EVEN_TIMES - 1));
+    const double allowed = integrator.control.tolerance;
+    for (const auto& [of, peak] :
+         {std::pair{&peaks.dte, step.dte_peak}, {&peaks.force, step.force_peak}})
+        select(of->doubtful(allowed), of->value, of->vertex).store(peak);
+    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}), step);
+}
+
+// Evaluate the motion close to `begin` [s] if waves that decay before `end` may make the forces
+// exceed `yet` between these times; `force`: the larger one at these. The edge of a stiffness
+// excites them where damping is strong.
 //
-// Nodes are too far apart for the vertices of parabolas. Where these may be the largest ones yet,
-// the motion is evaluated at closer times.
+// An overdamped wave q decays as q(0) exp(-slow t), and q'(0) + slow q(0) adds less than this over
+// `fast` to it. Force is stiffness times the sum of the transmission error and tau times its rate.
+template <int L>
+void seek_brief_peaks(const Model& model, Integrator& integrator, double begin, double end,
+                      const Row<MESH_LANES<L>>& force, const MeshSums& yet, MeshSums& step) {
+    using V = Row<L>;
+    using OfMeshes = Row<MESH_LANES<L>>;
+    const ModalMotion& motion = integrator.run.motion;
+    const double width = end - begin;
+    const V slow(motion.slow), fast(motion.fast);
+    const Mask<L> brief = fast * width > 1.0;
+    if (none(brief)) return;
+    const ContactState& contacts = contacts_of(integrator.run);
+    const double tau = std::max(contacts.tau[0], contacts.tau[1]);
+    const auto [cosine, sine] = waves_at<L>(motion, begin);
+    const V u(motion.free[0]), w(motion.free[1]);
+    const V q = fused(cosine, u, sine * w);
+    const V p = (cosine - V(motion.damping) * sine) * w - V(motion.square) * sine * u;
+    const V lasting = select(slow * width > 1.0, absolute(q) * (1.0 + tau * slow), 0.0);
+    const V fading = absolute(p + slow * q) * (1.0 / larger(fast, V(SMALLEST)) + tau);
+    const V amplitude = select(brief, lasting + fading, 0.0);
+    const OfMeshes rise = OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
+                          sum_rows<MESH_LANES<L>>(contacts.matrices.motion_magnitude(), amplitude);
+    const OfMeshes bound = force + rise;
+    if (none((rise > integrator.control.tolerance * bound) & (bound > OfMeshes(yet.force_peak))))
+        return;
+    fill_at_early_times<L>(model, integrator, begin, end, EARLIEST / largest(fast));
+    raise(find_peaks<MESH_LANES<L>>(AtEvenTimes{integrator.sums.series}), step);
+}
+
+// Integrals of a part of a collocation step, and its peaks.
+//
+// Nodes are too far apart for the vertices of parabolas that may be the largest ones yet, and for
+// waves that decay before the first of them.
 template <int L, class Values>
 void add_collocated_values(const Model& model, Integrator& integrator, const Values& values,
-                           double begin, double end, MeshSums& step) {
+                           MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
-    StepSums& sums = integrator.sums;
+    using V = Row<M>;
+    const StepSums& sums = integrator.sums;
     add_integrals<M>(integrator.constants, values, step);
     const MeshPeaks<M> peaks = find_peaks<M>(values);
     put_vertices(peaks, step);
@@ -233,13 +336,11 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     static constexpr MeshSums NOTHING{};
     const bool first = integrator.periodic.recording || sums.total.time == 0.0;
     const MeshSums& yet = first ? NOTHING : sums.total;
-    const double allowed = integrator.control.tolerance;
-    if (!peaks.dte.may_exceed(yet.dte_peak, allowed) &&
-        !peaks.force.may_exceed(yet.force_peak, allowed))
-        return;
-    const std::int64_t closer = CLOSER * std::max(values.count() - 1, FEWEST);
-    fill_at_even_times<L>(model, integrator, begin, end, std::min(closer, MOST_EVEN_TIMES - 1));
-    put_vertices(find_peaks<M>(AtEvenTimes{sums.series}), step);
+    const double begin = values.time(0), end = values.time(1);
+    const V force = larger(V(values.normal_force(0)), V(values.normal_force(1)));
+    if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, integrator.control.tolerance))
+        seek_around_vertices<L>(model, integrator, values, peaks, yet, step);
+    seek_brief_peaks<L>(model, integrator, begin, end, force, yet, step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
@@ -268,7 +369,7 @@ void add_collocated(const Model& model, Integrator& integrator) {
     add_contacts_of_nodes<L>(model, integrator, cut);
     std::int64_t intervals = even_intervals(integrator, model.train, h);
     if (intervals == 0 && !cut)
-        return add_collocated_values<L>(model, integrator, AtNodes{run}, 0.0, h, sums.step);
+        return add_collocated_values<L>(model, integrator, AtNodes{run}, sums.step);
     fill_at_even_times<L>(model, integrator, 0.0, h, std::max(intervals, FEWEST));
     add_series(model, integrator, sums.step);
 }
@@ -323,11 +424,10 @@ void set_even_times(Series& series, double begin, double end, std::int64_t inter
 
 void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
     const Series& series = integrator.sums.series;
-    const double begin = series.at[0], end = series.at[series.count - 1];
     with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         const AtEvenTimes values{series};
         if (integrator.control.collocated)
-            return add_collocated_values<L>(model, integrator, values, begin, end, step);
+            return add_collocated_values<L>(model, integrator, values, step);
         add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
         put_vertices(find_peaks<MESH_LANES<L>>(values), step);
     });
