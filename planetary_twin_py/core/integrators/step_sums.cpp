@@ -81,15 +81,15 @@ void fill_at_even_times(const Model& model, Integrator& integrator, double begin
     }
 }
 
-// The same at times that approach `begin` by equal ratios, from `end` to `earliest` [s] after it.
+// The same at times that approach `begin` by equal ratios, so that all decays are resolved.
 template <int L>
-void fill_at_early_times(const Model& model, Integrator& integrator, double begin, double end,
-                         double earliest) {
+void fill_at_early_times(const Model& model, Integrator& integrator, double begin, double end) {
     Series& series = integrator.sums.series;
     Node& node = integrator.run.shown[0];
-    const double octaves = std::log((end - begin) / earliest) / std::log(LATER);
-    series.count = std::min(static_cast<std::int64_t>(octaves) + 2, MOST_EVEN_TIMES);
     double after = end - begin;
+    const double decays = after * largest(Row<L>(integrator.run.motion.fast));
+    const double ratios = std::log(decays / EARLIEST) / std::log(LATER);
+    series.count = std::min(static_cast<std::int64_t>(ratios) + 2, MOST_EVEN_TIMES);
     for (std::int64_t k = series.count - 1; k >= 0; --k, after /= LATER) {
         show_meshes<L>(model, integrator, begin + after, node);
         copy<MESH_LANES<L>>(node.d, series.d[k]);
@@ -285,38 +285,37 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
     raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}), step);
 }
 
-// Evaluate the motion close to `begin` [s] if waves that decay before `end` may make the forces
-// exceed `yet` between these times; `force`: the larger one at these. The edge of a stiffness
-// excites them where damping is strong.
+// Whether waves that decay between the first two values may make a force exceed both and `yet`. The
+// edge of a stiffness excites them where damping is strong.
 //
-// An overdamped wave q decays as q(0) exp(-slow t), and q'(0) + slow q(0) adds less than this over
-// `fast` to it. Force is stiffness times the sum of the transmission error and tau times its rate.
-template <int L>
-void seek_brief_peaks(const Model& model, Integrator& integrator, double begin, double end,
-                      const Row<MESH_LANES<L>>& force, const MeshSums& yet, MeshSums& step) {
+// Force is stiffness times the sum of the transmission error and tau times its rate. An overdamped
+// wave q decays as q(0) exp(-slow t), to which q'(0) + slow q(0) adds less than this over `fast`:
+// something that rises, and then decays. Of all that decays, what has one sign exceeds what has the
+// other by the difference of the forces; they rise by at most the smaller of both.
+template <int L, class Values>
+bool has_brief_peaks(const Model& model, const Integrator& integrator, const Values& values,
+                     const MeshSums& yet) {
     using V = Row<L>;
     using OfMeshes = Row<MESH_LANES<L>>;
     const ModalMotion& motion = integrator.run.motion;
-    const double width = end - begin;
+    const double width = values.time(1) - values.time(0);
     const V slow(motion.slow), fast(motion.fast);
     const Mask<L> brief = fast * width > 1.0;
-    if (none(brief)) return;
+    if (none(brief)) return false;
     const ContactState& contacts = contacts_of(integrator.run);
     const double tau = std::max(contacts.tau[0], contacts.tau[1]);
-    const auto [cosine, sine] = waves_at<L>(motion, begin);
-    const V u(motion.free[0]), w(motion.free[1]);
-    const V q = fused(cosine, u, sine * w);
-    const V p = (cosine - V(motion.damping) * sine) * w - V(motion.square) * sine * u;
+    const V q(motion.free[0]), p(motion.free[1]);
     const V lasting = select(slow * width > 1.0, absolute(q) * (1.0 + tau * slow), 0.0);
-    const V fading = absolute(p + slow * q) * (1.0 / larger(fast, V(SMALLEST)) + tau);
-    const V amplitude = select(brief, lasting + fading, 0.0);
-    const OfMeshes rise = OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
-                          sum_rows<MESH_LANES<L>>(contacts.matrices.motion_magnitude(), amplitude);
-    const OfMeshes bound = force + rise;
-    if (none((rise > integrator.control.tolerance * bound) & (bound > OfMeshes(yet.force_peak))))
-        return;
-    fill_at_early_times<L>(model, integrator, begin, end, EARLIEST / largest(fast));
-    raise(find_peaks<MESH_LANES<L>>(AtEvenTimes{integrator.sums.series}), step);
+    const V added = absolute(p + slow * q) * (1.0 / larger(fast, V(SMALLEST)) + tau);
+    const V amplitude = select(brief, lasting + 2.0 * added, 0.0);
+    const OfMeshes decaying =
+        OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
+        sum_rows<MESH_LANES<L>>(contacts.matrices.motion_magnitude(), amplitude);
+    const OfMeshes first(values.normal_force(0)), second(values.normal_force(1));
+    const OfMeshes rise = 0.5 * (decaying - absolute(first - second));
+    const OfMeshes bound = larger(first, second) + rise;
+    const double allowed = integrator.control.tolerance;
+    return !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)));
 }
 
 // Integrals of a part of a collocation step, and its peaks.
@@ -327,7 +326,6 @@ template <int L, class Values>
 void add_collocated_values(const Model& model, Integrator& integrator, const Values& values,
                            MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
-    using V = Row<M>;
     const StepSums& sums = integrator.sums;
     add_integrals<M>(integrator.constants, values, step);
     const MeshPeaks<M> peaks = find_peaks<M>(values);
@@ -336,11 +334,14 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     static constexpr MeshSums NOTHING{};
     const bool first = integrator.periodic.recording || sums.total.time == 0.0;
     const MeshSums& yet = first ? NOTHING : sums.total;
-    const double begin = values.time(0), end = values.time(1);
-    const V force = larger(V(values.normal_force(0)), V(values.normal_force(1)));
-    if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, integrator.control.tolerance))
+    const double allowed = integrator.control.tolerance, begin = values.time(0),
+                 end = values.time(1);
+    const bool brief = has_brief_peaks<L>(model, integrator, values, yet);
+    if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, allowed))
         seek_around_vertices<L>(model, integrator, values, peaks, yet, step);
-    seek_brief_peaks<L>(model, integrator, begin, end, force, yet, step);
+    if (!brief) return;
+    fill_at_early_times<L>(model, integrator, begin, end);
+    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}), step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
