@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+#include <utility>
 
 #include "integrators/contact_sums.hpp"
 #include "integrators/node_forces.hpp"
@@ -21,7 +23,7 @@ constexpr std::int64_t CLOSER = 3;             // intervals for each one where p
 constexpr double VERTEX_ERROR = 0.5;           // of a vertex between nodes, of its rise above them
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 // Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
-constexpr double EARLIEST = 0.02, LATER = 1.41;
+constexpr double EARLIEST = 0.05, LATER = std::numbers::sqrt2;
 
 // Films at two nodes of a step without friction, where nothing else depends on them.
 template <int L>
@@ -61,22 +63,30 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
         add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
 }
 
+// Transmission errors and forces of a collocation step at a time within it, in row k of the series.
+template <int L>
+void fill_row(const Model& model, Integrator& integrator, double delay, const Waves<L>& at,
+              std::int64_t k) {
+    Series& series = integrator.sums.series;
+    Node& node = integrator.run.shown[0];
+    move_bodies<L>(model, integrator, delay, at, node);
+    find_forces_at_node<L>(model, integrator, node, delay);
+    copy<MESH_LANES<L>>(node.d, series.d[k]);
+    copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
+}
+
 // Fill the series at `intervals` + 1 equidistant times from `begin` to `end` [s] after the start of
 // a collocation step.
 template <int L>
 void fill_at_even_times(const Model& model, Integrator& integrator, double begin, double end,
                         std::int64_t intervals) {
     Series& series = integrator.sums.series;
-    Node& node = integrator.run.shown[0];
     set_even_times(series, begin, end, intervals);
     const ModalMotion& motion = integrator.run.motion;
     const Waves<L> gap = waves_at<L>(motion, series.at[1] - begin);
     Waves<L> now = waves_at<L>(motion, begin);
     for (std::int64_t k = 0; k < series.count; ++k) {
-        move_node<L>(model, integrator, series.at[k], now.cosine, now.sine, node);
-        find_forces_at_node<L>(model, integrator, node, series.at[k]);
-        copy<MESH_LANES<L>>(node.d, series.d[k]);
-        copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
+        fill_row<L>(model, integrator, series.at[k], now, k);
         now = waves_after(motion, now, gap);
     }
 }
@@ -85,15 +95,18 @@ void fill_at_even_times(const Model& model, Integrator& integrator, double begin
 template <int L>
 void fill_at_early_times(const Model& model, Integrator& integrator, double begin, double end) {
     Series& series = integrator.sums.series;
-    Node& node = integrator.run.shown[0];
-    double after = end - begin;
-    const double decays = after * largest(Row<L>(integrator.run.motion.fast));
-    const double ratios = std::log(decays / EARLIEST) / std::log(LATER);
-    series.count = std::min(static_cast<std::int64_t>(ratios) + 2, MOST_EVEN_TIMES);
-    for (std::int64_t k = series.count - 1; k >= 0; --k, after /= LATER) {
-        show_meshes<L>(model, integrator, begin + after, node);
-        copy<MESH_LANES<L>>(node.d, series.d[k]);
-        copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
+    const ModalMotion& motion = integrator.run.motion;
+    const double decays = (end - begin) * largest(Row<L>(motion.fast));
+    const auto ratios = static_cast<std::int64_t>(std::log(decays / EARLIEST) / std::log(LATER));
+    series.count = std::min(ratios + 2, MOST_EVEN_TIMES);
+    double after = (end - begin) * std::pow(LATER, static_cast<double>(1 - series.count));
+    const Waves<L> start = waves_at<L>(motion, begin);
+    Waves<L> now = waves_at<L>(motion, after), next = waves_at<L>(motion, LATER * after);
+    for (std::int64_t k = 0; k < series.count; ++k, after *= LATER) {
+        fill_row<L>(model, integrator, begin + after, waves_after(motion, start, now), k);
+        const Waves<L> twice = waves_after(motion, now, now);
+        now = next;
+        next = twice;
     }
 }
 
@@ -334,8 +347,8 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     static constexpr MeshSums NOTHING{};
     const bool first = integrator.periodic.recording || sums.total.time == 0.0;
     const MeshSums& yet = first ? NOTHING : sums.total;
-    const double allowed = integrator.control.tolerance, begin = values.time(0),
-                 end = values.time(1);
+    const double allowed = integrator.control.tolerance;
+    const double begin = values.time(0), end = values.time(1);
     const bool brief = has_brief_peaks<L>(model, integrator, values, yet);
     if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, allowed))
         seek_around_vertices<L>(model, integrator, values, peaks, yet, step);
