@@ -19,7 +19,7 @@ namespace gearbox {
 namespace {
 
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
-constexpr std::int64_t CLOSER = 3;             // intervals for each one where peaks are sought
+constexpr double LEAST_CLOSER = 2.0;           // intervals for each one where peaks are sought
 constexpr double VERTEX_ERROR = 0.5;           // of a vertex between nodes, of its rise above them
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 // Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
@@ -212,7 +212,12 @@ struct Peaks {
         value = larger(value, next);
         vertex = larger(vertex, next);
     }
-    // Where the vertex may err by more than the share `allowed`.
+    // Largest error of a vertex in shares `allowed`.
+    ALWAYS_INLINE double doubt(double allowed) const {
+        return VERTEX_ERROR / allowed *
+               largest((vertex - value) / larger(vertex, Row<L>(SMALLEST)));
+    }
+    // Where the vertex may err by more than this share.
     ALWAYS_INLINE Mask<L> doubtful(double allowed) const {
         return VERTEX_ERROR * (vertex - value) > allowed * vertex;
     }
@@ -231,6 +236,9 @@ struct MeshPeaks {
                                   double allowed) const {
         return dte.may_exceed(top_d, yet.dte_peak, allowed) ||
                force.may_exceed(top_force, yet.force_peak, allowed);
+    }
+    ALWAYS_INLINE double doubt(double allowed) const {
+        return std::max(dte.doubt(allowed), force.doubt(allowed));
     }
 };
 
@@ -279,19 +287,22 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
                                    const MeshPeaks<MESH_LANES<L>>& peaks, const MeshSums& yet,
                                    MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
+    const double allowed = integrator.control.tolerance;
     const std::int64_t last = values.count() - 1;
     const double length = values.time(last) - values.time(0);
     double begin = values.time(last), end = begin;
     for (std::int64_t n = 1; n < last; ++n) {
         const auto [top_d, top_force] = vertices<M>(values, n);
-        if (!peaks.may_exceed(top_d, top_force, yet, integrator.control.tolerance)) continue;
+        if (!peaks.may_exceed(top_d, top_force, yet, allowed)) continue;
         begin = std::min(begin, values.time(n - 1));
         end = values.time(n + 1);
     }
-    const double closer = static_cast<double>(CLOSER * std::max(last, FEWEST));
-    const auto intervals = static_cast<std::int64_t>(std::ceil(closer * (end - begin) / length));
-    fill_at_even_times<L>(model, integrator, begin, end, std::min(intervals, MOST_EVEN_TIMES - 1));
-    const double allowed = integrator.control.tolerance;
+    // The error of a parabola falls with the cube of the distance of its points.
+    const double closer = std::max(LEAST_CLOSER, std::ceil(std::cbrt(peaks.doubt(allowed))));
+    const double share = (end - begin) / length * static_cast<double>(std::max(last, FEWEST));
+    const auto most = static_cast<double>(MOST_EVEN_TIMES - 1);
+    const auto intervals = static_cast<std::int64_t>(std::min(std::ceil(closer * share), most));
+    fill_at_even_times<L>(model, integrator, begin, end, intervals);
     for (const auto& [of, peak] :
          {std::pair{&peaks.dte, step.dte_peak}, {&peaks.force, step.force_peak}})
         select(of->doubtful(allowed), of->value, of->vertex).store(peak);
@@ -304,7 +315,8 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
 // Force is stiffness times the sum of the transmission error and tau times its rate. An overdamped
 // wave q decays as q(0) exp(-slow t), to which q'(0) + slow q(0) adds less than this over `fast`:
 // something that rises, and then decays. Of all that decays, what has one sign exceeds what has the
-// other by the difference of the forces; they rise by at most the smaller of both.
+// other by the difference of the forces; they rise by at most the smaller of both. The second value
+// shows all of what decays in that time, and less the faster it decays.
 template <int L, class Values>
 bool has_brief_peaks(const Model& model, const Integrator& integrator, const Values& values,
                      const MeshSums& yet) {
@@ -313,14 +325,14 @@ bool has_brief_peaks(const Model& model, const Integrator& integrator, const Val
     const ModalMotion& motion = integrator.run.motion;
     const double width = values.time(1) - values.time(0);
     const V slow(motion.slow), fast(motion.fast);
-    const Mask<L> brief = fast * width > 1.0;
-    if (none(brief)) return false;
+    if (none(fast * width > 1.0)) return false;
     const ContactState& contacts = contacts_of(integrator.run);
     const double tau = std::max(contacts.tau[0], contacts.tau[1]);
-    const V q(motion.free[0]), p(motion.free[1]);
-    const V lasting = select(slow * width > 1.0, absolute(q) * (1.0 + tau * slow), 0.0);
-    const V added = absolute(p + slow * q) * (1.0 / larger(fast, V(SMALLEST)) + tau);
-    const V amplitude = select(brief, lasting + 2.0 * added, 0.0);
+    const V q(motion.free[0]), p(motion.free[1]), per_fast = 1.0 / fast;
+    const V lasting = absolute(q) * (1.0 + tau * slow), added = absolute(p + slow * q);
+    const V hidden = larger(V(0.0), 1.0 - 1.0 / (width * slow)) * lasting;
+    const V hidden_added = larger(V(0.0), 1.0 - per_fast / width) * added * (per_fast + tau);
+    const V amplitude = select(fast * width > 1.0, hidden + 2.0 * hidden_added, 0.0);
     const OfMeshes decaying =
         OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
         sum_rows<MESH_LANES<L>>(contacts.matrices.motion_magnitude(), amplitude);
