@@ -229,6 +229,11 @@ struct Peaks {
 };
 
 template <int L>
+ALWAYS_INLINE Mask<L> nowhere() {
+    return first_of_row<L>(0);
+}
+
+template <int L>
 struct MeshPeaks {
     Peaks<L> dte, force;
 
@@ -242,18 +247,21 @@ struct MeshPeaks {
     }
 };
 
-// Vertices of the parabolas through the values at n and its neighbours.
+// Vertices of the parabolas through the values at n and its neighbours; where the force is `steep`
+// between the first two, the value in place of the vertex around them.
 template <int L, class Values>
-ALWAYS_INLINE RowPair<L> vertices(const Values& values, std::int64_t n) {
+ALWAYS_INLINE RowPair<L> vertices(const Values& values, std::int64_t n, const Mask<L>& steep) {
     using V = Row<L>;
     const Neighbours& around = values.around(n);
     const V d = vertex(around, V(values.d(n - 1)), V(values.d(n)), V(values.d(n + 1)));
-    return {absolute(d), vertex(around, V(values.normal_force(n - 1)), V(values.normal_force(n)),
-                                V(values.normal_force(n + 1)))};
+    const V force(values.normal_force(n));
+    const V top =
+        vertex(around, V(values.normal_force(n - 1)), force, V(values.normal_force(n + 1)));
+    return {absolute(d), n == 1 ? select(steep, force, top) : top};
 }
 
 template <int L, class Values>
-ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values) {
+ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values, const Mask<L>& steep) {
     using V = Row<L>;
     const V d = absolute(V(values.d(0))), force = larger(V(0.0), V(values.normal_force(0)));
     MeshPeaks<L> peaks{{d, d}, {force, force}};
@@ -261,7 +269,7 @@ ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values) {
         peaks.dte.add(absolute(V(values.d(n))));
         peaks.force.add(V(values.normal_force(n)));
         if (n == values.count() - 1) break;
-        const auto [top_d, top_force] = vertices<L>(values, n);
+        const auto [top_d, top_force] = vertices<L>(values, n, steep);
         peaks.dte.vertex = larger(peaks.dte.vertex, top_d);
         peaks.force.vertex = larger(peaks.force.vertex, top_force);
     }
@@ -284,6 +292,7 @@ ALWAYS_INLINE void put_vertices(const MeshPeaks<L>& peaks, MeshSums& step) {
 // Evaluate the motion at closer times around the vertices that may be the largest ones yet.
 template <int L, class Values>
 NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, const Values& values,
+                                   const Mask<MESH_LANES<L>>& steep,
                                    const MeshPeaks<MESH_LANES<L>>& peaks, const MeshSums& yet,
                                    MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
@@ -292,11 +301,12 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
     const double length = values.time(last) - values.time(0);
     double begin = values.time(last), end = begin;
     for (std::int64_t n = 1; n < last; ++n) {
-        const auto [top_d, top_force] = vertices<M>(values, n);
+        const auto [top_d, top_force] = vertices<M>(values, n, steep);
         if (!peaks.may_exceed(top_d, top_force, yet, allowed)) continue;
         begin = std::min(begin, values.time(n - 1));
         end = values.time(n + 1);
     }
+    const Mask<M> steep_there = begin > values.time(0) ? nowhere<M>() : steep;
     // The error of a parabola falls with the cube of the distance of its points.
     const double closer = std::max(LEAST_CLOSER, std::ceil(std::cbrt(peaks.doubt(allowed))));
     const double share = (end - begin) / length * static_cast<double>(std::max(last, FEWEST));
@@ -306,26 +316,33 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
     for (const auto& [of, peak] :
          {std::pair{&peaks.dte, step.dte_peak}, {&peaks.force, step.force_peak}})
         select(of->doubtful(allowed), of->value, of->vertex).store(peak);
-    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}), step);
+    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, steep_there), step);
 }
 
-// Whether waves that decay between the first two values may make a force exceed both and `yet`. The
-// edge of a stiffness excites them where damping is strong.
-//
+// Motion that decays between the first two values. The edge of a stiffness excites it where damping
+// is strong.
+template <int L>
+struct Brief {
+    Mask<L> steep;    // whether it changes the force of a mesh by more than the tolerance
+    bool may_exceed;  // whether a force may exceed both values and the largest one yet
+};
+
 // Force is stiffness times the sum of the transmission error and tau times its rate. An overdamped
 // wave q decays as q(0) exp(-slow t), to which q'(0) + slow q(0) adds less than this over `fast`:
 // something that rises, and then decays. Of all that decays, what has one sign exceeds what has the
 // other by the difference of the forces; they rise by at most the smaller of both. The second value
-// shows all of what decays in that time, and less the faster it decays.
+// shows all of what decays in that time, and less the faster it decays. Where the force is steep,
+// the vertex around the second value is none of the peaks, but shows that there may be one.
 template <int L, class Values>
-bool has_brief_peaks(const Model& model, const Integrator& integrator, const Values& values,
-                     const MeshSums& yet) {
+Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrator,
+                                  const Values& values, const MeshSums& yet) {
+    constexpr int M = MESH_LANES<L>;
     using V = Row<L>;
-    using OfMeshes = Row<MESH_LANES<L>>;
+    using OfMeshes = Row<M>;
     const ModalMotion& motion = integrator.run.motion;
     const double width = values.time(1) - values.time(0);
     const V slow(motion.slow), fast(motion.fast);
-    if (none(fast * width > 1.0)) return false;
+    if (none(fast * width > 1.0)) return {nowhere<M>(), false};
     const ContactState& contacts = contacts_of(integrator.run);
     const double tau = std::max(contacts.tau[0], contacts.tau[1]);
     const V q(motion.free[0]), p(motion.free[1]), per_fast = 1.0 / fast;
@@ -333,14 +350,19 @@ bool has_brief_peaks(const Model& model, const Integrator& integrator, const Val
     const V hidden = larger(V(0.0), 1.0 - 1.0 / (width * slow)) * lasting;
     const V hidden_added = larger(V(0.0), 1.0 - per_fast / width) * added * (per_fast + tau);
     const V amplitude = select(fast * width > 1.0, hidden + 2.0 * hidden_added, 0.0);
-    const OfMeshes decaying =
-        OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
-        sum_rows<MESH_LANES<L>>(contacts.matrices.motion_magnitude(), amplitude);
+    const OfMeshes decaying = OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
+                              sum_rows<M>(contacts.matrices.motion_magnitude(), amplitude);
     const OfMeshes first(values.normal_force(0)), second(values.normal_force(1));
-    const OfMeshes rise = 0.5 * (decaying - absolute(first - second));
-    const OfMeshes bound = larger(first, second) + rise;
+    const OfMeshes value = larger(first, second);
     const double allowed = integrator.control.tolerance;
-    return !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)));
+    const Mask<M> steep = decaying > allowed * value;
+    OfMeshes rise = 0.5 * (decaying - absolute(first - second));
+    if (values.count() > 2) {
+        const OfMeshes top = vertices<M>(values, 1, nowhere<M>()).second;
+        rise = larger(rise, select(steep, (1.0 + VERTEX_ERROR) * (top - value), 0.0));
+    }
+    const OfMeshes bound = value + rise;
+    return {steep, !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)))};
 }
 
 // Integrals of a part of a collocation step, and its peaks.
@@ -353,20 +375,19 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     constexpr int M = MESH_LANES<L>;
     const StepSums& sums = integrator.sums;
     add_integrals<M>(integrator.constants, values, step);
-    const MeshPeaks<M> peaks = find_peaks<M>(values);
-    put_vertices(peaks, step);
     // A recorded step is repeated in later windows.
     static constexpr MeshSums NOTHING{};
     const bool first = integrator.periodic.recording || sums.total.time == 0.0;
     const MeshSums& yet = first ? NOTHING : sums.total;
-    const double allowed = integrator.control.tolerance;
     const double begin = values.time(0), end = values.time(1);
-    const bool brief = has_brief_peaks<L>(model, integrator, values, yet);
-    if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, allowed))
-        seek_around_vertices<L>(model, integrator, values, peaks, yet, step);
+    const auto [steep, brief] = brief_motion<L>(model, integrator, values, yet);
+    const MeshPeaks<M> peaks = find_peaks<M>(values, steep);
+    put_vertices(peaks, step);
+    if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, integrator.control.tolerance))
+        seek_around_vertices<L>(model, integrator, values, steep, peaks, yet, step);
     if (!brief) return;
     fill_at_early_times<L>(model, integrator, begin, end);
-    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}), step);
+    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, nowhere<M>()), step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
@@ -455,7 +476,7 @@ void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
         if (integrator.control.collocated)
             return add_collocated_values<L>(model, integrator, values, step);
         add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
-        put_vertices(find_peaks<MESH_LANES<L>>(values), step);
+        put_vertices(find_peaks<MESH_LANES<L>>(values, nowhere<MESH_LANES<L>>()), step);
     });
 }
 
