@@ -15,6 +15,29 @@ def scene_at(speed, ramp):
     return PAPER.replace(**{"input_speed": pt.rpm(speed), "mesh.ramp": ramp})
 
 
+# Overdamped: what the edge of a stiffness excites decays within a fraction of the step after it.
+OVERDAMPED = PAPER.replace(
+    **{
+        "gearset.teeth": {"sun": 40, "planet": 30, "ring": 100},
+        "gearset.planet_angles": (0.0, np.pi),
+        "gearset.held": "ring",
+        "drive.input.member": "carrier",
+        "drive.output.member": "sun",
+        "drive.output.port": "torque",
+        "mesh.sun_planet_stiffness": 1.3885e8,
+        "mesh.planet_ring_stiffness": 8.491e7,
+        "mesh.double_pair_ratio": 1.0631,
+        "mesh.ramp": 0.0,
+        "mesh.runout": {"sun": "2 um"},
+        "lubrication.lambda_ratio": "computed",
+        "oil_temperature": 286.85,
+        "backlash": 2.2e-6,
+        "input_speed": 0.48565,
+        "input_torque": -10.608,
+    }
+)
+
+
 def assert_equals_samples(statistics, dte, force):
     """Peaks of every mesh differ by less than the tolerance of the largest one."""
     for name, samples in zip(PEAKS, (dte, force), strict=True):
@@ -26,6 +49,17 @@ def assert_equals_samples(statistics, dte, force):
 def test_peaks_are_those_of_dense_samples_within_the_tolerance(speed, ramp):
     run = pt.simulate(scene_at(speed, ramp), 0.004, RATE, "march", TOLERANCE)
     assert_equals_samples(run.mesh, run.dte, run.mesh_force)
+
+
+# Meshes whose force does not jump to its peak, which samples would miss.
+@pytest.mark.parametrize(
+    ("scene", "meshes"), [(OVERDAMPED, [0, 1, 2]), (scene_at(60.0, 0.0), [1, 2, 5])]
+)
+def test_peaks_soon_after_an_edge_are_those_of_dense_samples(scene, meshes):
+    run = pt.simulate(scene, 0.02, RATE, "march", TOLERANCE)
+    dense = np.abs(run.mesh_force).max(axis=0)[meshes]
+    peaks = run.mesh["mesh_force_peak"][meshes]
+    assert peaks == pytest.approx(dense, abs=TOLERANCE * dense.max())
 
 
 def test_peaks_of_short_windows_are_those_of_dense_samples():

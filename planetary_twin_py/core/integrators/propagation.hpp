@@ -349,15 +349,14 @@ inline void turn_gears(const Train& train, const StepConstants& constants, Node&
     }
 }
 
-// Motion of bodies, meshes and gears at a node from that of the modes, and the trim of the speed
-// loops.
+// Motion of bodies and meshes at a node from that of the modes.
 template <int L>
-NOINLINE void move_node(const Model& model, const Integrator& integrator, double delay,
-                        const Row<L>& cosine, const Row<L>& sine, Node& node) {
+ALWAYS_INLINE RowPair<L> move_bodies(const Model& model, const Integrator& integrator, double delay,
+                                     const Waves<L>& at, Node& node) {
     constexpr int M = MESH_LANES<L>;
     const ModalMotion& motion = integrator.run.motion;
     const ModeMatrices& matrices = contacts_of(integrator.run).matrices;
-    RowPair<L> modes = modal_states<L>(motion, delay * motion.per_step, cosine, sine);
+    RowPair<L> modes = modal_states<L>(motion, delay * motion.per_step, at.cosine, at.sine);
     RowPair<M> meshes = sum_rows<M>(matrices.motion(), modes);
     RowPair<L> bodies = sum_rows<L>(matrices.shapes(), modes);
     modes.first.store(node.q);
@@ -367,9 +366,19 @@ NOINLINE void move_node(const Model& model, const Integrator& integrator, double
     bodies.first.store(node.x);
     bodies.second.store(node.v);
     move_given(model, integrator.begin, delay, node.x, node.v);
+    return modes;
+}
+
+// The same with the spin of the gears and the trim of the speed loops.
+template <int L>
+NOINLINE void move_node(const Model& model, const Integrator& integrator, double delay,
+                        const Row<L>& cosine, const Row<L>& sine, Node& node) {
+    const RowPair<L> modes = move_bodies<L>(model, integrator, delay, {cosine, sine}, node);
     if constexpr (MOVING) {
         turn_gears(model.train, integrator.constants, node);
     } else {
+        constexpr int M = MESH_LANES<L>;
+        const ModeMatrices& matrices = contacts_of(integrator.run).matrices;
         for (int g = 0; g < GEARS - 1; ++g)
             (Row<M>(integrator.constants.spin[g]) + sum_rows<M>(matrices.spin(g), modes.second))
                 .store(node.spin[g]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+#include <utility>
 
 #include "integrators/contact_sums.hpp"
 #include "integrators/node_forces.hpp"
@@ -17,8 +19,11 @@ namespace gearbox {
 namespace {
 
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
-constexpr std::int64_t CLOSER = 3;             // intervals for each one where peaks are sought
+constexpr double LEAST_CLOSER = 2.0;           // intervals for each one where peaks are sought
+constexpr double VERTEX_ERROR = 0.5;           // of a vertex between nodes, of its rise above them
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
+// Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
+constexpr double EARLIEST = 0.05, LATER = std::numbers::sqrt2;
 
 // Films at two nodes of a step without friction, where nothing else depends on them.
 template <int L>
@@ -58,23 +63,50 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
         add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
 }
 
+// Transmission errors and forces of a collocation step at a time within it, in row k of the series.
+template <int L>
+void fill_row(const Model& model, Integrator& integrator, double delay, const Waves<L>& at,
+              std::int64_t k) {
+    Series& series = integrator.sums.series;
+    Node& node = integrator.run.shown[0];
+    move_bodies<L>(model, integrator, delay, at, node);
+    find_forces_at_node<L>(model, integrator, node, delay);
+    copy<MESH_LANES<L>>(node.d, series.d[k]);
+    copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
+}
+
 // Fill the series at `intervals` + 1 equidistant times from `begin` to `end` [s] after the start of
 // a collocation step.
 template <int L>
 void fill_at_even_times(const Model& model, Integrator& integrator, double begin, double end,
                         std::int64_t intervals) {
     Series& series = integrator.sums.series;
-    Node& node = integrator.run.shown[0];
     set_even_times(series, begin, end, intervals);
     const ModalMotion& motion = integrator.run.motion;
     const Waves<L> gap = waves_at<L>(motion, series.at[1] - begin);
     Waves<L> now = waves_at<L>(motion, begin);
     for (std::int64_t k = 0; k < series.count; ++k) {
-        move_node<L>(model, integrator, series.at[k], now.cosine, now.sine, node);
-        find_forces_at_node<L>(model, integrator, node, series.at[k]);
-        copy<MESH_LANES<L>>(node.d, series.d[k]);
-        copy<MESH_LANES<L>>(node.meshes.normal_force, series.normal_force[k]);
+        fill_row<L>(model, integrator, series.at[k], now, k);
         now = waves_after(motion, now, gap);
+    }
+}
+
+// The same at times that approach `begin` by equal ratios, so that all decays are resolved.
+template <int L>
+void fill_at_early_times(const Model& model, Integrator& integrator, double begin, double end) {
+    Series& series = integrator.sums.series;
+    const ModalMotion& motion = integrator.run.motion;
+    const double decays = (end - begin) * largest(Row<L>(motion.fast));
+    const auto ratios = static_cast<std::int64_t>(std::log(decays / EARLIEST) / std::log(LATER));
+    series.count = std::min(ratios + 2, MOST_EVEN_TIMES);
+    double after = (end - begin) * std::pow(LATER, static_cast<double>(1 - series.count));
+    const Waves<L> start = waves_at<L>(motion, begin);
+    Waves<L> now = waves_at<L>(motion, after), next = waves_at<L>(motion, LATER * after);
+    for (std::int64_t k = 0; k < series.count; ++k, after *= LATER) {
+        fill_row<L>(model, integrator, begin + after, waves_after(motion, start, now), k);
+        const Waves<L> twice = waves_after(motion, now, now);
+        now = next;
+        next = twice;
     }
 }
 
@@ -132,6 +164,9 @@ struct AtNodes {
     const Propagation& run;
 
     std::int64_t count() const { return run.nodes.count + 1; }
+    double time(std::int64_t n) const {
+        return n == 0 ? 0.0 : run.nodes.abscissa[n - 1] * run.motion.step;
+    }
     const Node& at(std::int64_t n) const { return n == 0 ? run.start : run.node[n - 1]; }
     double weight(std::int64_t n) const { return n == 0 ? 0.0 : run.weight[n - 1]; }
     const double* d(std::int64_t n) const { return at(n).d; }
@@ -144,6 +179,7 @@ struct AtEvenTimes {
     const Series& series;
 
     std::int64_t count() const { return series.count; }
+    double time(std::int64_t n) const { return series.at[n]; }
     double weight(std::int64_t n) const { return series.weight[n]; }
     const double* d(std::int64_t n) const { return series.d[n]; }
     const double* normal_force(std::int64_t n) const { return series.normal_force[n]; }
@@ -176,39 +212,75 @@ struct Peaks {
         value = larger(value, next);
         vertex = larger(vertex, next);
     }
-    // Whether the motion may exceed both values and `yet` between them by more than the share
-    // `allowed`: a vertex errs by less than its rise above them.
-    ALWAYS_INLINE bool may_exceed(const double* yet, double allowed) const {
-        const Row<L> rise = vertex - value;
-        return !none((rise > allowed * vertex) & (vertex + rise > Row<L>(yet)));
+    // Largest error of a vertex in shares `allowed`.
+    ALWAYS_INLINE double doubt(double allowed) const {
+        return VERTEX_ERROR / allowed *
+               largest((vertex - value) / larger(vertex, Row<L>(SMALLEST)));
+    }
+    // Where the vertex may err by more than this share.
+    ALWAYS_INLINE Mask<L> doubtful(double allowed) const {
+        return VERTEX_ERROR * (vertex - value) > allowed * vertex;
+    }
+    // Whether the motion near one of these vertices, `top`, may exceed both it and `yet`.
+    ALWAYS_INLINE bool may_exceed(const Row<L>& top, const double* yet, double allowed) const {
+        const Row<L> most = top + VERTEX_ERROR * (vertex - value);
+        return !none(doubtful(allowed) & (most > Row<L>(yet)));
     }
 };
 
 template <int L>
+ALWAYS_INLINE Mask<L> nowhere() {
+    return first_of_row<L>(0);
+}
+
+template <int L>
 struct MeshPeaks {
     Peaks<L> dte, force;
+
+    ALWAYS_INLINE bool may_exceed(const Row<L>& top_d, const Row<L>& top_force, const MeshSums& yet,
+                                  double allowed) const {
+        return dte.may_exceed(top_d, yet.dte_peak, allowed) ||
+               force.may_exceed(top_force, yet.force_peak, allowed);
+    }
+    ALWAYS_INLINE double doubt(double allowed) const {
+        return std::max(dte.doubt(allowed), force.doubt(allowed));
+    }
 };
 
+// Vertices of the parabolas through the values at n and its neighbours; where the force is `steep`
+// between the first two, the value in place of the vertex around them.
 template <int L, class Values>
-ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values) {
+ALWAYS_INLINE RowPair<L> vertices(const Values& values, std::int64_t n, const Mask<L>& steep) {
     using V = Row<L>;
-    V d(values.d(0)), force(values.normal_force(0));
-    const V first_d = absolute(d), first_force = larger(V(0.0), force);
-    MeshPeaks<L> peaks{{first_d, first_d}, {first_force, first_force}};
+    const Neighbours& around = values.around(n);
+    const V d = vertex(around, V(values.d(n - 1)), V(values.d(n)), V(values.d(n + 1)));
+    const V force(values.normal_force(n));
+    const V top =
+        vertex(around, V(values.normal_force(n - 1)), force, V(values.normal_force(n + 1)));
+    return {absolute(d), n == 1 ? select(steep, force, top) : top};
+}
+
+template <int L, class Values>
+ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values, const Mask<L>& steep) {
+    using V = Row<L>;
+    const V d = absolute(V(values.d(0))), force = larger(V(0.0), V(values.normal_force(0)));
+    MeshPeaks<L> peaks{{d, d}, {force, force}};
     for (std::int64_t n = 1; n < values.count(); ++n) {
-        V next_d(values.d(n)), next_force(values.normal_force(n));
-        peaks.dte.add(absolute(next_d));
-        peaks.force.add(next_force);
+        peaks.dte.add(absolute(V(values.d(n))));
+        peaks.force.add(V(values.normal_force(n)));
         if (n == values.count() - 1) break;
-        const Neighbours& around = values.around(n);
-        const V top_d = vertex(around, d, next_d, V(values.d(n + 1)));
-        const V top_force = vertex(around, force, next_force, V(values.normal_force(n + 1)));
-        peaks.dte.vertex = larger(peaks.dte.vertex, absolute(top_d));
+        const auto [top_d, top_force] = vertices<L>(values, n, steep);
+        peaks.dte.vertex = larger(peaks.dte.vertex, top_d);
         peaks.force.vertex = larger(peaks.force.vertex, top_force);
-        d = next_d;
-        force = next_force;
     }
     return peaks;
+}
+
+// Raise the peaks of a step to these vertices.
+template <int L>
+ALWAYS_INLINE void raise(const MeshPeaks<L>& peaks, MeshSums& step) {
+    larger(Row<L>(step.dte_peak), peaks.dte.vertex).store(step.dte_peak);
+    larger(Row<L>(step.force_peak), peaks.force.vertex).store(step.force_peak);
 }
 
 template <int L>
@@ -217,29 +289,105 @@ ALWAYS_INLINE void put_vertices(const MeshPeaks<L>& peaks, MeshSums& step) {
     peaks.force.vertex.store(step.force_peak);
 }
 
-// Integrals of a part of a collocation step from `begin` to `end` [s], and its peaks.
+// Evaluate the motion at closer times around the vertices that may be the largest ones yet.
+template <int L, class Values>
+NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, const Values& values,
+                                   const Mask<MESH_LANES<L>>& steep,
+                                   const MeshPeaks<MESH_LANES<L>>& peaks, const MeshSums& yet,
+                                   MeshSums& step) {
+    constexpr int M = MESH_LANES<L>;
+    const double allowed = integrator.control.tolerance;
+    const std::int64_t last = values.count() - 1;
+    const double length = values.time(last) - values.time(0);
+    double begin = values.time(last), end = begin;
+    for (std::int64_t n = 1; n < last; ++n) {
+        const auto [top_d, top_force] = vertices<M>(values, n, steep);
+        if (!peaks.may_exceed(top_d, top_force, yet, allowed)) continue;
+        begin = std::min(begin, values.time(n - 1));
+        end = values.time(n + 1);
+    }
+    const Mask<M> steep_there = begin > values.time(0) ? nowhere<M>() : steep;
+    // The error of a parabola falls with the cube of the distance of its points.
+    const double closer = std::max(LEAST_CLOSER, std::ceil(std::cbrt(peaks.doubt(allowed))));
+    const double share = (end - begin) / length * static_cast<double>(std::max(last, FEWEST));
+    const auto most = static_cast<double>(MOST_EVEN_TIMES - 1);
+    const auto intervals = static_cast<std::int64_t>(std::min(std::ceil(closer * share), most));
+    fill_at_even_times<L>(model, integrator, begin, end, intervals);
+    for (const auto& [of, peak] :
+         {std::pair{&peaks.dte, step.dte_peak}, {&peaks.force, step.force_peak}})
+        select(of->doubtful(allowed), of->value, of->vertex).store(peak);
+    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, steep_there), step);
+}
+
+// Motion that decays between the first two values. The edge of a stiffness excites it where damping
+// is strong.
+template <int L>
+struct Brief {
+    Mask<L> steep;    // whether it changes the force of a mesh by more than the tolerance
+    bool may_exceed;  // whether a force may exceed both values and the largest one yet
+};
+
+// Force is stiffness times the sum of the transmission error and tau times its rate. An overdamped
+// wave q decays as q(0) exp(-slow t), to which q'(0) + slow q(0) adds less than this over `fast`:
+// something that rises, and then decays. Of all that decays, what has one sign exceeds what has the
+// other by the difference of the forces; they rise by at most the smaller of both. The second value
+// shows all of what decays in that time, and less the faster it decays. Where the force is steep,
+// the vertex around the second value is none of the peaks, but shows that there may be one.
+template <int L, class Values>
+Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrator,
+                                  const Values& values, const MeshSums& yet) {
+    constexpr int M = MESH_LANES<L>;
+    using V = Row<L>;
+    using OfMeshes = Row<M>;
+    const ModalMotion& motion = integrator.run.motion;
+    const double width = values.time(1) - values.time(0);
+    const V slow(motion.slow), fast(motion.fast);
+    if (none(fast * width > 1.0)) return {nowhere<M>(), false};
+    const ContactState& contacts = contacts_of(integrator.run);
+    const double tau = std::max(contacts.tau[0], contacts.tau[1]);
+    const V q(motion.free[0]), p(motion.free[1]), per_fast = 1.0 / fast;
+    const V lasting = absolute(q) * (1.0 + tau * slow), added = absolute(p + slow * q);
+    const V hidden = larger(V(0.0), 1.0 - 1.0 / (width * slow)) * lasting;
+    const V hidden_added = larger(V(0.0), 1.0 - per_fast / width) * added * (per_fast + tau);
+    const V amplitude = select(fast * width > 1.0, hidden + 2.0 * hidden_added, 0.0);
+    const OfMeshes decaying = OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
+                              sum_rows<M>(contacts.matrices.motion_magnitude(), amplitude);
+    const OfMeshes first(values.normal_force(0)), second(values.normal_force(1));
+    const OfMeshes value = larger(first, second);
+    const double allowed = integrator.control.tolerance;
+    const Mask<M> steep = decaying > allowed * value;
+    OfMeshes rise = 0.5 * (decaying - absolute(first - second));
+    if (values.count() > 2) {
+        const OfMeshes top = vertices<M>(values, 1, nowhere<M>()).second;
+        rise = larger(rise, select(steep, (1.0 + VERTEX_ERROR) * (top - value), 0.0));
+    }
+    const OfMeshes bound = value + rise;
+    return {steep, !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)))};
+}
+
+// Integrals of a part of a collocation step, and its peaks.
 //
-// Nodes are too far apart for the vertices of parabolas. Where these may be the largest ones yet,
-// the motion is evaluated at closer times.
+// Nodes are too far apart for the vertices of parabolas that may be the largest ones yet, and for
+// waves that decay before the first of them.
 template <int L, class Values>
 void add_collocated_values(const Model& model, Integrator& integrator, const Values& values,
-                           double begin, double end, MeshSums& step) {
+                           MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
-    StepSums& sums = integrator.sums;
+    const StepSums& sums = integrator.sums;
     add_integrals<M>(integrator.constants, values, step);
-    const MeshPeaks<M> peaks = find_peaks<M>(values);
-    put_vertices(peaks, step);
     // A recorded step is repeated in later windows.
     static constexpr MeshSums NOTHING{};
     const bool first = integrator.periodic.recording || sums.total.time == 0.0;
     const MeshSums& yet = first ? NOTHING : sums.total;
-    const double allowed = integrator.control.tolerance;
-    if (!peaks.dte.may_exceed(yet.dte_peak, allowed) &&
-        !peaks.force.may_exceed(yet.force_peak, allowed))
-        return;
-    const std::int64_t closer = CLOSER * std::max(values.count() - 1, FEWEST);
-    fill_at_even_times<L>(model, integrator, begin, end, std::min(closer, MOST_EVEN_TIMES - 1));
-    put_vertices(find_peaks<M>(AtEvenTimes{sums.series}), step);
+    const double begin = values.time(0), end = values.time(1);
+    const auto [steep, brief] = brief_motion<L>(model, integrator, values, yet);
+    const MeshPeaks<M> peaks = find_peaks<M>(values, steep);
+    put_vertices(peaks, step);
+    if (peaks.may_exceed(peaks.dte.vertex, peaks.force.vertex, yet, integrator.control.tolerance))
+        seek_around_vertices<L>(model, integrator, values, steep, peaks, yet, step);
+    if (!brief) return;
+    fill_at_early_times<L>(model, integrator, begin, end);
+    raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, nowhere<M>()), step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
@@ -268,7 +416,7 @@ void add_collocated(const Model& model, Integrator& integrator) {
     add_contacts_of_nodes<L>(model, integrator, cut);
     std::int64_t intervals = even_intervals(integrator, model.train, h);
     if (intervals == 0 && !cut)
-        return add_collocated_values<L>(model, integrator, AtNodes{run}, 0.0, h, sums.step);
+        return add_collocated_values<L>(model, integrator, AtNodes{run}, sums.step);
     fill_at_even_times<L>(model, integrator, 0.0, h, std::max(intervals, FEWEST));
     add_series(model, integrator, sums.step);
 }
@@ -323,13 +471,12 @@ void set_even_times(Series& series, double begin, double end, std::int64_t inter
 
 void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
     const Series& series = integrator.sums.series;
-    const double begin = series.at[0], end = series.at[series.count - 1];
     with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         const AtEvenTimes values{series};
         if (integrator.control.collocated)
-            return add_collocated_values<L>(model, integrator, values, begin, end, step);
+            return add_collocated_values<L>(model, integrator, values, step);
         add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
-        put_vertices(find_peaks<MESH_LANES<L>>(values), step);
+        put_vertices(find_peaks<MESH_LANES<L>>(values, nowhere<MESH_LANES<L>>()), step);
     });
 }
 
