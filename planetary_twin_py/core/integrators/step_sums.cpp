@@ -96,7 +96,7 @@ template <int L>
 void fill_at_early_times(const Model& model, Integrator& integrator, double begin, double end) {
     Series& series = integrator.sums.series;
     const ModalMotion& motion = integrator.run.motion;
-    const double decays = (end - begin) * largest(Row<L>(motion.fast));
+    const double decays = (end - begin) * largest(Row<L>(motion.fast_rate));
     const auto ratios = static_cast<std::int64_t>(std::log(decays / EARLIEST) / std::log(LATER));
     series.count = std::min(ratios + 2, MOST_EVEN_TIMES);
     double after = (end - begin) * std::pow(LATER, static_cast<double>(1 - series.count));
@@ -341,7 +341,7 @@ Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrat
     using OfMeshes = Row<M>;
     const ModalMotion& motion = integrator.run.motion;
     const double width = values.time(1) - values.time(0);
-    const V slow(motion.slow), fast(motion.fast);
+    const V slow(motion.slow_rate), fast(motion.fast_rate);
     if (none(fast * width > 1.0)) return {nowhere<M>(), false};
     const ContactState& contacts = contacts_of(integrator.run);
     const double tau = std::max(contacts.tau[0], contacts.tau[1]);
