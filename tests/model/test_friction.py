@@ -161,7 +161,12 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
             "load", "friction", "boundary", "viscous", "slope", "rolling", "rolling_power"
         ):  # fmt: skip
             assert (columns[name][idle] == 0.0).all(), name
-        for values in (out.now.normal_force, out.now.lost, out.now.work, out.dragging.power):
+        for values in (
+            out.now.normal_force,
+            out.now.damping_power,
+            out.now.stiffness_power,
+            out.dragging.power,
+        ):
             assert (values[:meshes][is_open] == 0.0).all()
         assert (out.dragging.torque[:, :meshes][:, is_open] == 0.0).all()
         assert np.isfinite(out.force).all() and np.isfinite(out.power).all()
