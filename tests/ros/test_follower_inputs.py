@@ -46,15 +46,16 @@ class Rig:
         publishers = (self.joints, self.oil, self.encoders)
         self.user.until(lambda: all(map(self.is_matched, publishers)))
 
-    def is_matched(self, publisher: Publisher) -> bool:
+    def is_matched(self, publisher: Publisher, subscribers: int = 1) -> bool:
         """
-        Whether the only subscription is reliable, to which it changes for such a publisher.
+        Whether all subscriptions are reliable, to which they change for such a publisher.
 
-        While there are two, the publisher may not know the reliable one yet.
+        While a subscriber has two, the publisher may not know the reliable one yet.
         """
         ends = self.user.node.get_subscriptions_info_by_topic(publisher.topic_name)
         reliable = [e.qos_profile.reliability == ReliabilityPolicy.RELIABLE for e in ends]
-        return reliable == [True] and publisher.get_subscription_count() == 1
+        matched = publisher.get_subscription_count() == subscribers
+        return matched and reliable == [True] * subscribers
 
     def reading(self, time: float, scale: dict[str, float] | None = None) -> JointState:
         """A reading at a time [s] after the first, with other units by `scale`."""

@@ -33,9 +33,13 @@ def test_remapped_inputs_are_recorded_completely(
     nodes = [start(program, "--ros-args", *options, name="bag") for program in programs]
     joints = peer.node.create_publisher(JointState, REMAPPED["joint_states"], 2000)
     oil = peer.node.create_publisher(Temperature, REMAPPED["oil_temperature"], 100)
-    estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")
+    estimates: list[FollowerEstimate] = []
+    results = peer.node.create_subscription(
+        FollowerEstimate, f"{TWIN}/follower/estimate", estimates.append, 1000
+    )
     rig = Rig(peer)  # publishes nothing under the names that are remapped
-    peer.until(lambda: all(one.get_subscription_count() == 2 for one in (joints, oil)))
+    peer.until(lambda: all(rig.is_matched(one, 2) for one in (joints, oil)))
+    peer.until(lambda: results.get_publisher_count() == 1)  # it publishes each estimate once
     temperature = Temperature(temperature=70.0)
     stamp(temperature, 0.0)
     oil.publish(temperature)
