@@ -6,7 +6,7 @@ STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := $(wildcard $(foreach spec,msgs_spec tools/tf2_msgs,$(addprefix $(spec)/,\
 	package.xml CMakeLists.txt msg/* srv/*)))
-CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core -name '*.?pp' -o -name '*.txt' -o -name '*.py' 2>/dev/null)
+CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core benchmarks/planetary_twin_core_parts -name '*.?pp' -o -name '*.txt' -o -name '*.py' 2>/dev/null)
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 

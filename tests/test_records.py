@@ -5,14 +5,17 @@ import inspect
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import Problem
 
 from planetary_twin_py import _core
 from planetary_twin_py._core import (
+    BodyArrays,
     Equilibrium,
     Evaluation,
     Integrator,
+    MeshArrays,
+    MeshCycle,
     Model,
-    Problem,
     State,
     Train,
 )
@@ -56,30 +59,34 @@ def test_a_new_record_is_zero_and_its_copy_is_another(kind):
 
 
 def test_a_new_record_holds_what_it_is_given_and_zeros():
-    train = Train(sun_advance=2.0, mass=[1.0, 2.0], body=np.ones((2, 2), dtype=int))
-    assert train.sun_advance == 2.0
-    assert np.array_equal(train.mass, [1.0, 2.0, *[0.0] * (_core.BODIES - 2)])
-    assert train.body.sum() == 4 and np.array_equal(train.body[:2, :2], np.ones((2, 2)))
+    train = Train(
+        cycle=MeshCycle(sun_advance=2.0),
+        body=BodyArrays(mass=[1.0, 2.0]),
+        mesh=MeshArrays(body=np.ones((2, 2), dtype=int)),
+    )
+    assert train.cycle.sun_advance == 2.0
+    assert np.array_equal(train.body.mass, [1.0, 2.0, *[0.0] * (_core.BODIES - 2)])
+    assert train.mesh.body.sum() == 4 and np.array_equal(train.mesh.body[:2, :2], np.ones((2, 2)))
 
 
 def test_arrays_and_inner_records_are_the_records_own():
-    model = Model(train=Train(mass=[1.0]))
-    mass = model.train.mass
+    model = Model(train=Train(body=BodyArrays(mass=[1.0])))
+    mass = model.train.body.mass
     mass[0] = 3.0
-    assert model.train.mass[0] == 3.0
+    assert model.train.body.mass[0] == 3.0
     kept = model.copy()
     mass[0] = 4.0
-    assert (kept.train.mass[0], model.train.mass[0]) == (3.0, 4.0)
+    assert (kept.train.body.mass[0], model.train.body.mass[0]) == (3.0, 4.0)
     del model
     assert mass[0] == 4.0  # the array keeps its record alive
 
 
 def test_what_does_not_fit_is_refused():
     with pytest.raises(AttributeError):
-        Train(mas=[1.0])
+        Train(massive=True)
     with pytest.raises(AttributeError):
         State().tim = 1.0
     with pytest.raises(ValueError):
-        Train(mass=np.ones(_core.BODIES + 1))
+        BodyArrays(mass=np.ones(_core.BODIES + 1))
     with pytest.raises(TypeError):
         State(time="late")

@@ -12,21 +12,10 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from planetary_twin_core_parts import OPEN, accept, body_speed, contact_event, observe
 from scipy.integrate import solve_ivp
 
-from planetary_twin_py._core import (
-    AXES,
-    OPEN,
-    QUANTITIES,
-    Evaluation,
-    accept,
-    begin_step,
-    body_speed,
-    contact_event,
-    cycle_shift,
-    forces,
-    observe,
-)
+from planetary_twin_py._core import AXES, QUANTITIES, Evaluation, begin_step, cycle_shift, forces
 from planetary_twin_py.model.clock import delay, instant, run_on
 from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import Scene
@@ -109,7 +98,7 @@ class Reference:
 
     def _longest(self) -> float:
         slew = self._integrator.constants.slew[: self._axes]
-        gap = (self._model.load.target_speed - self._integrator.begin.set_speed)[: self._axes]
+        gap = (self._model.operation.target_speed - self._integrator.begin.set_speed)[: self._axes]
         return min([LONGEST, *(gap[slew != 0.0] / slew[slew != 0.0])])
 
     def _unpack(self, y: np.ndarray) -> None:
@@ -125,10 +114,10 @@ class Reference:
         )
         set_speed = begin.set_speed + integrator.constants.slew * t
         lag = [
-            set_speed[a] - body_speed(train, begin, self._v, train.coupling[2 * a, 0])
+            set_speed[a] - body_speed(train, begin, self._v, train.coupling.ends[2 * a, 0])
             for a in range(self._axes)
         ]
-        return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], lag])
+        return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.body.mass[:n], lag])
 
     def _flanks(self, start: np.ndarray) -> list[Event]:
         """An event for every flank.
@@ -171,11 +160,11 @@ class Reference:
             self._integrator.begin,
             self._integrator.constants,
         )
-        side, segment, kind = int(begin.side[i]), begin.segment[i], train.kind[i]
+        side, segment, kind = int(begin.side[i]), begin.segment[i], train.mesh.kind[i]
         cycle = moment.start[i] + side * self._mesh_cycles(t, y)[0]
         if side * moment.cycle_rate >= 0.0:
-            return float(train.edge[kind, segment + 1] - cycle)
-        return float(cycle - train.edge[kind, segment])
+            return float(train.teeth.edge[kind, segment + 1] - cycle)
+        return float(cycle - train.teeth.edge[kind, segment])
 
     def _observe(self, solution: Any, delay: float, out: np.ndarray) -> None:
         self._unpack(solution(delay))

@@ -105,9 +105,9 @@ def _settled(scene: Scene, tolerance: float, method: str) -> _Settled:
     room = round(COMPARED * SAMPLE_RATE)
     engine = Engine(scene, tolerance, method)
     samples, train = engine.advance(BY, first, SAMPLE_RATE, room), engine.train
-    motor = train.coupling[0, 0]
+    motor = train.coupling.ends[0, 0]
     turns = samples.turns[:, 0] + samples.angle[:, motor] / (2.0 * math.pi)
-    return _Settled(samples.mesh, turns * float(train.cycles[0]))
+    return _Settled(samples.mesh, turns * float(train.cycle.per_turn[0]))
 
 
 def _errors(found: _Settled, exact: _Settled) -> tuple[float, float, float]:

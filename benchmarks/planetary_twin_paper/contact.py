@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from planetary_twin_py._core import damping_time
-from planetary_twin_py.model.start import build_load
+from planetary_twin_py.model.start import build_operation
 from planetary_twin_py.model.train import build_train
 from planetary_twin_py.plots.style import BLUE, GREY, ORANGE, drawing, panels
 from planetary_twin_py.scene import Scene
@@ -60,12 +60,13 @@ def spring(scene: Scene) -> Spring:
         scene: the scene.
     """
     train = build_train(scene)
-    load = build_load(scene, scene.operating_point, train)
-    cycle_rate = abs(train.cycles[0]) * scene.operating_point.input_speed / (2.0 * np.pi)
+    operation = build_operation(scene, scene.operating_point, train)
+    cycle_rate = abs(train.cycle.per_turn[0]) * scene.operating_point.input_speed / (2.0 * np.pi)
     tau = damping_time(train, 0, cycle_rate)
-    single = float(train.stiffness[0])
+    single = float(train.teeth.stiffness[0])
     double = single * scene.mesh.double_pair_ratio
-    return Spring(single, double, float(load.half_backlash), float(load.offset), float(tau))
+    backlash = operation.backlash
+    return Spring(single, double, float(backlash.half), float(backlash.offset), float(tau))
 
 
 def regulatory_factor(evidence: Evidence) -> Entry:

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from planetary_twin_core_parts import printed_area_function, printed_load_function
 from scipy.optimize import brentq
 
-from planetary_twin_py._core import printed_area_function, printed_load_function
 from planetary_twin_py.plots.style import CYCLE, panels
 
 from .entry import Claim, Entry

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from planetary_twin_core_parts import find_segment, mesh_stiffness
 
-from planetary_twin_py._core import find_segment, mesh_stiffness
 from planetary_twin_py.gearset.geometry import planet_ring_path, sun_planet_path
 from planetary_twin_py.model.train import build_train
 from planetary_twin_py.plots.style import panels

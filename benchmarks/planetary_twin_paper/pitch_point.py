@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from planetary_twin_py._core import lambda_ratio_of, tooth_contact
+from planetary_twin_core_parts import lambda_ratio_of
+
+from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.model.oil import build_oil
 from planetary_twin_py.model.static_load import mesh_force

@@ -93,7 +93,11 @@ def assembly(evidence: Evidence) -> Entry:
 
 def _meshing_frequency(scene: Scene) -> float:
     """Mesh frequency at the input speed of the scene [Hz]."""
-    return abs(float(build_train(scene).cycles[0])) * scene.operating_point.input_speed / math.tau
+    return (
+        abs(float(build_train(scene).cycle.per_turn[0]))
+        * scene.operating_point.input_speed
+        / math.tau
+    )
 
 
 def _with_held_ring(scene: Scene) -> Scene:

@@ -35,24 +35,24 @@ inline void advance(const Train& train, const State& state, double h, int i, Sta
 }
 
 // Slopes of stage i, and their share of the errors and of the energy.
-inline void slopes(const Train& train, const State& state, const StepConstants& constants,
-                   double h, int i, const Evaluation& at, const State& out, Workspace& work) {
+inline void slopes(const Train& train, const State& state, const StepConstants& constants, double h,
+                   int i, const Evaluation& at, const State& out, Workspace& work) {
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         work.ux[i][j] = out.v[j];
-        work.uv[i][j] = at.force[j] / train.mass[j];
+        work.uv[i][j] = at.force[j] / train.body.mass[j];
         work.error_x[j] += h * ERROR[i] * work.ux[i][j];
         work.error_v[j] += h * ERROR[i] * work.uv[i][j];
     }
     for (std::int64_t a = 0; a < train.axes; ++a) {
         double set_speed = state.set_speed[a] + constants.slew[a] * ABSCISSA[i] * h;
-        double speed = body_speed(train, state, out.v, train.coupling[2 * a][0]);
+        double speed = body_speed(train, state, out.v, train.coupling.ends[2 * a][0]);
         work.trim_rate[i][a] = set_speed - speed;
     }
     if (i == STAGES - 1) return;
     const double weight = h * A[STAGES - 1][i];
     for (int e = 0; e < LEDGER; ++e) work.energy[e] += weight * at.power[e];
     for (std::int64_t c = 0; c < train.machines; ++c)
-        work.machine_displacement[c] += weight * out.v[train.coupling[c][0]];
+        work.machine_displacement[c] += weight * out.v[train.coupling.ends[c][0]];
 }
 
 }  // namespace bogacki_shampine

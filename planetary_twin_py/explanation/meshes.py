@@ -11,7 +11,7 @@ from ..lubrication.ohlendorf import tooth_loss_factor
 from ..mesh.overlap import overlap_ratio
 from ..model.mean_stiffness import mean_stiffness
 from ..model.mesh_damping import natural_frequencies
-from ..model.start import build_load
+from ..model.start import build_operation
 from ..model.static_load import mesh_force
 from ..model.stiffness_laws import GEARS, loaded_force
 from ..model.train import build_train, held_axes
@@ -80,10 +80,10 @@ def describe_meshes(scene: Scene) -> Meshes:
     scene = held_axes(scene)
     point = scene.operating_point
     train = build_train(scene)
-    load = build_load(scene, point, train)
-    passing = float(train.cycles @ load.target_speed)
+    operation = build_operation(scene, point, train)
+    passing = float(train.cycle.per_turn @ operation.target_speed)
     frequency = abs(passing) / (2.0 * math.pi)
-    natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
+    natural, mean = natural_frequencies(scene, train.teeth.stiffness), mean_stiffness(train.teeth)
     sun_force = mesh_force(scene, point.input_torque)
     force, from_sun = abs(sun_force), sun_force * passing
     pressure = [pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
@@ -110,7 +110,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             recess=sides[kind][1],
             geometric_backlash=working_meshes[kind].backlash,
             tip_clearances=working_meshes[kind].tip_clearances,
-            single_stiffness=float(train.stiffness[kind]),
+            single_stiffness=float(train.teeth.stiffness[kind]),
             mean_stiffness=float(mean[kind]),
             iso_stiffness=_iso_stiffness(scene, working_meshes[kind]),
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
@@ -119,7 +119,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             axial_force=force * abs(math.tan(gearset.base_helix)),
             pitch_pressure=pressure[kind],
             loss_factor=loss_factors[kind],
-            backlash=2.0 * float(load.half_backlash),
+            backlash=2.0 * float(operation.backlash.half),
             **friction_figures(scene, kind, (sun_force, pressure[kind]), frequency),
         )
         for kind, (first, second) in enumerate(GEARS)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ..lubrication.viscosity import viscosity_at
 from ..model.oil import build_oil
-from ..model.start import build_load
+from ..model.start import build_operation
 from ..model.static_load import mesh_force
 from ..model.train import build_train, held_axes
 from ..scene import Scene
@@ -114,8 +114,8 @@ def oil_figures(scene: Scene) -> OilFigures | None:
     scene = held_axes(scene)
     point, data = scene.operating_point, scene.lubrication
     train = build_train(scene)
-    load = build_load(scene, point, train)
-    frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
+    operation = build_operation(scene, point, train)
+    frequency = abs(float(train.cycle.per_turn @ operation.target_speed)) / (2.0 * math.pi)
     force = mesh_force(scene, point.input_torque)
     if not data.friction or force == 0.0 or frequency == 0.0:
         return None

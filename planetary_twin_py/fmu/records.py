@@ -61,10 +61,10 @@ def build_records(scene: Scene, tolerance: float) -> Exported:
 
 def _put_repetitions(scene: Scene, engine: DrivenEngine, exported: Exported) -> None:
     """Store the number of mesh cycles in a period, without and with torque ripple."""
-    load = engine.model.load.copy()
+    operation = engine.model.operation.copy()
     for place, ripple in zip(exported.repetition, (0.0, 1.0), strict=True):
-        load.ripple = ripple
-        cycles = 0 if scene.drive.ports.given else common_cycles(engine.train, load)
+        operation.ripple = ripple
+        cycles = 0 if scene.drive.ports.given else common_cycles(engine.train, operation)
         turns = abs(cycles * turns_per_cycle(engine.train)) if cycles else Fraction(0)
         place.cycles, place.numerator, place.denominator = (
             cycles, turns.numerator, turns.denominator,

@@ -76,8 +76,8 @@ def variables(scene: Scene, exported: Exported) -> list[Variable]:
 
 
 def _of_ports(scene: Scene, exported: Exported) -> Iterator[Variable]:
-    load, ranges = exported.model.load, exported.ranges
-    starts = {"torque": load.torque, "speed": load.speed}
+    operation, ranges = exported.model.operation, exported.ranges
+    starts = {"torque": operation.torque, "speed": operation.speed}
     limits = {"torque": ranges.torque, "speed": ranges.speed}
     for side, place in PORTS.items():
         port: Causality = getattr(scene.drive.ports, side)

@@ -81,7 +81,7 @@ def _damping(
     train = build_train(held_axes(scene))
     speeds = np.zeros(AXES)
     speeds[:] = point.input_speed, point.second_input_speed
-    rate = abs(float(train.cycles @ speeds)) / (2.0 * math.pi)
+    rate = abs(float(train.cycle.per_turn @ speeds)) / (2.0 * math.pi)
     tau = {kind: damping_time(train, k, rate) for k, kind in enumerate(MESHES)}
     dampers = {name: linear_bearing(scene, name)[1] for name in bearing_names(scene)}
     pins = iter([dampers[f"planet_{i + 1}"] for i in range(scene.gearset.planets) for _ in "xy"])

@@ -9,26 +9,26 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from .._core import Load, Train
+from .._core import Operation, Train
 
 
 def turns_per_cycle(train: Train) -> Fraction:
     """Turns of the first motor in one mesh cycle while the others are at rest."""
-    return Fraction(int(train.cycles_denominator[0]), int(train.cycles_numerator[0]))
+    return Fraction(int(train.cycle.denominator[0]), int(train.cycle.numerator[0]))
 
 
-def common_cycles(train: Train, load: Load) -> int:
+def common_cycles(train: Train, operation: Operation) -> int:
     """Mesh cycles after which faults, errors of form, torque ripple and weight repeat together.
 
     0 for a train with two motors, which never repeats.
     """
     if train.axes > 1:
         return 0
-    periods = [int(teeth) for teeth in train.fault_teeth[: train.faults]]
-    for kind, lines in enumerate(train.lines):
-        periods += [int(period) for period in train.line_period[kind, :lines]]
-    if load.ripple != 0.0:
-        periods.append((int(load.ripple_order) * turns_per_cycle(train)).denominator)
+    periods = [int(teeth) for teeth in train.faults.teeth[: train.faults.count]]
+    for kind, lines in enumerate(train.errors.lines):
+        periods += [int(period) for period in train.errors.period[kind, :lines]]
+    if operation.ripple != 0.0:
+        periods.append((int(operation.ripple_order) * turns_per_cycle(train)).denominator)
     if train.moving.gravity != 0.0:
         ratio = Fraction(int(train.moving.turn_numerator[0]), int(train.moving.turn_denominator[0]))
         periods.append((ratio * turns_per_cycle(train)).denominator)  # whole turns of the carrier

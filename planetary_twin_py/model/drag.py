@@ -18,7 +18,7 @@ MEMBERS = ("sun", "ring", "carrier")
 
 
 class _Joint(NamedTuple):
-    """Resistance to the rotation of one body relative to another; see `Train`."""
+    """Resistance to the rotation of one body relative to another; see `Joints` of the core."""
 
     body: tuple[int, int]  # indices of the rotating body, and of the one that it rotates against
     planet: int = NO_PLANET  # whose pin loads it
@@ -28,24 +28,28 @@ class _Joint(NamedTuple):
     viscous: float = 0.0  # [N m s/rad]
 
 
-def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
-    """Fields of `Train`."""
+def build_drag(scene: Scene, bodies: Bodies) -> dict[str, dict[str, Any]]:
+    """Fields of the joints and the discs of `Train`."""
     joints, place, churning = list(_joints(scene, bodies)), bodies.place, scene.losses.churning
     discs = {m: getattr(churning, m) for m in MEMBERS if churning and getattr(churning, m)}
     return {
-        "joints": len(joints),
-        "joint_body": np.array([joint.body for joint in joints], dtype=int).reshape(-1, 2),
-        "joint_planet": np.array([joint.planet for joint in joints], dtype=int),
-        "joint_no_load_factor": np.array([joint.no_load_factor for joint in joints]),
-        "joint_load_factor": np.array([joint.load_factor for joint in joints]),
-        "joint_coulomb": np.array([joint.coulomb for joint in joints]),
-        "joint_viscous": np.array([joint.viscous for joint in joints]),
-        "pin_share": _pin_share(scene),
-        "discs": len(discs),
-        "disc_body": np.array([place[member] for member in discs], dtype=int),
-        "disc_radius": np.array(list(discs.values()), dtype=float),
-        "disc_gap": churning.gap if churning else 0.0,
-        "disc_fill": churning.fill if churning else 0.0,
+        "joints": {
+            "count": len(joints),
+            "body": np.array([joint.body for joint in joints], dtype=int).reshape(-1, 2),
+            "planet": np.array([joint.planet for joint in joints], dtype=int),
+            "no_load_factor": np.array([joint.no_load_factor for joint in joints]),
+            "load_factor": np.array([joint.load_factor for joint in joints]),
+            "coulomb": np.array([joint.coulomb for joint in joints]),
+            "viscous": np.array([joint.viscous for joint in joints]),
+            "pin_share": _pin_share(scene),
+        },
+        "discs": {
+            "count": len(discs),
+            "body": np.array([place[member] for member in discs], dtype=int),
+            "radius": np.array(list(discs.values()), dtype=float),
+            "gap": churning.gap if churning else 0.0,
+            "fill": churning.fill if churning else 0.0,
+        },
     }
 
 

@@ -7,7 +7,15 @@ from types import ModuleType
 
 import numpy as np
 
-from .._core import METHODS, Integrator, Load, PointLaws, Train, deflection_at, elastic_deflection
+from .._core import (
+    METHODS,
+    Integrator,
+    Operation,
+    PointLaws,
+    Train,
+    deflection_at,
+    elastic_deflection,
+)
 from ..scene import OperatingPoint, Scene
 from .point_laws import record_of
 from .static_load import mesh_force, static_torques
@@ -32,10 +40,10 @@ class StepScale:
     def __init__(self, scene: Scene, train: Train, laws: PointLaws) -> None:
         self._laws = laws
         self._per_torque = abs(mesh_force(scene, 1.0))
-        self._stiffness = float(train.stiffness.min())
+        self._stiffness = float(train.teeth.stiffness.min())
         self._shares = np.abs(static_torques(scene)[::2])
-        motors = train.coupling[: 2 * len(self._shares) : 2, 0]
-        self._own = train.mass[motors] * train.radius[motors] ** 2
+        motors = train.coupling.ends[: 2 * len(self._shares) : 2, 0]
+        self._own = train.body.mass[motors] * train.body.radius[motors] ** 2
         self.speed_per_deflection = math.sqrt(2.0 * self._stiffness / lightest_body(train))
 
     def deflection(self, point: OperatingPoint) -> float:
@@ -60,18 +68,18 @@ class StepScale:
         """
         return elastic_deflection(self._laws, record_of(point))
 
-    def acceleration_deflection(self, load: Load) -> np.ndarray:
+    def acceleration_deflection(self, operation: Operation) -> np.ndarray:
         """Deflection of the meshes per acceleration of each input.
 
         The inertia of a motor itself does not load the meshes.
 
         Args:
-            load: loads of the train.
+            operation: gives the inertia at the motors.
 
         Returns:
             Deflection per acceleration [m s^2/rad], (inputs,).
         """
-        inertia = load.inertia.diagonal()[: len(self._own)]
+        inertia = operation.inertia.diagonal()[: len(self._own)]
         torque: np.ndarray = np.maximum(inertia - self._own, 0.0) / self._shares
         return self._per_torque * torque / self._stiffness
 

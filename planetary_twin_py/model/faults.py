@@ -49,7 +49,7 @@ def fault_factors(
 
 
 def build_faults(scene: Scene, planets: Sequence[int], phases: np.ndarray) -> dict[str, Any]:
-    """Fields of `Train`, for the sun meshes of `planets` and then their ring meshes.
+    """Fields of the faults of `Train`, for the sun meshes of `planets` and then their ring meshes.
 
     `phases` (meshes,) [mesh cycles] of these meshes include whole cycles.
     """
@@ -61,10 +61,10 @@ def build_faults(scene: Scene, planets: Sequence[int], phases: np.ndarray) -> di
             if kind in _kinds(fault) and (fault.gear != "planet" or fault.planet - 1 == planets[n]):
                 pairs[f, i] = _pairs(scene, fault, kind, phases[n] - phases[i])
     return {
-        "faults": len(scene.faults),
-        "fault_teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),
-        "fault_pair": pairs,
-        "fault_gap": np.array([f.depth if isinstance(f, Wear) else 0.0 for f in scene.faults]),
+        "count": len(scene.faults),
+        "teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),
+        "pair": pairs,
+        "gap": np.array([f.depth if isinstance(f, Wear) else 0.0 for f in scene.faults]),
     }
 
 

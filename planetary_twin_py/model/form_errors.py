@@ -47,7 +47,7 @@ class _Line(NamedTuple):
 
 
 def build_form_errors(scene: Scene, leaders: Sequence[int]) -> dict[str, Any]:
-    """Fields of `Train`; `leaders` are the planets that are integrated, counted from 0."""
+    """Fields of the form errors of `Train`; `leaders`: integrated planets, counted from 0."""
     mesh, count = scene.mesh, len(leaders)
     kinds = [
         _harmonics(error, count) + _runout(scene, kind, leaders) + _positions(scene, kind, leaders)
@@ -68,12 +68,12 @@ def build_form_errors(scene: Scene, leaders: Sequence[int]) -> dict[str, Any]:
     return {
         "lines": np.array([len(lines) for lines in kinds]),
         "harmonics": np.array([sum(not line.radial.any() for line in lines) for lines in kinds]),
-        "line_tangential": tangential,
-        "line_radial": radial,
-        "line_harmonic": harmonic,
-        "line_period": period,
-        "line_phase": phase,
-        "line_of_planet": of_planet,
+        "tangential": tangential,
+        "radial": radial,
+        "harmonic": harmonic,
+        "period": period,
+        "phase": phase,
+        "of_planet": of_planet,
     }
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._core import TOTAL, Train
+from .._core import TOTAL
+from .._core import Teeth as TeethRecord
 from ..mesh.tooth_pairs import mean_weight
 from .teeth import Teeth
 
 
-def mean_stiffness(teeth: Teeth | Train) -> np.ndarray:
+def mean_stiffness(teeth: Teeth | TeethRecord) -> np.ndarray:
     """Mean over the mesh cycle [N/m], shape (2,): sun-planet meshes, planet-ring meshes.
 
     Those of a planet have the factor `errors.planet_stiffness` as well.

@@ -19,8 +19,8 @@ from .planet_groups import PlanetGroups, planet_groups, scene_phases
 from .teeth import build_teeth
 
 
-def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
-    """Fields of `Train`.
+def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, dict[str, Any]]:
+    """Fields of the groups of `Train` that describe meshes and teeth.
 
     Raises:
         ValueError: the teeth are impossible, see `build_teeth`.
@@ -30,25 +30,36 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     groups = planet_groups(scene)
     body, sign = _rows(groups, bodies.place, gears.carrier_ratio)
     phases = np.array([float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders])
+    of_teeth = teeth._asdict()
+    stiffness_factors = [scene.errors.of_planet(i).stiffness for i in groups.leaders] * 2
     return {
-        "meshes": len(phases),
-        "body": body,
-        "sign": sign,
-        "copies": np.tile(groups.sizes, 2),
-        "kind": np.repeat([0, 1], len(groups.leaders)),
-        "phase": phases,
-        "coast_lead": np.array([mesh.coast_lead for mesh in gears.meshes]),
-        **teeth._asdict(),
-        "stiffness_factor": [scene.errors.of_planet(i).stiffness for i in groups.leaders] * 2,
-        "damping_time": steady_damping_times(scene, teeth.stiffness),
-        "damping_cycles": damping_cycles(scene),
-        "lowest_frequency": damping.lowest_frequency,
-        "base_pitch": gears.meshes[0].base_pitch,
-        "rolling_advance": min(mesh.rolling_advance for mesh in gears.meshes),
-        "pitch_curvature": np.array([mesh.curvatures for mesh in gears.meshes]),
-        "external": np.array([1.0, -1.0]),
-        **build_form_errors(scene, groups.leaders),
-        **build_faults(scene, groups.leaders, phases),
+        "mesh": {
+            "body": body,
+            "sign": sign,
+            "lever": 1.0 / bodies.radius[body].T,
+            "copies": np.tile(groups.sizes, 2),
+            "kind": np.repeat([0, 1], len(groups.leaders)),
+            "phase": phases,
+            "stiffness_factor": np.array(stiffness_factors),
+        },
+        "damping": {
+            "time": steady_damping_times(scene, teeth.stiffness),
+            "cycles": damping_cycles(scene),
+            "lowest_frequency": damping.lowest_frequency,
+        },
+        "geometry": {
+            "coast_lead": np.array([mesh.coast_lead for mesh in gears.meshes]),
+            "base_pitch": gears.meshes[0].base_pitch,
+            "rolling_advance": min(mesh.rolling_advance for mesh in gears.meshes),
+            "pitch_curvature": np.array([mesh.curvatures for mesh in gears.meshes]),
+            "external": np.array([1.0, -1.0]),
+        },
+        "teeth": of_teeth,
+        "errors": build_form_errors(scene, groups.leaders),
+        "faults": {
+            "factor": of_teeth.pop("fault_factor"),
+            **build_faults(scene, groups.leaders, phases),
+        },
     }
 
 

@@ -79,19 +79,20 @@ def default_damping(damping: float | None, stiffness: float) -> float:
     return BEARING_DAMPING * stiffness if damping is None else damping
 
 
-def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[str, Any]:
+def move_axes(scene: Scene, bodies: Bodies, groups: dict[str, dict[str, Any]]) -> MovingAxes:
     """Extend a train by the motion of its axes.
 
     Args:
         scene: with supports.
         bodies: with their displacements.
-        fields: of the train with one entry for each mesh.
+        groups: fields of the groups of `Train` with one entry for each mesh; changed to those of
+            `_core.axes.Train`, with an entry for the drive flanks of each mesh and then for the
+            coast flanks of each.
 
     Returns:
-        The fields of `_core.axes.Train`, with an entry for the drive flanks of each mesh and then
-        for the coast flanks of each.
+        Rows of the meshes over displacements, and bearings.
     """
-    meshes, frame = int(fields["meshes"]), len(bodies.mass)
+    meshes, frame = len(groups["mesh"]["kind"]), len(bodies.mass)
     body, sign, line = _entries(scene, bodies, frame)
     moving = axes.MovingAxes(
         frame=frame,
@@ -108,32 +109,24 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         moving.slope_place, moving.slope = _slopes(scene, bodies)
         moving.face_square = scene.gearset.face_width**2 / 12.0
         _fill_tilting(scene, bodies, moving)
-    doubled = {
-        name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
-        for name in (
-            "copies", "kind", "phase", "stiffness_factor",
-            "line_tangential", "line_radial", "line_phase",
-        )
-    }  # fmt: skip
+    for group, name in (
+        ("mesh", "copies"), ("mesh", "kind"), ("mesh", "phase"), ("mesh", "stiffness_factor"),
+        ("errors", "tangential"), ("errors", "radial"), ("errors", "phase"),
+    ):  # fmt: skip
+        groups[group][name] = np.concatenate([groups[group][name][:meshes]] * 2)
+    pairs = groups["faults"]["pair"][:, :meshes]
+    groups["faults"]["pair"] = np.concatenate([pairs] * 2, axis=1)
     lever = np.zeros((3, 2 * meshes))
     lever[:2] = 1.0 / bodies.radius[body[:, :2].T]
-    return (
-        fields
-        | doubled
-        | {
-            "body_copies": np.append(bodies.copies, 1),
-            "mass": np.append(bodies.copies * bodies.mass, 0.0),
-            "radius": np.append(bodies.radius, 1.0),
-            "inverse_radius": np.append(1.0 / bodies.radius, 1.0),
-            "ratio": np.vstack([bodies.ratio, _turning(scene)]),
-            "lever": lever,
-            "meshes": 2 * meshes,
-            "body": body,
-            "sign": sign,
-            "fault_pair": np.concatenate([fields["fault_pair"][:, :meshes]] * 2, axis=1),
-            "moving": moving,
-        }
-    )
+    groups["mesh"] |= {"body": body, "sign": sign, "lever": lever}
+    groups["body"] |= {
+        "copies": np.append(bodies.copies, 1),
+        "mass": np.append(bodies.copies * bodies.mass, 0.0),
+        "radius": np.append(bodies.radius, 1.0),
+        "inverse_radius": np.append(1.0 / bodies.radius, 1.0),
+        "ratio": np.vstack([bodies.ratio, _turning(scene)]),
+    }
+    return moving
 
 
 def _turning(scene: Scene) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _core
-from .._core import POINT_FIELDS, Load, PointLaws, Train
+from .._core import POINT_FIELDS, Backlash, Operation, PointLaws, Train
 from ..scene import OperatingPoint, Scene
 from .bodies import base_radii
 from .speed_loop import bandwidth, speed_loop_gains
@@ -28,8 +28,8 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
     half_backlash_factor, least = mesh.flanks(1.0, scene.gearset.transverse.pressure_angle)
     started, torques = control.start_speed, parts(scene)
     return PointLaws(
-        constant=Load(
-            release=1.0 if mesh.backlash == "dead_zone" else 0.0,
+        constant=Operation(
+            backlash=Backlash(release=1.0 if mesh.backlash == "dead_zone" else 0.0),
             slew_rate=control.slew_rate,
             ripple_order=float(control.ripple_order),
             inertia=gains.inertia,
@@ -41,12 +41,12 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
         half_backlash_factor=half_backlash_factor,
         from_zero=least == 0.0,
         torque=static_torques(scene),
-        ratio=train.ratio[train.coupling[: len(scene.drive.ports), 0]],
+        ratio=train.body.ratio[train.coupling.ends[: len(scene.drive.ports), 0]],
         starts_elsewhere=started is not None,
         start_speed=0.0 if started is None else started,
         force_share=[torques["sun"], torques[scene.drive.input.member]],
         force_lever=base_radii(scene)["sun"] * scene.gearset.planets,
-        stiffness=float(np.min(train.stiffness)),
+        stiffness=float(np.min(train.teeth.stiffness)),
     )
 
 

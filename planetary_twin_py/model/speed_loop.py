@@ -126,7 +126,9 @@ def _holds_a_speed(scene: Scene) -> bool:
 @lru_cache(maxsize=TRAINS_KEPT)
 def _default(scene: Scene) -> float:
     train, fastest = build_train(held_axes(scene)), scene.drive.speed_limit
-    loop = linear_loop(scene, train, float(np.abs(train.cycles).sum()) * fastest / (2.0 * math.pi))
+    loop = linear_loop(
+        scene, train, float(np.abs(train.cycle.per_turn).sum()) * fastest / (2.0 * math.pi)
+    )
     # Growth at a high bandwidth may be less than the rounding of its fast decay.
     tried = [margin * FASTEST_DEFAULT for margin in (DEFAULT_MARGIN, LEAST_MARGIN, 1.0)]
     limit = min([found for high in tried if (found := loop.limit(high)) < high] or tried[:1])
@@ -145,7 +147,9 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
         The gains, which make the loop critically damped on a rigid train.
     """
     w, axes = 2.0 * math.pi * bandwidth, int(train.axes)
-    inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
+    inertia = np.einsum(
+        "j,ja,jb->ab", train.body.mass * train.body.radius**2, train.body.ratio, train.body.ratio
+    )
     integral = np.diag(inertia) * w**2 / 4.0
     trim = np.zeros((MACHINES, AXES))
     if scene.drive.ports.given:
@@ -171,7 +175,7 @@ def _gains_with_ports(scene: Scene, train: Train, inertia: np.ndarray, w: float)
         gains.inertia[0, 0], gains.proportional[0] = total, total * w
         gains.trim[MOTOR, 0] = total * w**2 / 4.0
         return gains
-    ratio = float(train.ratio[train.coupling[LOAD_MACHINE, 0], 0])
+    ratio = float(train.body.ratio[train.coupling.ends[LOAD_MACHINE, 0], 0])
     gains.trim[LOAD_MACHINE, 0] = total * w**2 / 4.0 / ratio
     return gains._replace(load_proportional=total * w / ratio**2)
 
@@ -186,13 +190,15 @@ class LinearTrain:
 
     def __init__(self, scene: Scene, train: Train) -> None:
         meshes, machines = train.meshes, train.machines
-        coupling, found = slice(machines), mean_stiffness(train)
-        mesh = (train.copies * train.stiffness_factor * found[train.kind])[:meshes]
-        springs = np.concatenate([mesh, train.coupling_stiffness[coupling]])
+        coupling, found = slice(machines), mean_stiffness(train.teeth)
+        mesh = (train.mesh.copies * train.mesh.stiffness_factor * found[train.mesh.kind])[:meshes]
+        springs = np.concatenate([mesh, train.coupling.stiffness[coupling]])
         rows = np.zeros((meshes + machines, train.bodies + 1))  # elongation of each spring
         place = meshes + np.arange(machines)[:, None]
-        np.add.at(rows, (np.arange(meshes)[:, None], train.body[:meshes]), train.sign[:meshes])
-        np.add.at(rows, (place, train.coupling[coupling]), [1.0, -1.0])
+        np.add.at(
+            rows, (np.arange(meshes)[:, None], train.mesh.body[:meshes]), train.mesh.sign[:meshes]
+        )
+        np.add.at(rows, (place, train.coupling.ends[coupling]), [1.0, -1.0])
         basis = _basis(train, _masses(scene, train))
         stretch = rows[:, :-1] @ basis  # the ground is at rest
         stretch[:, : train.axes] = 0.0  # rigid motion: exactly zero, without rounding
@@ -213,8 +219,8 @@ class LinearTrain:
         """
         train, stretch = self._train, self._stretch
         tau = np.array([damping_time(train, kind, mesh_frequency) for kind in range(2)])
-        shafts = train.coupling_damping[: train.machines]
-        dampers = np.concatenate([self._mesh * tau[train.kind[: train.meshes]], shafts])
+        shafts = train.coupling.damping[: train.machines]
+        dampers = np.concatenate([self._mesh * tau[train.mesh.kind[: train.meshes]], shafts])
         damping = (stretch.T * dampers) @ stretch
         return Loop(damping, self._stiffness, self._proportional, self._integral)
 
@@ -226,10 +232,10 @@ def linear_loop(scene: Scene, train: Train, mesh_frequency: float) -> Loop:
 
 def _masses(scene: Scene, train: Train) -> np.ndarray:
     """Masses of the bodies [kg], (bodies,); very large where motion is given."""
-    mass = train.mass[: train.bodies].copy()
+    mass = train.body.mass[: train.bodies].copy()
     for place, port in enumerate(scene.drive.ports):
         if port in MOVED:
-            mass[train.coupling[place, 0]] = IMMOVABLE * mass.sum()
+            mass[train.coupling.ends[place, 0]] = IMMOVABLE * mass.sum()
     return mass
 
 
@@ -237,21 +243,21 @@ def _basis(train: Train, mass: np.ndarray) -> np.ndarray:
     """Coordinates of `TRAIN` by those of a `Loop`, shape (bodies, bodies)."""
     own, axes = slice(train.bodies), int(train.axes)
     root = np.sqrt(mass)[:, None]
-    rigid = root * train.radius[own, None] * train.ratio[own, :axes]
+    rigid = root * train.body.radius[own, None] * train.body.ratio[own, :axes]
     return np.asarray(np.linalg.qr(rigid, mode="complete")[0] / root)
 
 
 def _feedback(scene: Scene, train: Train) -> np.ndarray:
     """P and I [kg] in the coordinates of `Train`, shape (2, bodies, bodies)."""
-    gains, machines = speed_loop_gains(scene, train, 0.5 / math.pi), train.coupling[:, 0]
+    gains, machines = speed_loop_gains(scene, train, 0.5 / math.pi), train.coupling.ends[:, 0]
     feedback = np.zeros((2, train.bodies, train.bodies))
     load = machines[LOAD_MACHINE]
-    feedback[0, load, load] = gains.load_proportional * train.inverse_radius[load] ** 2
+    feedback[0, load, load] = gains.load_proportional * train.body.inverse_radius[load] ** 2
     for a in range(train.axes):
         motor = machines[2 * a]
-        feedback[0, motor, motor] = gains.proportional[a] * train.inverse_radius[motor] ** 2
+        feedback[0, motor, motor] = gains.proportional[a] * train.body.inverse_radius[motor] ** 2
         for c in range(train.machines):
-            lever = train.inverse_radius[motor] * train.inverse_radius[machines[c]]
+            lever = train.body.inverse_radius[motor] * train.body.inverse_radius[machines[c]]
             feedback[1, machines[c], motor] += gains.trim[c, a] * lever
     return feedback
 
@@ -265,7 +271,7 @@ class SpeedLoopCheck:
     """
 
     def __init__(self, scene: Scene, train: Train) -> None:
-        self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
+        self._cycles, self._chosen = train.cycle.per_turn.copy(), bandwidth(scene)
         self._is_default = scene.drive.speed_control.bandwidth is None
         self._linear = LinearTrain(scene, train)
         # A brake is never refused.

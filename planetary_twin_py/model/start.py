@@ -7,7 +7,17 @@ meshes excite.
 
 from __future__ import annotations
 
-from .._core import BY_MACHINE, BY_MOTION, BY_TORQUE, Load, Model, PortStates, State, Train, load_at
+from .._core import (
+    BY_MACHINE,
+    BY_MOTION,
+    BY_TORQUE,
+    Model,
+    Operation,
+    PortStates,
+    State,
+    Train,
+    operation_at,
+)
 from ..scene import OperatingPoint, Scene
 from .bodies import MOTOR, build_bodies
 from .clock import Instant
@@ -26,8 +36,8 @@ _CAUSALITIES = {
 }
 
 
-class LoadBuilder:
-    """Builds the loads of a train for any operating point.
+class OperationBuilder:
+    """Builds what follows from an operating point of a train.
 
     Args:
         scene: scene of the drive.
@@ -37,28 +47,28 @@ class LoadBuilder:
     def __init__(self, scene: Scene, train: Train) -> None:
         self.laws = point_laws(scene, train, [_CAUSALITIES[port] for port in scene.drive.ports])
 
-    def build(self, point: OperatingPoint) -> Load:
-        """Loads at an operating point.
+    def build(self, point: OperatingPoint) -> Operation:
+        """Backlash, torques and speeds at an operating point.
 
         Given torques and speeds are those of steady running there.
         """
-        load: Load = load_at(self.laws, record_of(point))
-        return load
+        operation: Operation = operation_at(self.laws, record_of(point))
+        return operation
 
 
-def begin_given(load: Load, now: Instant, shown: PortStates) -> None:
+def begin_given(operation: Operation, now: Instant, shown: PortStates) -> None:
     """Let given torques and motions begin as the ports show them at `now`."""
-    torque = load.torque.copy()
+    torque = operation.torque.copy()
     for port, value in enumerate((shown.input_torque, shown.output_torque)):
-        if load.port[port] == BY_TORQUE:
+        if operation.port[port] == BY_TORQUE:
             torque[port] = value
-    load.torque, load.speed = torque, [shown.input_speed, shown.output_speed]
-    load.since_seconds, load.since = now
+    operation.torque, operation.speed = torque, [shown.input_speed, shown.output_speed]
+    operation.since_seconds, operation.since = now
 
 
-def build_load(scene: Scene, point: OperatingPoint, train: Train) -> Load:
-    """Loads on the train at an operating point."""
-    return LoadBuilder(scene, train).build(point)
+def build_operation(scene: Scene, point: OperatingPoint, train: Train) -> Operation:
+    """Backlash, torques and speeds at an operating point."""
+    return OperationBuilder(scene, train).build(point)
 
 
 def start_state(scene: Scene, model: Model) -> tuple[State, str]:
@@ -71,10 +81,10 @@ def start_state(scene: Scene, model: Model) -> tuple[State, str]:
     Returns:
         The state; and a warning if axes that move are not in equilibrium there, else "".
     """
-    speed = model.load.target_speed.copy()
+    speed = model.operation.target_speed.copy()
     if scene.drive.speed_control.start_speed is not None:
         speed[0] = scene.drive.speed_control.start_speed
-    force = mesh_force(scene, float(model.load.torque[MOTOR]))
+    force = mesh_force(scene, float(model.operation.torque[MOTOR]))
     state, unbalanced, body = library(scene).initial_state(model, speed, force)
     if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
         return state, ""

@@ -29,7 +29,10 @@ TEETH_KEPT = 256
 
 
 class Teeth(NamedTuple):
-    """Fields of `Train`, with a first length of 2 for sun-planet and planet-ring meshes."""
+    """Fields of the teeth of `Train`, and the factors of its faults.
+
+    A first length of 2 is for sun-planet and planet-ring meshes.
+    """
 
     stiffness: np.ndarray
     stiffness_base: np.ndarray

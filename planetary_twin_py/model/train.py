@@ -21,7 +21,7 @@ from ..scene import OperatingPoint, Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
 from .drag import build_drag
 from .meshes import build_meshes
-from .moving_axes import moving_fields
+from .moving_axes import move_axes
 from .stiffness_laws import stiffness_follows_load
 
 TRAINS_KEPT = 16
@@ -53,40 +53,47 @@ def unloaded(scene: Scene) -> Scene:
 @lru_cache(maxsize=TRAINS_KEPT)
 def _built(scene: Scene) -> Train:
     bodies = build_bodies(scene)
-    radii = base_radii(scene)
-    meshes = build_meshes(scene, bodies)
-    pitch = meshes["base_pitch"]
-    fields = {
-        "bodies": len(bodies.mass) - 1,
-        "axes": len(scene.drive.inputs),
-        "body_copies": bodies.copies,
+    groups = {
+        "body": _body_arrays(bodies),
+        "coupling": _couplings(scene, bodies),
+        "cycle": _cycles(scene),
+        **build_meshes(scene, bodies),
+        **build_drag(scene, bodies),
+    }
+    moving = move_axes(scene, bodies, groups) if scene.moving_axes else None
+    groups["mesh"]["spin_ratio"] = _spin_ratio(groups["body"]["ratio"], groups["mesh"]["body"])
+    count, meshes = len(bodies.mass) - 1, len(groups["mesh"]["kind"])
+    train = (axes.Train if scene.moving_axes else Train)(
+        bodies=count,
+        meshes=meshes,
+        lanes=-(-max(count, meshes) // REGISTER) * REGISTER,
+        axes=len(scene.drive.inputs),
+        machines=len(machines(scene)),
+        sun=bodies.place["sun"],
+        carrier=bodies.place["carrier"],
+        friction=scene.lubrication.friction,
+        printed_torque=scene.lubrication.friction_torque == "printed",
+    )
+    for group, fields in groups.items():
+        for name, value in fields.items():
+            setattr(getattr(train, group), name, value)
+    if moving is not None:
+        train.moving = moving
+    return train
+
+
+def _body_arrays(bodies: Bodies) -> dict[str, Any]:
+    return {
+        "copies": bodies.copies,
         "mass": bodies.copies * bodies.mass,
         "radius": bodies.radius,
         "inverse_radius": 1.0 / bodies.radius,
         "ratio": bodies.ratio,
-        "sun": bodies.place["sun"],
-        "carrier": bodies.place["carrier"],
-        "sun_advance": 1.0 / pitch,
-        "carrier_advance": -radii["sun"] / radii["carrier"] / pitch,
-        "friction": scene.lubrication.friction,
-        "printed_torque": scene.lubrication.friction_torque == "printed",
-        **_cycles(scene),
-        **_couplings(scene, bodies),
-        "lever": 1.0 / bodies.radius[np.asarray(meshes["body"])].T,
-        **meshes,
-        **build_drag(scene, bodies),
     }
-    if scene.moving_axes:
-        fields = moving_fields(scene, bodies, fields)
-    fields["spin_ratio"] = _spin_ratio(fields)
-    if scene.moving_axes:
-        return axes.Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
-    return Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
 
 
-def _spin_ratio(fields: dict[str, Any]) -> np.ndarray:
+def _spin_ratio(ratio: np.ndarray, body: np.ndarray) -> np.ndarray:
     """Rigid speeds of the gears of meshes relative to the carrier, a row for each input."""
-    ratio, body = np.asarray(fields["ratio"]), np.asarray(fields["body"])
     spin: np.ndarray = ratio[body[:, :2]] - ratio[body[:, 2:3]]
     return spin.transpose(1, 2, 0)
 
@@ -94,16 +101,16 @@ def _spin_ratio(fields: dict[str, Any]) -> np.ndarray:
 def lightest_body(train: Train) -> float:
     """Least J/r^2 [kg] of a single body."""
     own = slice(train.bodies)
-    return float((train.mass[own] / train.body_copies[own]).min())
-
-
-def _whole_registers(count: int) -> int:
-    return -(-count // REGISTER) * REGISTER
+    return float((train.body.mass[own] / train.body.copies[own]).min())
 
 
 def _cycles(scene: Scene) -> dict[str, Any]:
-    """Mesh cycles per turn of each input, as fractions, so that whole turns add no error."""
-    ratios = rigid_ratios(scene)
+    """How the meshes go through their cycles.
+
+    Cycles per turn of each input are fractions, so that whole turns add no error.
+    """
+    ratios, radii = rigid_ratios(scene), base_radii(scene)
+    pitch = scene.gearset.geometry.meshes[0].base_pitch
     inputs = range(len(ratios["sun"]))
     cycles = [
         mesh_cycles_per_turn(
@@ -114,9 +121,11 @@ def _cycles(scene: Scene) -> dict[str, Any]:
     denominators = np.ones(AXES, dtype=int)
     denominators[: len(cycles)] = [cycle.denominator for cycle in cycles]
     return {
-        "cycles": np.array([float(cycle) for cycle in cycles]),
-        "cycles_numerator": np.array([cycle.numerator for cycle in cycles]),
-        "cycles_denominator": denominators,
+        "per_turn": np.array([float(cycle) for cycle in cycles]),
+        "numerator": np.array([cycle.numerator for cycle in cycles]),
+        "denominator": denominators,
+        "sun_advance": 1.0 / pitch,
+        "carrier_advance": -radii["sun"] / radii["carrier"] / pitch,
     }
 
 
@@ -128,8 +137,7 @@ def _couplings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     damping = np.array([machine.coupling_damping for machine in found.values()])
     place = bodies.place
     return {
-        "machines": len(found),
-        "coupling": np.array([[place[name], place[m.member]] for name, m in found.items()]),
-        "coupling_stiffness": stiffness / squares,
-        "coupling_damping": damping / squares,
+        "ends": np.array([[place[name], place[m.member]] for name, m in found.items()]),
+        "stiffness": stiffness / squares,
+        "damping": damping / squares,
     }

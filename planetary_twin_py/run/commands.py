@@ -138,10 +138,10 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
     Returns:
         Limits at input and output: those of the drive, and these converted by the gear ratio.
     """
-    drive, bodies = scene.drive, train.coupling[[MOTOR, LOAD_MACHINE], 0]
+    drive, bodies = scene.drive, train.coupling.ends[[MOTOR, LOAD_MACHINE], 0]
     ranges: PortRanges = library(scene).PortRanges(
         torque=drive.torque_limit * np.abs(static_torques(scene)[[MOTOR, LOAD_MACHINE]]),
-        speed=drive.speed_limit * np.abs(train.ratio[bodies]).sum(axis=1),
+        speed=drive.speed_limit * np.abs(train.body.ratio[bodies]).sum(axis=1),
     )
     return ranges
 

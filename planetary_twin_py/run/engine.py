@@ -46,7 +46,7 @@ from ..model.mesh_sums import MeshSums, clear, mesh_sums
 from ..model.oil import build_oil
 from ..model.planet_bearings import check_planet_bearings
 from ..model.speed_loop import SpeedLoopCheck, bandwidth
-from ..model.start import LoadBuilder, start_state
+from ..model.start import OperationBuilder, start_state
 from ..model.train import build_train, held_axes
 from ..scene import OperatingPoint, Scene
 from .energy import EnergyBooks
@@ -94,8 +94,8 @@ class Engine:
             if speed is not None:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
                 self._speed_loop.check(where)
-        self._loads = LoadBuilder(scene, self.train)
-        self._scale = StepScale(scene, self.train, self._loads.laws)
+        self._operations = OperationBuilder(scene, self.train)
+        self._scale = StepScale(scene, self.train, self._operations.laws)
         self._given = False
         self._oil = build_oil(scene, scene.operating_point)
         self._oil_temperature = scene.operating_point.oil_temperature
@@ -119,15 +119,16 @@ class Engine:
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
         self._load_oil(point)
-        load = self._loads.build(point)
+        operation = self._operations.build(point)
         if self._given:  # values given at ports do not depend on the operating point
-            keep_given(record_in(_core, self.model.load), load)
-        self.model.load, self._given = record_in(self._core, load), self.scene.drive.ports.given
+            keep_given(record_in(_core, self.model.operation), operation)
+        self.model.operation = record_in(self._core, operation)
+        self._given = self.scene.drive.ports.given
         control, scale = self.integrator.control, self._scale
         control.tolerance = self.tolerance
         control.deflection = scale.deflection(point)
         control.elastic_deflection = scale.elastic_deflection(point)
-        control.acceleration_deflection = scale.acceleration_deflection(self.model.load)
+        control.acceleration_deflection = scale.acceleration_deflection(self.model.operation)
         control.speed_per_deflection = scale.speed_per_deflection
         points = next(n for least, n in POINTS if self.tolerance > least)
         if self.integrator.run.nodes.count != points:
@@ -145,10 +146,10 @@ class Engine:
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""
         periodic = self.integrator.periodic
-        rippled = self.model.load.ripple != 0.0
+        rippled = self.model.operation.ripple != 0.0
         if rippled not in self._cycles:
             may_repeat = self._may_repeat and not self.scene.drive.ports.given
-            cycles = common_cycles(self.train, self.model.load) if may_repeat else 0
+            cycles = common_cycles(self.train, self.model.operation) if may_repeat else 0
             self._cycles[rippled] = cycles
         cycles = self._cycles[rippled]
         if cycles > 0:
@@ -223,7 +224,7 @@ class Engine:
             if outcome == NOT_FINITE:
                 raise ArithmeticError(NO_FINITE_STATE)
             if outcome == EXCEEDED:
-                self._limits.check_window(end, self.model.load)
+                self._limits.check_window(end, self.model.operation)
         except ArithmeticError as reason:
             self._fail(reason)
 
@@ -237,7 +238,7 @@ class Engine:
     def _fail(self, reason: ArithmeticError) -> NoReturn:
         if str(reason) == NO_FINITE_STATE:
             try:
-                self._limits.check_progress(self.integrator, self.model.load)
+                self._limits.check_progress(self.integrator, self.model.operation)
             except ArithmeticError as cause:
                 reason = cause
         self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
@@ -282,7 +283,7 @@ class Engine:
     def _check(self, samples: Samples) -> None:
         """Raise an `ArithmeticError` if the train exceeds a limit."""
         limits = self._limits
-        limits.check_deflection(samples, self.model.load)
+        limits.check_deflection(samples, self.model.operation)
         limits.check_displacements(samples.moved, samples.tilting)
         limits.speed.check(samples.speed)
         limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
@@ -326,8 +327,8 @@ class Engine:
 
     @property
     def laws(self) -> PointLaws:
-        """How the loads depend on the operating point."""
-        return self._loads.laws
+        """How the operation depends on the operating point."""
+        return self._operations.laws
 
     @property
     def control(self) -> Control:

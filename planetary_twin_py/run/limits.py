@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from .. import _core
-from .._core import DTE, IMPULSE, Integrator, Load, Train, WindowEnd
+from .._core import DTE, IMPULSE, Integrator, Operation, Train, WindowEnd
 from ..model.bodies import MACHINE_NAMES, MeshNames, build_bodies, mesh_names
 from ..model.library import library
 from ..model.limits import Limit, displacement_limit
@@ -49,19 +49,19 @@ class Limits:
 
     def __init__(self, scene: Scene, train: Train) -> None:
         drive, meshes = scene.drive, mesh_names(scene)
-        size = np.hypot(train.line_tangential, train.line_radial)
+        size = np.hypot(train.errors.tangential, train.errors.radial)
         self._errors = size.sum(axis=1)[: train.meshes]
         self._train = train
         self.deflection = Limit(
             "deflection",
             "m",
             _mesh_names(meshes, int(train.meshes)),
-            np.full(train.meshes, train.base_pitch),
+            np.full(train.meshes, train.geometry.base_pitch),
             "a base pitch, at which teeth break or jump; reduce the torques or increase the "
             "stiffness",
         )
         """Of the mesh deflection, see `check_deflection`."""
-        ratios = np.abs(train.ratio[: train.bodies]).sum(axis=1)
+        ratios = np.abs(train.body.ratio[: train.bodies]).sum(axis=1)
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
         self.speed = Limit(
             "speed",
@@ -93,19 +93,19 @@ class Limits:
         )
         """All of them for the core, which finds whether a window exceeds one."""
 
-    def check_deflection(self, samples: Samples, load: Load) -> None:
+    def check_deflection(self, samples: Samples, operation: Operation) -> None:
         """Check the mesh deflection along the line of action.
 
         Its lower bound is |DTE| minus half the backlash and the largest form errors.
 
         Args:
             samples: of the meshes.
-            load: gives the backlash.
+            operation: gives the backlash.
 
         Raises:
             ArithmeticError: a deflection exceeds its limit, or is NaN.
         """
-        self._check_dte(np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0), load)
+        self._check_dte(np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0), operation)
 
     def check_displacements(self, moved: np.ndarray, tilting: np.ndarray) -> None:
         """Check the displacements of axes, if these move.
@@ -133,12 +133,12 @@ class Limits:
             moved = waves.displacement.reshape(rows, bearings, 2)
             self.check_displacements(moved, waves.tilting.reshape(rows, bearings, -1))
 
-    def check_progress(self, integrator: Integrator, load: Load) -> None:
+    def check_progress(self, integrator: Integrator, operation: Operation) -> None:
         """Check a run that the core has stopped: whether it runs away, or makes no progress.
 
         Args:
             integrator: of the run, after its last step.
-            load: gives the backlash.
+            operation: gives the backlash.
 
         Raises:
             ArithmeticError: a deflection exceeds its limit, or steps advance the run by hardly any
@@ -148,8 +148,8 @@ class Limits:
             return
         train, begin, end = self._train, integrator.begin, integrator.end
         meshes = int(train.meshes)
-        motions = (train.sign[:meshes] * end.x[train.body[:meshes]]).sum(axis=1)
-        self._check_dte(np.abs(motions), load)
+        motions = (train.mesh.sign[:meshes] * end.x[train.mesh.body[:meshes]]).sum(axis=1)
+        self._check_dte(np.abs(motions), operation)
         parted = np.flatnonzero(begin.side[:meshes] != end.side[:meshes])
         keeps = (
             f"flanks of {self.deflection.names[parted[0]]} engage and separate again and again; "
@@ -163,30 +163,31 @@ class Limits:
             f"{keeps}"
         )
 
-    def check_window(self, end: WindowEnd, load: Load) -> None:
+    def check_window(self, end: WindowEnd, operation: Operation) -> None:
         """Check deflections and speeds of the samples of a window, and the torques at its end.
 
         Args:
             end: of the window.
-            load: gives the backlash.
+            operation: gives the backlash.
 
         Raises:
             ArithmeticError: one of them exceeds its limit, or is NaN.
         """
         machines = len(self.torque.largest)
-        self._check_dte(end.peaks.dte[: len(self._errors)], load)
+        self._check_dte(end.peaks.dte[: len(self._errors)], operation)
         self.speed.check(end.peaks.speed[None, : len(self.speed.largest)])
         self.torque.check(end.power[None, IMPULSE : IMPULSE + machines])
 
-    def _check_dte(self, largest: np.ndarray, load: Load) -> None:
+    def _check_dte(self, largest: np.ndarray, operation: Operation) -> None:
         """Check deflections by the largest |DTE|, (meshes,); NaN if there is one."""
-        self.deflection.check(np.maximum(largest - load.half_backlash - self._errors, 0.0)[None])
+        least = largest - operation.backlash.half - self._errors
+        self.deflection.check(np.maximum(least, 0.0)[None])
 
 
 def _inertia(train: Train) -> float:
     """Largest inertia of the whole train, referred to a motor [kg m^2]."""
-    squares = train.mass * train.radius**2
-    return float((squares[:, None] * train.ratio**2).sum(axis=0).max())
+    squares = train.body.mass * train.body.radius**2
+    return float((squares[:, None] * train.body.ratio**2).sum(axis=0).max())
 
 
 def _displaces(scene: Scene) -> list[bool]:

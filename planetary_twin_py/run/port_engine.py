@@ -11,7 +11,7 @@ from .._core import PORTS, REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
 from ..model.bodies import MOTOR
 from ..model.clock import NEVER, TICKS, Instant, instant, instant_of_ticks, sampling
 from ..model.speed_loop import SpeedLoopCheck
-from ..model.start import LoadBuilder, begin_given
+from ..model.start import OperationBuilder, begin_given
 from ..model.train import build_train, held_axes
 from ..scene import OperatingPoint, Scene
 from .braking import Braking, braking
@@ -81,21 +81,21 @@ class DrivenEngine(Engine):
         if self._failure is not None:
             raise self._failure
         speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
-        loads = LoadBuilder(scene, self.train)
+        operations = OperationBuilder(scene, self.train)
         speed_loop.check(point)
         ticks = int(time * TICKS)
         self.apply_command(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
         self._ports_set = ticks
         shown = self.port_states(ticks)
         self._end_step(time)
-        self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
+        self.scene, self._speed_loop, self._operations = scene, speed_loop, operations
         self._given = False
         self._cycles.clear()
-        gain = self.model.load.trim_gain.copy()
+        gain = self.model.operation.trim_gain.copy()
         self._load(point)
         if scene.drive.ports.given:
-            begin_given(self.model.load, instant(time), shown)
-        share = kept_trim(gain, self.model.load.trim_gain)
+            begin_given(self.model.operation, instant(time), shown)
+        share = kept_trim(gain, self.model.operation.trim_gain)
         self._end.trim = share * self._end.trim
         if share[0] == 0.0:
             self._end.set_speed[0] = shown.input_speed
@@ -112,8 +112,8 @@ class DrivenEngine(Engine):
             return
         if self.scene.drive.output.port == "torque":
             self._give(ticks, ticks, Command(output_torque=0.0))
-        speed, slew_rate = self.model.load.speed[MOTOR], self.scene.drive.speed_control.slew_rate
-        self._braking = braking(ticks, float(speed), slew_rate)
+        slew_rate = self.scene.drive.speed_control.slew_rate
+        self._braking = braking(ticks, float(self.model.operation.speed[MOTOR]), slew_rate)
         self._give(ticks, self._braking.rest, Command(input_speed=0.0))
 
     def _give(self, begin: int, end: int, command: Command) -> None:

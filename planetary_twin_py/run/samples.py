@@ -64,7 +64,7 @@ def bearings_of(train: Train) -> int:
 
 def tilts(train: Train) -> bool:
     """Whether the axes tilt: then the rows of the meshes fill their room."""
-    return bearings_of(train) > 0 and int(train.moving.entries) == train.sign.shape[1]
+    return bearings_of(train) > 0 and int(train.moving.entries) == train.mesh.sign.shape[1]
 
 
 def new_samples(train: Train, room: int) -> Samples:

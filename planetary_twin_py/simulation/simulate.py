@@ -165,7 +165,7 @@ def _travel(begin: np.ndarray, end: np.ndarray) -> np.ndarray:
 def _angles(engine: Run, samples: Samples) -> np.ndarray:
     """Angles of the integrated bodies [rad], (samples, bodies)."""
     train = engine.train
-    turned = 2.0 * math.pi * samples.turns @ train.ratio[: train.bodies].T
+    turned = 2.0 * math.pi * samples.turns @ train.body.ratio[: train.bodies].T
     return np.asarray(turned + samples.angle)
 
 

@@ -47,7 +47,7 @@ class Section:
         names, self._meshes = body_names(scene), mesh_names(scene).place
         # Sun and carrier: their indices among the bodies, and their turns per turn of each motor.
         self._places = names.place[[names.names.index("sun"), names.names.index("carrier")]]
-        self._ratio = self._run.train.ratio[self._places]
+        self._ratio = self._run.train.body.ratio[self._places]
         self._teeth, self._phase = scene.gearset.teeth.sun, phase
         self._set_mesh_frequency()
         self._time = Fraction(0)

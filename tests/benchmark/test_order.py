@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from planetary_twin_benchmark.peers.problem import Problem
 from planetary_twin_benchmark.reference import Reference
+from planetary_twin_core_parts import runge_kutta_4, semi_implicit_euler
 
-from planetary_twin_py._core import DTE, runge_kutta_4, semi_implicit_euler
+from planetary_twin_py._core import DTE
 from planetary_twin_py.scene import load_scene
 
 DURATION = 5e-4  # [s] a quarter of a mesh period

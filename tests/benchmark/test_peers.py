@@ -14,9 +14,10 @@ from planetary_twin_benchmark.peers.solvers import SOLVERS, run
 from planetary_twin_benchmark.reference import Reference
 from planetary_twin_benchmark.table import dte_error
 from planetary_twin_benchmark.timing import SAMPLE_RATE
+from planetary_twin_core_parts import derivative
 from typer.testing import CliRunner
 
-from planetary_twin_py._core import DTE, Evaluation, begin_step, derivative, forces
+from planetary_twin_py._core import DTE, Evaluation, begin_step, forces
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene, packaged_scenes
@@ -64,8 +65,8 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     engine, problem, out = Engine(scene, 1e-5), Problem(scene), Evaluation()
     train, integrator, n = engine.train, engine.integrator, problem.bodies
     start, own = problem.record.start, problem.record.state
-    motors, meshes = train.coupling[: 2 * problem.axes : 2, 0], problem.meshes
-    rigid, radius = train.ratio[:n], train.radius[:n]
+    motors, meshes = train.coupling.ends[: 2 * problem.axes : 2, 0], problem.meshes
+    rigid, radius = train.body.ratio[:n], train.body.radius[:n]
     compared = 0
     for until in np.sort(random.uniform(1e-4, 0.02, 60)):
         engine.advance(until, 1, 1.0, 0)
@@ -93,7 +94,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
         ):
             continue  # the integrator begins many steps at an edge
         compared += 1
-        acceleration = out.force[:n] / train.mass[:n]
+        acceleration = out.force[:n] / train.body.mass[:n]
         lag = begin.set_speed - begin.speed
         np.testing.assert_array_equal(dy[:n], y[n : 2 * n])
         np.testing.assert_allclose(

@@ -25,12 +25,12 @@ def stiffness_matrix(train, state):
     matrix = np.zeros((train.bodies + 1, train.bodies + 1))
     for i in range(train.meshes):
         row = np.zeros(train.bodies + 1)
-        np.add.at(row, train.body[i], train.sign[i])
+        np.add.at(row, train.mesh.body[i], train.mesh.sign[i])
         matrix += state.stiffness[i] * np.outer(row, row)
     for c in range(train.machines):
         row = np.zeros(train.bodies + 1)
-        row[train.coupling[c]] = 1.0, -1.0
-        matrix += train.coupling_stiffness[c] * np.outer(row, row)
+        row[train.coupling.ends[c]] = 1.0, -1.0
+        matrix += train.coupling.stiffness[c] * np.outer(row, row)
     return matrix[: train.bodies, : train.bodies]
 
 
@@ -50,7 +50,9 @@ def test_modes_have_unit_mass_and_diagonalise_the_stiffness(changes):
     for k in range(known.count):
         state = known.state(k)
         shapes, square = state.shapes[:n, :n], state.square[:n]
-        assert shapes @ np.diag(train.mass[:n]) @ shapes.T == pytest.approx(np.eye(n), abs=1e-12)
+        assert shapes @ np.diag(train.body.mass[:n]) @ shapes.T == pytest.approx(
+            np.eye(n), abs=1e-12
+        )
         modal = shapes @ stiffness_matrix(train, state) @ shapes.T
         assert modal == pytest.approx(np.diag(square), abs=1e-12 * square.max())
         assert (np.diff(square) >= 0.0).all()

@@ -5,15 +5,9 @@ import itertools
 import numpy as np
 import pytest
 from lubrication.friction_laws import FRICTION_LAWS
+from planetary_twin_core_parts import SLOWEST_ROLLING, evaluate
 
-from planetary_twin_py._core import (
-    CREEPING,
-    SLOWEST_ROLLING,
-    Model,
-    ToothPairs,
-    evaluate,
-    tooth_contact,
-)
+from planetary_twin_py._core import CREEPING, Model, ToothPairs, tooth_contact
 from planetary_twin_py.model.oil import build_oil
 from planetary_twin_py.scene import friction_table, load_scene
 

@@ -2,19 +2,15 @@
 
 import numpy as np
 import pytest
-
-from planetary_twin_py._core import (
-    BODIES,
+from planetary_twin_core_parts import (
     PAIR_CAPACITY,
-    Evaluation,
-    StepConstants,
     evaluate,
-    forces,
     friction_damping,
     pass_bristles,
-    set_step_constants,
     turn_pairs,
 )
+
+from planetary_twin_py._core import BODIES, Evaluation, StepConstants, forces, set_step_constants
 from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 
@@ -45,7 +41,7 @@ def test_friction_damps_as_its_slope_along_sliding_of_every_pair(name):
 
     still = sliding(np.zeros(BODIES))
     rows = np.array([sliding(np.eye(BODIES)[j]) - still for j in range(bodies)]).T
-    copies = np.array([train.copies[k % meshes] for k in range(count)])
+    copies = np.array([train.mesh.copies[k % meshes] for k in range(count)])
     expected = (rows * (copies * slope)[:, None]).T @ rows
     assert np.abs(expected).max() > 0.0
     close = 1e-9 * np.abs(expected).max()
@@ -57,22 +53,22 @@ def test_bristles_stay_with_their_teeth_through_a_whole_cycle(kind):
     """Forth and back over every edge a pair that is there on both sides keeps its share."""
     model, _ = at_start(load_scene("paper"))
     train = model.train
-    meshes, slots = int(train.meshes), int(train.slots)
+    meshes, slots = int(train.meshes), int(train.teeth.slots)
     mesh = kind * meshes // 2
     others = [k for k in range(slots * meshes) if k % meshes != mesh]
-    count = int(train.segments[kind])
+    count = int(train.teeth.segments[kind])
     for segment in range(count):
         share = np.zeros(PAIR_CAPACITY)
         share[others] = 0.25
-        own = [p * meshes + mesh for p in range(int(train.present[kind, segment]))]
+        own = [p * meshes + mesh for p in range(int(train.teeth.present[kind, segment]))]
         share[own] = 0.5 + np.arange(len(own)) / 8
         after = (segment + 1) % count
         wrap = 1.0 if after == 0 else 0.0
-        teeth = {train.shift[kind, segment, p]: share[own[p]] for p in range(len(own))}
+        teeth = {train.teeth.shift[kind, segment, p]: share[own[p]] for p in range(len(own))}
         passed = share.copy()
         pass_bristles(train, passed, mesh, segment, 1)
-        there = int(train.present[kind, after])
-        expected = [teeth.get(train.shift[kind, after, p] - wrap, 0.0) for p in range(there)]
+        there = int(train.teeth.present[kind, after])
+        expected = [teeth.get(train.teeth.shift[kind, after, p] - wrap, 0.0) for p in range(there)]
         assert passed[mesh : there * meshes : meshes].tolist() == expected
         assert (passed[others] == 0.25).all()
         assert np.count_nonzero(expected) >= 1  # a mesh never goes without a tooth pair

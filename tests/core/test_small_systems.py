@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import factorise, solve
 
-from planetary_twin_py._core import BODIES, factorise, solve
+from planetary_twin_py._core import BODIES
 
 
 @pytest.mark.parametrize("size", [1, 2, 5, 8, 13, BODIES])

@@ -4,17 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import combine, combine_both, exp, log, power, precise_exp, sin_cos
 
-from planetary_twin_py._core import (
-    BODIES,
-    combine,
-    combine_both,
-    exp,
-    log,
-    power,
-    precise_exp,
-    sin_cos,
-)
+from planetary_twin_py._core import BODIES
 
 
 def test_exp_is_accurate_over_the_whole_double_range():

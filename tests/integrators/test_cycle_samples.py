@@ -41,7 +41,7 @@ def repeating(scene, tolerance):
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_interpolated_samples_are_those_of_the_computed_step(scene, tolerance):
     engine, time = repeating(scene, tolerance)
-    meshes, ratio = int(engine.train.meshes), engine.train.ratio[: engine.train.bodies, 0]
+    meshes, ratio = int(engine.train.meshes), engine.train.body.ratio[: engine.train.bodies, 0]
     period = 2.0 / 500.0
     shown, computed = (new_samples(engine.train, INSTANTS) for _ in range(2))
     for n in range(INSTANTS):
@@ -62,7 +62,7 @@ def test_interpolated_samples_are_those_of_the_computed_step(scene, tolerance):
         # Polynomials are tried at five places of each piece, so elsewhere they may err by more.
         allowed = 2.0 * SHARE * tolerance * largest
         assert np.nanmax(np.abs(shown.mesh[:, q] - computed.mesh[:, q])) <= allowed, q
-    deflection = engine.control.deflection / engine.train.radius[: engine.train.bodies]
+    deflection = engine.control.deflection / engine.train.body.radius[: engine.train.bodies]
     turned = 2.0 * np.pi * (shown.turns[:, :1] - computed.turns[:, :1]) * ratio
     angles = np.abs(turned + shown.angle - computed.angle)
     assert (angles <= 2.0 * SHARE * tolerance * deflection + 1e-12).all()

@@ -2,18 +2,17 @@
 
 import numpy as np
 import pytest
-
-from planetary_twin_py._core import (
+from planetary_twin_core_parts import (
     NO_MESH,
     accept,
-    begin_step,
     end_within,
     enter,
-    radau,
     set_step,
     sweep,
     update_nodes,
 )
+
+from planetary_twin_py._core import begin_step, radau
 from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 

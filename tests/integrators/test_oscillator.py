@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import decay_rates, wave
 from scipy.linalg import expm
-
-from planetary_twin_py._core import decay_rates, wave
 
 DAMPING = {  # over the critical one
     "free": 0.0,

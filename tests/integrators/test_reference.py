@@ -29,8 +29,12 @@ def absolute(engine, _=None):
     place = np.append(body_names(engine.scene).place, [bodies - 2, bodies - 1])
     with_ground = slice(bodies + 1)
     turned = 2 * math.pi * (state.turns + state.fraction)
-    angle = train.ratio @ turned + state.x / np.where(train.radius, train.radius, 1.0)
-    speed = train.ratio @ state.speed + state.v / np.where(train.radius, train.radius, 1.0)
+    angle = train.body.ratio @ turned + state.x / np.where(
+        train.body.radius, train.body.radius, 1.0
+    )
+    speed = train.body.ratio @ state.speed + state.v / np.where(
+        train.body.radius, train.body.radius, 1.0
+    )
     y = np.concatenate([angle[with_ground][place], speed[with_ground][place], state.trim[:1]])
     return y, state.side[mesh_names(engine.scene).place]
 

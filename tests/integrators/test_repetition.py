@@ -19,7 +19,7 @@ from planetary_twin_py._core import (
 )
 from planetary_twin_py.model.cycle import common_cycles
 from planetary_twin_py.model.speed_loop import bandwidth
-from planetary_twin_py.model.start import build_load
+from planetary_twin_py.model.start import build_operation
 from planetary_twin_py.model.train import build_train
 from planetary_twin_py.run.engine import Engine
 
@@ -56,7 +56,7 @@ class Settled:
         begin = self.engine.books(0.0)
         samples = self.engine.advance((first + 19) / 20_000, first, 20_000.0, 20)
         self.dte, self.force = samples.mesh[:, DTE], samples.mesh[:, MESH_FORCE]
-        ratio = self.engine.train.ratio[: self.engine.train.bodies]
+        ratio = self.engine.train.body.ratio[: self.engine.train.bodies]
         self.angle = math.tau * samples.turns @ ratio.T + samples.angle
         self.ledger, *gains = self.engine.books((first + 19) / 20_000).since(begin)
         self.gain = sum(gains)
@@ -167,13 +167,13 @@ def test_what_does_not_come_round_is_computed(changes):
 def test_all_is_as_before_when_teeth_and_waves_come_round(changes, cycles):
     scene = PAPER.replace(**changes)
     train = build_train(scene)
-    assert common_cycles(train, build_load(scene, scene.operating_point, train)) == cycles
+    assert common_cycles(train, build_operation(scene, scene.operating_point, train)) == cycles
 
 
 def test_with_two_motors_the_motion_does_not_repeat():
     scene = pt.load_scene("differential")
     train = build_train(scene)
-    assert common_cycles(train, build_load(scene, scene.operating_point, train)) == 0
+    assert common_cycles(train, build_operation(scene, scene.operating_point, train)) == 0
 
 
 RESONANT = PAPER.replace(

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import rosenbrock_step
 from power_flows import FLOWS, scene_of
 
-from planetary_twin_py._core import Workspace, begin_step, forces, rosenbrock_step
+from planetary_twin_py._core import Workspace, begin_step, forces
 from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene
 

@@ -3,7 +3,8 @@
 import math
 from typing import NamedTuple
 
-from planetary_twin_py._core import log_film_thickness
+from planetary_twin_core_parts import log_film_thickness
+
 from planetary_twin_py.lubrication.film import FILM_LAWS
 from planetary_twin_py.model.oil import build_oil
 

@@ -4,14 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-
-from planetary_twin_py._core import (
+from planetary_twin_core_parts import (
     contact_area_function,
     contact_load_function,
     printed_area_function,
     printed_load_function,
 )
+from scipy.integrate import quad
 
 BOTH = pytest.mark.parametrize(
     "function, n", [(contact_area_function, 2.0), (contact_load_function, 2.5)]

@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from planetary_twin_core_parts import bearing_torque
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import bearing_torque
 from planetary_twin_py.model.train import build_train
 
 
@@ -33,7 +33,7 @@ def test_a_roller_bearing_has_its_catalogued_friction():
     train = build_train(pt.load_scene("paper").replace(losses={"planet_bearing": bearing}))
     load, speed = 6200.0, pt.rpm(1000)
     found = bearing_torque(
-        train.joint_no_load_factor[0], train.joint_load_factor[0], 20e-6, speed, load
+        train.joints.no_load_factor[0], train.joints.load_factor[0], 20e-6, speed, load
     )
     assert found == pytest.approx(0.0011 * load * 0.020, rel=0.1)
 

@@ -2,8 +2,8 @@
 
 import pytest
 from lubrication.pitch_point import oil_of, pitch_point
+from planetary_twin_core_parts import boundary_shear
 
-from planetary_twin_py._core import boundary_shear
 from planetary_twin_py.scene import load_scene
 
 

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-
-from planetary_twin_py._core import disc_torque
+from planetary_twin_core_parts import disc_torque
 
 RADIUS, GAP, DENSITY = 0.1, 0.05, 890.0
 

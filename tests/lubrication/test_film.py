@@ -14,8 +14,9 @@ from lubrication.pitch_point import (
     oil_of,
     pitch_point,
 )
+from planetary_twin_core_parts import THINNEST_FILM
 
-from planetary_twin_py._core import THINNEST_FILM, tooth_contact
+from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.scene import load_scene
 
 FILMS = {  # [um] at the pitch point

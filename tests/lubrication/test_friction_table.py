@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 from command_line import run as run_command
+from planetary_twin_core_parts import lambda_ratio_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import lambda_ratio_of, tooth_contact
+from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.model.oil import build_oil
 
 PAPER = pt.load_scene("paper").replace(

@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import ELASTIC, bristle_rate
 from scipy.integrate import quad, solve_ivp
-
-from planetary_twin_py._core import ELASTIC, bristle_rate
 
 DISPLACEMENT = 5e-7
 

@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from planetary_twin_core_parts import rolling_resistance
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import rolling_resistance
 
 ROLLING = {"lubrication.rolling": "goksem_hargreaves"}
 

@@ -3,8 +3,8 @@
 import math
 
 import pytest
+from planetary_twin_core_parts import schlenk_coefficient
 
-from planetary_twin_py._core import schlenk_coefficient
 from planetary_twin_py.lubrication.schlenk import log_schlenk_factor
 
 # FZG gears C in the reports of GEARpie (C. M. C. G. Fernandes, MIT licence): face width [mm], base

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 from lubrication.pitch_point import LOAD, oil_of, pitch_point
+from planetary_twin_core_parts import film_share, lambda_ratio_of
 
-from planetary_twin_py._core import film_share, lambda_ratio_of, tooth_contact
+from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.scene import load_scene
 
 SLIDING = 0.2  # slide-to-roll ratio

@@ -26,29 +26,31 @@ class Oscillator:
     def __init__(self, zeta=0.05, mean=0.1, alternating=0.05, tolerance=1e-6):
         self.zeta, self.alternating = zeta, alternating
         self.model, self.integrator = Model(), Integrator()
-        train, load = self.model.train, self.model.load
+        train, operation = self.model.train, self.model.operation
         train.bodies, train.meshes, train.axes, train.machines = 2, 1, 1, 2
-        train.mass[:3] = 1.0, 1e30, 1.0
-        train.lanes, train.slots, train.copies[0] = 4, 1, 1.0
-        train.radius[:3] = train.inverse_radius[:3] = 1.0
-        train.ratio[MOTOR, 0] = 1.0
-        train.body[0] = MASS, GROUND, GROUND
-        train.sign[0] = 1.0, 0.0, 0.0
+        train.body.mass[:3] = 1.0, 1e30, 1.0
+        train.lanes, train.teeth.slots, train.mesh.copies[0] = 4, 1, 1.0
+        train.body.radius[:3] = train.body.inverse_radius[:3] = 1.0
+        train.body.ratio[MOTOR, 0] = 1.0
+        train.mesh.body[0] = MASS, GROUND, GROUND
+        train.mesh.sign[0] = 1.0, 0.0, 0.0
         train.sun = train.carrier = GROUND
-        train.cycles[0] = 1.0
-        train.cycles_numerator[0] = 1
-        train.cycles_denominator[:] = 1
-        train.stiffness[0] = train.stiffness_base[0] = train.stiffness_factor[0] = 1.0
-        train.lowest_frequency = 1.0
-        train.segments[0], train.present[0, 0], train.terms = 1, 1, 2
-        train.edge[0, 1:] = 1.0
-        train.weight[0, 0, [0, TOTAL], 0] = 1.0
-        train.lines[0], train.line_harmonic[0, 0], train.line_period[:] = 1, 1.0, 1
-        train.coupling[:2] = (MOTOR, GROUND), (MASS, MOTOR)
-        train.coupling_damping[LOAD_MACHINE] = 2.0 * zeta
-        load.half_backlash = load.offset = load.release = 1.0
-        load.torque[LOAD_MACHINE] = mean
-        load.slew_rate = 1.0
+        train.cycle.per_turn[0] = 1.0
+        train.cycle.numerator[0] = 1
+        train.cycle.denominator[:] = 1
+        train.teeth.stiffness[0] = train.teeth.stiffness_base[0] = train.mesh.stiffness_factor[
+            0
+        ] = 1.0
+        train.damping.lowest_frequency = 1.0
+        train.teeth.segments[0], train.teeth.present[0, 0], train.teeth.terms = 1, 1, 2
+        train.teeth.edge[0, 1:] = 1.0
+        train.teeth.weight[0, 0, [0, TOTAL], 0] = 1.0
+        train.errors.lines[0], train.errors.harmonic[0, 0], train.errors.period[:] = 1, 1.0, 1
+        train.coupling.ends[:2] = (MOTOR, GROUND), (MASS, MOTOR)
+        train.coupling.damping[LOAD_MACHINE] = 2.0 * zeta
+        operation.backlash.half = operation.backlash.offset = operation.backlash.release = 1.0
+        operation.torque[LOAD_MACHINE] = mean
+        operation.slew_rate = 1.0
         self.integrator.run.nodes = radau(5)
         control = self.integrator.control
         control.tolerance, control.speed_per_deflection = tolerance, 1.0
@@ -69,9 +71,9 @@ class Oscillator:
             self.integrator,
             Instant(self.integrator.end.seconds, self.integrator.end.time),
         )
-        self.model.train.line_tangential[0, 0] = self.error = size
+        self.model.train.errors.tangential[0, 0] = self.error = size
         self.integrator.end.speed[0] = self.integrator.end.set_speed[0] = ratio
-        self.model.load.target_speed[0] = ratio
+        self.model.operation.target_speed[0] = ratio
 
     def run(self, periods):
         """Squeeze x over `periods`, PER_PERIOD samples each."""

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import SLOWEST_TURN, apply_drag
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import BEARING, BODIES, SLOWEST_TURN, Evaluation, apply_drag
+from planetary_twin_py._core import BEARING, BODIES, Evaluation
 from planetary_twin_py.run.engine import Engine
 
 LOSSES = {
@@ -89,7 +90,7 @@ def test_drag_passes_through_standstill_as_bearings_do():
         engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
         out, train = Evaluation(), engine.train
         apply_drag(engine.model, engine.integrator.end, np.zeros(BODIES), out)
-        found.append(float(out.friction_force[train.sun] * train.radius[train.sun]))
+        found.append(float(out.friction_force[train.sun] * train.body.radius[train.sun]))
     assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.error_scale import StepScale
-from planetary_twin_py.model.start import LoadBuilder
+from planetary_twin_py.model.start import OperationBuilder
 from planetary_twin_py.model.train import build_train
 
 PAPER = pt.load_scene("paper").replace(backlash=4e-5)
@@ -22,7 +22,7 @@ MEET = {
 def test_the_scale_adds_the_backlash_where_flanks_meet(law, motion):
     scene = PAPER.replace(**{"mesh.backlash": law, "mesh.motion": motion})
     train = build_train(scene)
-    scale = StepScale(scene, train, LoadBuilder(scene, train).laws)
+    scale = StepScale(scene, train, OperationBuilder(scene, train).laws)
     point = scene.operating_point
     gap = scale.deflection(point) - scale.elastic_deflection(point)
     assert gap == pytest.approx(MEET[law, motion], rel=1e-12)

@@ -5,19 +5,16 @@ import inspect
 import numpy as np
 import pytest
 from lubrication.friction_laws import EXAMPLE_TABLE, FRICTION_LAWS
+from planetary_twin_core_parts import OPEN, copy_segment, find_segment, mesh_motion
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 from planetary_twin_py._core import (
     COAST_SIDE,
     DRIVE_SIDE,
     FRICTION,
-    OPEN,
     Evaluation,
     StepConstants,
-    copy_segment,
-    find_segment,
     forces,
-    mesh_motion,
     set_step_constants,
 )
 from planetary_twin_py.run.engine import Engine
@@ -35,7 +32,7 @@ def random_moment(engine, random):
     for i in range(train.meshes):
         state.side[i] = DRIVE_SIDE if mesh_motion(train, i, x) > 0.0 else COAST_SIDE
         moment.start[i] = random.uniform()
-        state.segment[i] = find_segment(train, train.kind[i], moment.start[i], 1.0)
+        state.segment[i] = find_segment(train, train.mesh.kind[i], moment.start[i], 1.0)
         copy_segment(train, state, moment, i)
     return state, moment, x, v
 
@@ -46,8 +43,8 @@ def sliding_speeds(train, pairs, speed):
     result = []
     for p in range(pairs.count):
         mesh = p % train.meshes
-        first, second, carrier = (speed[j] for j in train.body[mesh])
-        sense = 1.0 if train.kind[mesh] == 0 else -1.0
+        first, second, carrier = (speed[j] for j in train.mesh.body[mesh])
+        sense = 1.0 if train.mesh.kind[mesh] == 0 else -1.0
         result.append(
             pairs.rho1[p] * (first - carrier) + sense * pairs.rho2[p] * (second - carrier)
         )
@@ -70,16 +67,16 @@ def test_power_of_friction_is_force_times_sliding_speed(flow, seed):
     friction = pairs.friction[: pairs.count]
     assert (pairs.load[: pairs.count] > 0.0).sum() >= 3 and np.abs(friction).max() > 1.0
     q = (with_friction.force - without.force)[:bodies]
-    speed = train.ratio @ state.speed + v / train.radius.clip(1e-9)
+    speed = train.body.ratio @ state.speed + v / train.body.radius.clip(1e-9)
     sliding = sliding_speeds(train, pairs, speed)
     assert pairs.sliding[: pairs.count] == pytest.approx(sliding, rel=1e-9)
     assert (friction * sliding).min() >= 0.0
     loss = friction @ sliding
     assert with_friction.power[FRICTION] == pytest.approx(loss, rel=1e-12)
-    assert q @ (train.radius * speed)[:bodies] == pytest.approx(-loss, rel=1e-9)
+    assert q @ (train.body.radius * speed)[:bodies] == pytest.approx(-loss, rel=1e-9)
 
     virtual = np.append(random.normal(size=bodies), 0.0)
-    power = q @ (train.radius[:bodies] * virtual[:bodies])
+    power = q @ (train.body.radius[:bodies] * virtual[:bodies])
     expected = -friction @ sliding_speeds(train, pairs, virtual)
     assert power == pytest.approx(expected, rel=1e-9, abs=1e-12 * np.abs(friction).sum())
 
@@ -89,7 +86,7 @@ def test_turning_everything_together_meets_no_friction(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out, bodies = Evaluation(), int(engine.train.bodies)
     forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, np.zeros(2), out)
-    torque = (out.friction_force * engine.train.radius)[
+    torque = (out.friction_force * engine.train.body.radius)[
         : bodies + 1
     ]  # the last is that on the ground
     assert np.abs(torque).max() > 0.0
@@ -101,7 +98,7 @@ def test_pairs_of_a_mesh_share_all_of_its_force(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out = Evaluation()
     forces(engine.model, *random_moment(engine, np.random.default_rng(2)), 0.0, np.zeros(2), out)
-    meshes, slots = int(engine.train.meshes), int(engine.train.slots)
+    meshes, slots = int(engine.train.meshes), int(engine.train.teeth.slots)
     assert out.pairs.count == slots * meshes
     shares = out.pairs.share[: slots * meshes].reshape(slots, meshes).sum(axis=0)
     assert shares == pytest.approx(1.0)
@@ -138,7 +135,7 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
     random = np.random.default_rng(3)
     engine = Engine(scene_of(FLOWS[0], **laws), 1e-4)
     train, out = engine.train, Evaluation()
-    meshes, slots = int(train.meshes), int(train.slots)
+    meshes, slots = int(train.meshes), int(train.teeth.slots)
     seen = np.zeros(2, dtype=int)
     for _ in range(20):
         state, moment, x, v = random_moment(engine, random)
@@ -152,7 +149,7 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
             if isinstance(values, np.ndarray)
         }
         is_open = state.side[:meshes] == OPEN
-        present = train.present[train.kind[:meshes], state.segment[:meshes]]
+        present = train.teeth.present[train.mesh.kind[:meshes], state.segment[:meshes]]
         idle = is_open | (np.arange(slots)[:, None] >= present)
         seen += is_open.sum(), (idle & ~is_open).sum()
         for name, values in columns.items():
@@ -165,9 +162,9 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
             out.now.normal_force,
             out.now.damping_power,
             out.now.stiffness_power,
-            out.dragging.power,
+            out.friction.drag.power,
         ):
             assert (values[:meshes][is_open] == 0.0).all()
-        assert (out.dragging.torque[:, :meshes][:, is_open] == 0.0).all()
+        assert (out.friction.drag.torque[:, :meshes][:, is_open] == 0.0).all()
         assert np.isfinite(out.force).all() and np.isfinite(out.power).all()
     assert seen.min() > 0

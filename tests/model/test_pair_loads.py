@@ -25,12 +25,12 @@ def model_loads(engine, scene):
     set_step_constants(model, state, moment)
     forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
     bodies, shown = body_names(scene), mesh_names(scene).place
-    turns = 2 * math.pi * train.ratio @ (state.turns + state.fraction)
-    angle = (turns + state.x * train.inverse_radius)[bodies.place]
-    slots, meshes = int(train.slots), int(train.meshes)
+    turns = 2 * math.pi * train.body.ratio @ (state.turns + state.fraction)
+    angle = (turns + state.x * train.body.inverse_radius)[bodies.place]
+    slots, meshes = int(train.teeth.slots), int(train.meshes)
     loads = work.pairs.load[: slots * meshes].reshape(slots, meshes).T
-    rows = zip(train.kind[:meshes], state.segment[:meshes], strict=True)
-    shift = np.array([train.shift[kind, segment, :slots] for kind, segment in rows])
+    rows = zip(train.mesh.kind[:meshes], state.segment[:meshes], strict=True)
+    shift = np.array([train.teeth.shift[kind, segment, :slots] for kind, segment in rows])
     positions = moment.start[:meshes, None] + shift
     angles = {name: np.array([value]) for name, value in zip(bodies.names, angle, strict=True)}
     return angles, (state.side * work.now.normal_force)[shown], positions[shown], loads[shown]

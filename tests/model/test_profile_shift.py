@@ -46,12 +46,12 @@ SCENES = pytest.mark.parametrize(
 def test_rigid_turning_moves_no_mesh(scene):
     train = build_train(scene)
     for i in range(train.meshes):
-        kind, bodies = train.kind[i], train.body[i]
-        moved = train.sign[i] * train.radius[bodies] * train.ratio[bodies, 0]
+        kind, bodies = train.mesh.kind[i], train.mesh.body[i]
+        moved = train.mesh.sign[i] * train.body.radius[bodies] * train.body.ratio[bodies, 0]
         assert abs(moved.sum()) < 1e-12 * np.abs(moved).max()
-        speeds = train.ratio[bodies, 0] - train.ratio[bodies[2], 0]
-        rolled = train.pitch_curvature[kind] * speeds[:2]
-        assert rolled[0] + train.external[kind] * rolled[1] == pytest.approx(
+        speeds = train.body.ratio[bodies, 0] - train.body.ratio[bodies[2], 0]
+        rolled = train.geometry.pitch_curvature[kind] * speeds[:2]
+        assert rolled[0] + train.geometry.external[kind] * rolled[1] == pytest.approx(
             0.0, abs=1e-12 * abs(rolled[0])
         )
 
@@ -61,7 +61,7 @@ def test_radii_of_curvature_end_on_the_line_of_action(scene):
     """r1 + r2 = a sin(a_w) at the sun, r2 - r1 = a sin(a_w) at the ring."""
     train, gears = build_train(scene), scene.gearset.geometry
     for kind, mesh in enumerate(gears.meshes):
-        first, second = train.pitch_curvature[kind]
+        first, second = train.geometry.pitch_curvature[kind]
         length = gears.centre_distance * math.sin(mesh.pressure_angle)
         assert second + (first if kind == 0 else -first) == pytest.approx(length, rel=1e-12)
 
@@ -139,9 +139,9 @@ def test_the_largest_stiffness_is_that_of_one_pair():
     assert min(figures.approach, figures.recess) == pytest.approx(-0.012, abs=1e-4)
     train = build_train(OFF)
     carried = [
-        train.stiffness_gain[1] * train.weight[1, j, TOTAL, 0]
-        for j in range(train.segments[1])
-        if train.present[1, j] == 1
+        train.teeth.stiffness_gain[1] * train.teeth.weight[1, j, TOTAL, 0]
+        for j in range(train.teeth.segments[1])
+        if train.teeth.present[1, j] == 1
     ]
     assert max(carried) <= figures.single_stiffness < 1.02 * max(carried)
     pair = tooth_pairs(OFF)[1]
@@ -149,9 +149,9 @@ def test_the_largest_stiffness_is_that_of_one_pair():
     stiffness = pair.stiffness(path, width)
     assert figures.single_stiffness == pytest.approx(stiffness.max(), rel=1e-5)
     assert figures.single_stiffness > 1.4 * pair.stiffness(np.zeros(1), width)[0]
-    time = train.damping_time[1] * 2.0 * math.pi * figures.natural_frequency
+    time = train.damping.time[1] * 2.0 * math.pi * figures.natural_frequency
     assert 0.5 * time == pytest.approx(OFF.mesh.damping.damping_ratio)
-    given = {"mesh.stiffness": "given", "mesh.sun_planet_stiffness": train.stiffness[0],
+    given = {"mesh.stiffness": "given", "mesh.sun_planet_stiffness": train.teeth.stiffness[0],
              "mesh.planet_ring_stiffness": stiffness.max()}  # fmt: skip
     modes, expected = (pt.natural_modes(scene).frequencies for scene in (OFF, OFF.replace(**given)))
     assert modes == pytest.approx(expected, rel=1e-5, abs=1e-6)

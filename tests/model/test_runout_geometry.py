@@ -11,20 +11,10 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_core_parts import OPEN, contact_event, form_error, place_lines
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import (
-    BODIES,
-    LINES,
-    MESHES,
-    OPEN,
-    State,
-    StepConstants,
-    contact_event,
-    form_error,
-    place_lines,
-    set_step_constants,
-)
+from planetary_twin_py._core import BODIES, LINES, MESHES, State, StepConstants, set_step_constants
 from planetary_twin_py.model.bodies import base_radii
 from planetary_twin_py.model.train import build_train
 from planetary_twin_py.run.engine import Engine

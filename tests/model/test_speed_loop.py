@@ -68,7 +68,7 @@ def rate_of_growth(engine, begin, end, period):
     room = round((end - begin) / period)
     engine.advance(begin, 1, 1.0, 0)
     seen = engine.advance(end, first, 1.0 / period, room).speed
-    y = seen[:, int(engine.train.coupling[0, 0])]
+    y = seen[:, int(engine.train.coupling.ends[0, 0])]
     y = np.diff(y)  # without the mean
     two, one = np.linalg.lstsq(np.stack([y[:-2], y[1:-1]], 1), y[2:])[0]
     return math.log(np.abs(np.roots([1.0, -one, -two])).max()) / period
@@ -82,8 +82,8 @@ def test_a_run_decays_or_grows_as_the_eigenvalues_say(chosen):
     )
     engine = Engine(scene, 1e-6, "march")
     gains = speed_loop_gains(scene, engine.train, chosen)
-    engine.model.load.proportional = gains.proportional
-    engine.model.load.trim_gain = gains.trim
+    engine.model.operation.proportional = gains.proportional
+    engine.model.operation.trim_gain = gains.trim
     slowest = max(loop_of(scene).eigenvalues(chosen), key=lambda value: value.real)
     assert (slowest.real > 0.0) == (chosen > 43.7)
     period = 0.1 / abs(slowest.imag)

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lubrication.friction_laws import FRICTION_LAWS
+from planetary_twin_core_parts import lambda_ratio_of
 
-from planetary_twin_py._core import lambda_ratio_of, tooth_contact
+from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.model.oil import build_oil
 from planetary_twin_py.scene import friction_table, load_scene
 

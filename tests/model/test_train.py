@@ -16,9 +16,9 @@ from planetary_twin_py.run.engine import Engine
 @ALL_FLOWS
 def test_rigid_motion_leaves_every_mesh_as_it_is(flow):
     train = build_train(scene_of(flow))
-    travel = train.ratio * train.radius[:, None]
+    travel = train.body.ratio * train.body.radius[:, None]
     meshes = int(train.meshes)
-    motion = (train.sign[:meshes, :, None] * travel[train.body[:meshes]]).sum(axis=1)
+    motion = (train.mesh.sign[:meshes, :, None] * travel[train.mesh.body[:meshes]]).sum(axis=1)
     assert motion == pytest.approx(0.0, abs=1e-15)
 
 
@@ -48,11 +48,11 @@ def natural_frequencies(flow, **changes):
     )
     engine = Engine(scene, 1e-4)
     model = engine.model
-    model.train.coupling_stiffness[:] = 0.0
+    model.train.coupling.stiffness[:] = 0.0
     bare = int(model.train.bodies - model.train.machines)
     stiffness = stiffness_matrix(model, engine.integrator.begin, bare)
     assert stiffness == pytest.approx(stiffness.T, abs=1e-6 * stiffness.max())
-    squares = eigvalsh(stiffness, np.diag(model.train.mass[:bare]))
+    squares = eigvalsh(stiffness, np.diag(model.train.body.mass[:bare]))
     return np.sqrt(np.maximum(squares, 0.0)) / (2 * math.pi)
 
 

@@ -92,7 +92,7 @@ def test_weight_repeats_with_the_turns_of_the_carrier():
     turning = planar(FLOWS[2], **{"supports.gravity": 9.81})
     held = planar(FLOWS[0], **{"supports.gravity": 9.81})
     cycles = [
-        common_cycles(build_train(scene), Engine(scene, 1e-3).model.load)
+        common_cycles(build_train(scene), Engine(scene, 1e-3).model.operation)
         for scene in (held, turning)
     ]
     assert cycles == [1, 70]  # mesh cycles in a turn of the carrier against the held ring

@@ -28,10 +28,10 @@ def absolute(engine, reference):
     names += [f"{body}.{motion}" for body in ("sun", "ring", "carrier") for motion in "xy"]
     names += [f"planet_{i + 1}.{motion}" for i in range(planets) for motion in ("xi", "eta")]
     index = np.array([place[name] for name in names])
-    radius = np.where(train.radius > 0.0, train.radius, 1.0)
+    radius = np.where(train.body.radius > 0.0, train.body.radius, 1.0)
     turned = 2.0 * math.pi * (state.turns + state.fraction)
-    angle = (train.ratio @ turned + state.x / radius)[index]
-    speed = (train.ratio @ state.speed + state.v / radius)[index]
+    angle = (train.body.ratio @ turned + state.x / radius)[index]
+    speed = (train.body.ratio @ state.speed + state.v / radius)[index]
     for i in range(planets):  # along the circle, as a length
         across = reference.at(3 + i) + 1
         angle[across] *= reference.radius

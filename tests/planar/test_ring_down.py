@@ -79,7 +79,7 @@ def equations(scene):
                 ends.append(force(*point))
             columns.append((ends[0] - ends[1]) / (2.0 * (SMALL if place == 0 else 1e-6)))
         slopes.append(np.array(columns).T)
-    return train.mass[:count].copy(), *slopes
+    return train.body.mass[:count].copy(), *slopes
 
 
 def linear(scene):
@@ -145,7 +145,9 @@ def test_a_run_rings_at_the_frequency_of_its_mode(flow, speed, mode):
     periods = 40
     samples = round(periods / wanted * RATE)
     motion = engine.advance(samples / RATE, 1, RATE, samples)
-    axis = np.abs(engine.train.ratio[: len(x)]).sum(axis=1) == 0.0  # not what couplings wind up
+    axis = (
+        np.abs(engine.train.body.ratio[: len(x)]).sum(axis=1) == 0.0
+    )  # not what couplings wind up
     k = np.argmax(np.where(axis, np.abs(x), 0.0))
     values = motion.angle[:, k]
     times = np.arange(1, samples + 1) / RATE

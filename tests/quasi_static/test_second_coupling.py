@@ -53,7 +53,7 @@ def torques(flow, stiffness, backwards):
     """
     engine = QuasiStaticEngine(differential(flow, 1e6), 1e-4)
     model, run = engine.model, first_guess(engine._closing_side)
-    model.train.coupling_stiffness[SECOND_MOTOR] *= stiffness / 1e6
+    model.train.coupling.stiffness[SECOND_MOTOR] *= stiffness / 1e6
     period = 1.0 / abs(frame_cycle_rate(model.train, engine._origin))
     times = np.linspace(0.0, period, 401)
     found = []

@@ -106,7 +106,7 @@ def test_losses_of_the_meshes_add_up_to_the_energy_ledger(changes):
         engine.advance(engine.reached, 1, 1.0, 0)
         friction = engine.books(engine.reached).since(begin).ledger[FRICTION]
         lost = engine.pop_mesh_sums(engine.reached).integral[POWER_LOSS]
-    copies = engine.train.copies[: len(lost)]
+    copies = engine.train.mesh.copies[: len(lost)]
     assert (lost * copies).sum() == pytest.approx(friction, rel=1e-4, abs=1e-12)
 
 

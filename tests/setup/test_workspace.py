@@ -47,7 +47,7 @@ def test_the_linked_model_is_installed_with_its_scenes(tmp_path):
     (scene,) = (tmp_path / "install").glob("lib/python3*/site-packages/*/scene/packaged/paper.yaml")
     assert scene.read_text() == (ROOT / "planetary_twin_py/scene/packaged/paper.yaml").read_text()
     package = scene.parents[2]
-    code = "import planetary_twin_py._core as c; print(c.__file__, c.Train(mass=[3]).mass[0])"
+    code = "import planetary_twin_py._core as c; print(c.__file__, c.BodyArrays(mass=[3]).mass[0])"
     done = subprocess.run(
         [sys.executable, "-c", code],
         cwd=tmp_path,

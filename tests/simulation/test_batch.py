@@ -109,5 +109,5 @@ def test_a_train_that_scenes_share_is_the_one_built_for_each(name):
 
 
 def test_who_changes_a_train_does_not_change_that_of_others():
-    train.build_train(PAPER).radius[:] = 1.0
-    assert train.build_train(PAPER).radius[0] < 0.1
+    train.build_train(PAPER).body.radius[:] = 1.0
+    assert train.build_train(PAPER).body.radius[0] < 0.1

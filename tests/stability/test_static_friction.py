@@ -83,13 +83,13 @@ def pushed(share, pause=0.6):
     """Speeds of the motor [rad/s] and angles of the sun [rad] as a part of the friction torque is
     put on slowly and stays, the motor being braked by `BRAKE`."""
     engine = Engine(COULOMB.replace(input_speed=0.0), 1e-4)
-    load, sun = engine.model.load, int(engine.train.sun)
-    load.trim_gain[:] = 0.0
-    load.proportional[MOTOR] = BRAKE
-    torque, start = float(load.torque[MOTOR]), float(engine.sample(0.0).angle[0, sun])
+    operation, sun = engine.model.operation, int(engine.train.sun)
+    operation.trim_gain[:] = 0.0
+    operation.proportional[MOTOR] = BRAKE
+    torque, start = float(operation.torque[MOTOR]), float(engine.sample(0.0).angle[0, sun])
     extra = share * friction_torque(start)
     for step in range(1, 41):
-        load.torque[MOTOR] = torque + extra * step / 40
+        operation.torque[MOTOR] = torque + extra * step / 40
         engine.advance(0.005 * step, 0, 1.0, 0)
     seen = engine.advance(0.2 + pause, 401, 2000.0, int(2000 * pause))
     return seen.speed[:, sun], seen.angle[:, sun], extra

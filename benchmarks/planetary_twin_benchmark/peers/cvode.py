@@ -7,8 +7,7 @@ iteration with a dense matrix of difference quotients: the package offers no oth
 from __future__ import annotations
 
 import numpy as np
-
-from planetary_twin_py._core import derivative
+from planetary_twin_core_parts import derivative
 
 from .problem import Problem
 from .solver import Deadline, Solver, SolverError

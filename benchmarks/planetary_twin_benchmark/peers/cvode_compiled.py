@@ -11,8 +11,7 @@ from __future__ import annotations
 import ctypes
 
 import numpy as np
-
-from planetary_twin_py._core import CvodeProblem
+from planetary_twin_core_parts import CvodeProblem
 
 from . import sundials
 from .problem import Problem

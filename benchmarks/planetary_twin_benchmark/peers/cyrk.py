@@ -7,8 +7,7 @@ is a number of steps, and the deadline is looked at when it has ended.
 from __future__ import annotations
 
 import numpy as np
-
-from planetary_twin_py._core import address_of, cyrk_function
+from planetary_twin_core_parts import address_of, cyrk_function
 
 from .problem import Problem
 from .solver import Deadline, Solver, SolverError

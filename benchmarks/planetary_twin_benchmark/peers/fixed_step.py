@@ -10,9 +10,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-
-from planetary_twin_py._core import Problem as Record
-from planetary_twin_py._core import runge_kutta_4, semi_implicit_euler
+from planetary_twin_core_parts import Problem as Record
+from planetary_twin_core_parts import runge_kutta_4, semi_implicit_euler
 
 from .problem import Problem
 from .solver import Deadline, Solver, SolverError

@@ -6,18 +6,12 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from planetary_twin_core_parts import Problem as Record
+from planetary_twin_core_parts import derivative, repeat_derivative, show_states
 
-from planetary_twin_py._core import (
-    LIGHTEST_MESH_LOAD,
-    Model,
-    derivative,
-    frame_cycle_rate,
-    repeat_derivative,
-    show_states,
-)
-from planetary_twin_py._core import Problem as Record
+from planetary_twin_py._core import LIGHTEST_MESH_LOAD, Model, frame_cycle_rate
 from planetary_twin_py.model.oil import build_oil
-from planetary_twin_py.model.start import build_load, start_state
+from planetary_twin_py.model.start import build_operation, start_state
 from planetary_twin_py.model.static_load import mesh_force
 from planetary_twin_py.model.train import build_train, lightest_body
 from planetary_twin_py.scene import Scene
@@ -30,25 +24,25 @@ class Problem:
 
     def __init__(self, scene: Scene) -> None:
         train, point = build_train(scene), scene.operating_point
-        load = build_load(scene, point, train)
-        model = Model(train=train, oil=build_oil(scene, point), load=load)
+        operation = build_operation(scene, point, train)
+        model = Model(train=train, oil=build_oil(scene, point), operation=operation)
         start = start_state(scene, model)[0]
         self.record = Record(model=model, start=start)
         self._train = train
         self.bodies, self.axes, self.meshes = train.bodies, train.axes, train.meshes
         self.size = 2 * self.bodies + self.axes
         self.scale = self._scale(scene)
-        frequency = max(abs(frame_cycle_rate(train, start)), train.lowest_frequency)
+        frequency = max(abs(frame_cycle_rate(train, start)), train.damping.lowest_frequency)
         self.mesh_period = 1.0 / frequency  # at the start [s]
 
     def _scale(self, scene: Scene) -> np.ndarray:
         """Magnitudes of the entries of y (size,): deflection and fastest vibration of a mesh."""
         train, point = self._train, scene.operating_point
         force = abs(mesh_force(scene, abs(point.input_torque) + point.torque_ripple))
-        stiffness = float(train.stiffness.min())
+        stiffness = float(train.teeth.stiffness.min())
         deflection = max(force, LIGHTEST_MESH_LOAD) / stiffness + 0.5 * point.backlash
         fastest = np.sqrt(2.0 * stiffness / lightest_body(train))
-        motor = deflection / float(train.radius[train.coupling[0, 0]])
+        motor = deflection / float(train.body.radius[train.coupling.ends[0, 0]])
         sizes = [deflection, deflection * fastest, motor]
         return np.repeat(sizes, [self.bodies, self.bodies, self.axes])
 

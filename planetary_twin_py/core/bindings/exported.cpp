@@ -20,34 +20,10 @@ void bind_exported(nb::module_& m) {
     kinds["power_loss"] = POWER_LOST;
     kinds["point"] = POINT;
     m.attr("VARIABLE_KINDS") = kinds;
-    record<Variable>(m, "Variable")
-        .FIELD(Variable, kind)
-        .FIELD(Variable, index)
-        .FIELD(Variable, given)
-        .FIELD(Variable, lowest)
-        .FIELD(Variable, highest)
-        .FIELD(Variable, name);
-    record<Repetition>(m, "Repetition")
-        .FIELD(Repetition, cycles)
-        .FIELD(Repetition, numerator)
-        .FIELD(Repetition, denominator);
-    record<Exported>(m, "Exported")
-        .FIELD(Exported, model)
-        .FIELD(Exported, control)
-        .FIELD(Exported, pause)
-        .FIELD(Exported, limits)
-        .FIELD(Exported, ranges)
-        .FIELD(Exported, report)
-        .FIELD(Exported, laws)
-        .FIELD(Exported, point)
-        .FIELD(Exported, repetition)
-        .FIELD(Exported, linear)
-        .FIELD(Exported, tolerance)
-        .FIELD(Exported, tolerances)
-        .FIELD(Exported, least_tolerance)
-        .FIELD(Exported, points)
-        .FIELD(Exported, variables)
-        .FIELD(Exported, variable);
+    RECORD(m, Variable, kind, index, given, lowest, highest, name);
+    RECORD(m, Repetition, cycles, numerator, denominator);
+    RECORD(m, Exported, model, control, pause, limits, ranges, report, laws, point, repetition,
+           linear, tolerance, tolerances, least_tolerance, points, variables, variable);
 }
 
 }  // namespace gearbox

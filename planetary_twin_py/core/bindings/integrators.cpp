@@ -1,15 +1,12 @@
 // Integration of a run, for `planetary_twin_py.run.engine`.
 
-#include <nanobind/stl/pair.h>
-
 #include "bindings/arrays.hpp"
 #include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/interpolant.hpp"
-#include "integrators/oscillator.hpp"
+#include "integrators/methods.hpp"
 #include "integrators/radau.hpp"
-#include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 
 namespace gearbox {
@@ -53,8 +50,6 @@ Nodes py_radau(int points) {
 void bind_integrator(nb::module_& m) {
     m.def("begin_step", &begin_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
           "Start a new step where the last one ended.");
-    m.def("accept", &accept, "model"_a, "integrator"_a, "mesh"_a, nb::call_guard<Unlocked>(),
-          "Accept the step; the contact of `mesh` changes at its end (-1: of no mesh).");
     m.def("advance", &py_advance, "model"_a, "integrator"_a, "until"_a, "bound"_a, "samples"_a,
           "out"_a,
           "Integrate to `until`, and fill `out` with `samples` and one at `until`.\n\n"
@@ -70,34 +65,14 @@ void bind_integrator(nb::module_& m) {
           "Write the sample `delay` seconds after the start of the last step to a row of `out`.");
 }
 
-void bind_oscillator(nb::module_& m) {
-    m.def(
-        "decay_rates",
-        [](double square, double damping) {
-            DecayRates rates = decay_rates(square, damping);
-            return std::make_tuple(rates.rate, rates.slow_rate, rates.fast_rate);
-        },
-        "square"_a, "damping"_a, "Angular frequency and both decay rates [1/s].");
-    m.def(
-        "wave",
-        [](double damping, double rate, double slow, double fast, double t) {
-            Wave at = wave(damping, rate, slow, fast, t);
-            return std::pair(at.cosine, at.sine);
-        },
-        "damping"_a, "rate"_a, "slow"_a, "fast"_a, "t"_a,
-        "Free motions from (1, 0) and (0, 1) after `t` seconds.");
-    m.def("radau", &py_radau, "points"_a, "Radau points; `points` is their number.");
-}
-
 }  // namespace
 
 void bind_integrators(nb::module_& m) {
     nb::dict methods;
     for (auto [name, method] : METHODS) methods[name] = static_cast<int>(method);
     m.attr("METHODS") = methods;
-    m.attr("NO_MESH") = NO_MESH;
     bind_integrator(m);
-    bind_oscillator(m);
+    m.def("radau", &py_radau, "points"_a, "Radau points; `points` is their number.");
 }
 
 }  // namespace gearbox

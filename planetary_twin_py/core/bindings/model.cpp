@@ -28,10 +28,8 @@ void bind_places(nb::module_& m) {
     m.attr("TERMS") = TERMS;
     m.attr("LINES") = LINES;
     m.attr("FAULTS") = FAULTS;
-    m.attr("PAIR_CAPACITY") = PAIR_CAPACITY;
     m.attr("JOINTS") = JOINTS;
     m.attr("DRIVE_SIDE") = DRIVE_SIDE;
-    m.attr("OPEN") = OPEN;
     m.attr("COAST_SIDE") = COAST_SIDE;
     m.attr("WORK") = WORK;
     m.attr("IMPULSE") = IMPULSE;
@@ -54,7 +52,6 @@ void bind_places(nb::module_& m) {
     m.attr("CONTACT") = CONTACT;
     m.attr("CLIPPED") = CLIPPED;
     m.attr("SUMS") = SUMS;
-    m.attr("SLOWEST_TURN") = SLOWEST_DRAG_TURN;
     m.attr("NO_PLANET") = NO_PLANET;
     m.attr("NOWHERE") = NOWHERE;
 }
@@ -66,34 +63,14 @@ void bind_cycle(nb::module_& m) {
         "train"_a, "x"_a, "Mesh cycles by which the train is ahead of the rigid frame.");
     m.def("frame_cycle", &frame_cycle, "train"_a, "state"_a, "modulus"_a,
           "Mesh cycles of the rigid frame since the start, modulo `modulus`.");
-    m.def("mesh_cycle", &mesh_cycle, "train"_a, "state"_a, "i"_a, "side"_a);
-    m.def("find_segment", &find_segment, "train"_a, "kind"_a, "cycle"_a, "direction"_a,
-          "Segment of the table of tooth pairs at a fraction of the cycle.");
     m.def("set_step_constants", &set_step_constants, "model"_a, "state"_a, "step"_a,
           "Fill `step` for a step that begins at `state`.");
-    m.def("copy_segment", &copy_segment, "train"_a, "state"_a, "step"_a, "i"_a);
     m.def("frame_cycle_rate", &frame_cycle_rate, "train"_a, "state"_a,
           "Mesh cycles per second of the rigid frame, signed.");
     m.def("damping_time", &damping_time, "train"_a, "kind"_a, "rate"_a);
 }
 
 void bind_form(nb::module_& m) {
-    m.def(
-        "place_lines",
-        [](const Train& train, const State& state, std::int64_t i, const Lines& angle) {
-            place_lines(train, state, i, lines(angle));
-        },
-        "train"_a, "state"_a, "i"_a, "angle"_a);
-    m.def(
-        "form_error",
-        [](const Train& train, std::int64_t i, double side, const Lines& angle, double advance,
-           double cycle_rate) {
-            auto [e, rate] = form_error(train, i, side, lines(angle), advance, cycle_rate);
-            return std::tuple(e, rate);
-        },
-        "train"_a, "i"_a, "side"_a, "angle"_a, "advance"_a, "cycle_rate"_a);
-    m.def("mesh_stiffness", &mesh_stiffness, "train"_a, "i"_a, "segment"_a, "cycle"_a,
-          "Stiffness [N/m] of mesh i without faults at a fraction of its cycle.");
     m.def(
         "share_force",
         [](const Train& train, StepConstants& step, std::int64_t i, const Vector& cycles,
@@ -117,57 +94,7 @@ void bind_form(nb::module_& m) {
         "Fill the contacts (n, PAIRS) of the pairs of mesh i from forces (n,).");
 }
 
-void bind_contact(nb::module_& m) {
-    m.def(
-        "mesh_motion",
-        [](const Train& train, std::int64_t i, const Vector& x) {
-            return mesh_motion(train, i, bodies(x));
-        },
-        "train"_a, "i"_a, "x"_a, "Transmission error of mesh i from x, its rate from v.");
-    m.def(
-        "deflection",
-        [](const Train& train, const StepConstants& step, std::int64_t i, const Vector& x,
-           const Vector& v, double advance, double cycle_rate) {
-            auto [d, rate, e_rate] =
-                deflection(train, step, i, bodies(x), bodies(v), advance, cycle_rate);
-            return std::tuple(d, rate, e_rate);
-        },
-        "train"_a, "step"_a, "i"_a, "x"_a, "v"_a, "advance"_a, "cycle_rate"_a);
-    m.def(
-        "contact_event",
-        [](const Model& model, const State& state, const StepConstants& step, std::int64_t i,
-           const Vector& x, const Vector& v, std::tuple<double, double, double> position) {
-            auto [advance, cycle_rate, slack] = position;
-            return contact_event(model, state, step, i, bodies(x), bodies(v),
-                                 {advance, cycle_rate, slack});
-        },
-        "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "position"_a,
-        "Gap [m] left to mesh i before its contact changes; negative: it has changed.");
-    m.def("stored_energy", &stored_energy, "model"_a, "state"_a, "step"_a, "i"_a);
-}
-
 void bind_equations(nb::module_& m) {
-    m.def(
-        "body_speed",
-        [](const Train& train, const State& state, const Vector& v, std::int64_t j) {
-            return body_speed(train, state, bodies(v), j);
-        },
-        "train"_a, "state"_a, "v"_a, "j"_a, "Absolute speed of body j [rad/s].");
-    m.def(
-        "mesh_forces",
-        [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
-           const Vector& v, double delay,
-           Evaluation& out) { mesh_forces(model, state, step, bodies(x), bodies(v), delay, out); },
-        "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "out"_a,
-        "Normal forces of the meshes, whose transmission errors are in out.now.");
-    m.def(
-        "apply_drag",
-        [](const Model& model, const State& state, const Vector& v, Evaluation& out) {
-            apply_drag(model, state, bodies(v), out.now.normal_force, out.friction_force,
-                       out.power);
-        },
-        "model"_a, "state"_a, "v"_a, "out"_a,
-        "Add the drag of joints and discs to out.friction_force, and its power to out.power.");
     m.def(
         "forces",
         [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
@@ -201,19 +128,6 @@ void bind_equations(nb::module_& m) {
             return std::tuple(kinetic, elastic);
         },
         "model"_a, "state"_a, "step"_a, "Kinetic and elastic energy of the train [J].");
-    m.def(
-        "observe",
-        [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
-           const Vector& v, double delay, Evaluation& work, const Rows& out) {
-            const double *at = bodies(x), *speeds = bodies(v);
-            auto room = static_cast<std::int64_t>(out.shape(1));
-            if (out.shape(0) < QUANTITIES || room < model.train.meshes)
-                throw nb::value_error("out: must have room for all quantities of all meshes");
-            Unlocked unlocked;
-            observe(model, state, step, at, speeds, delay, work, out.data(), room);
-        },
-        "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "work"_a, "out"_a,
-        "Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.");
 }
 
 }  // namespace
@@ -222,7 +136,6 @@ void bind_model(nb::module_& m) {
     bind_places(m);
     bind_cycle(m);
     bind_form(m);
-    bind_contact(m);
     bind_equations(m);
 }
 

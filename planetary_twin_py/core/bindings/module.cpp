@@ -27,11 +27,9 @@ NB_MODULE(CORE_MODULE, m) {
     gearbox::bind_initial_state(m);
     gearbox::bind_quasi_static(m);
     gearbox::bind_integrators(m);
-    gearbox::bind_parts_of_steps(m);
     gearbox::bind_run(m);
     gearbox::bind_ports(m);
     gearbox::bind_operating_point(m);
     gearbox::bind_exported(m);
-    gearbox::bind_peers(m);
     gearbox_axes::bind_axes(m);
 }

@@ -14,10 +14,11 @@ void bind_operating_point(nb::module_& m) {
     for (const PointField& field : POINT_FIELDS) fields.append(field.name);
     m.attr("POINT_FIELDS") = nb::tuple(fields);
     m.attr("LIGHTEST_MESH_LOAD") = LIGHTEST_MESH_LOAD;
-    m.def("load_at", &load_at, "laws"_a, "point"_a,
-          "Loads at an operating point; given torques and speeds are those of steady running.");
-    m.def("keep_given", &keep_given, "before"_a, "load"_a,
-          "Keep given torques and motions when other loads change.");
+    m.def("operation_at", &operation_at, "laws"_a, "point"_a,
+          "What follows from an operating point; given torques and speeds are those of steady "
+          "running.");
+    m.def("keep_given", &keep_given, "before"_a, "operation"_a,
+          "Keep given torques and motions when the operating point changes.");
     m.def("prescribe", &prescribe, "oil"_a, "lambda_ratio"_a,
           "Set a prescribed lambda ratio of the oil.");
     m.def("elastic_deflection", &elastic_deflection, "laws"_a, "point"_a,

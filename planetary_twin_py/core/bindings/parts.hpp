@@ -28,11 +28,9 @@ void bind_lubrication(nanobind::module_& m);
 void bind_initial_state(nanobind::module_& m);
 void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);
-void bind_parts_of_steps(nanobind::module_& m);
 void bind_run(nanobind::module_& m);
 void bind_ports(nanobind::module_& m);
 void bind_operating_point(nanobind::module_& m);
 void bind_exported(nanobind::module_& m);
-void bind_peers(nanobind::module_& m);
 
 }  // namespace gearbox

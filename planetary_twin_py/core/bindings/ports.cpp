@@ -101,7 +101,7 @@ bool py_apply_command(Model& model, Integrator& integrator, std::int64_t begin, 
     const Instant now = instant_of(begin);
     const double duration = seconds(end - begin);
     const Command command = command_of(model, integrator, now, duration, given);
-    if (check(model.load, ranges, command) != Answer::ACCEPTED) return false;
+    if (check(model.operation, ranges, command) != Answer::ACCEPTED) return false;
     run_unlocked([&] { apply_command(model, integrator, now, command, linear ? duration : 0.0); });
     return true;
 }
@@ -117,7 +117,7 @@ int py_step_ports(Model& model, Integrator& integrator, std::int64_t begin, std:
     PortStep step{begin, end,
                   command_of(model, integrator, instant_of(begin), seconds(end - begin), given),
                   linear};
-    if (check(model.load, ranges, step.command) != Answer::ACCEPTED)
+    if (check(model.operation, ranges, step.command) != Answer::ACCEPTED)
         return static_cast<int>(Outcome::REFUSED);
     Interruptible unlocked;
     return static_cast<int>(step_ports(model, integrator, step, limits, reached, out));
@@ -131,7 +131,7 @@ void bind_ports(nb::module_& m) {
     m.attr("BY_MOTION") = BY_MOTION;
     m.attr("PORTS") = PORTS;
     m.attr("REFUSED") = static_cast<int>(Outcome::REFUSED);
-    record<PortRanges>(m, "PortRanges").FIELD(PortRanges, torque).FIELD(PortRanges, speed);
+    RECORD(m, PortRanges, torque, speed);
     bind_port_states(m);
     m.def("step_ports", &py_step_ports, "model"_a, "integrator"_a, "begin"_a, "end"_a,
           "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a,

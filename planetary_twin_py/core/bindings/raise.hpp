@@ -5,7 +5,7 @@
 #include <nanobind/nanobind.h>
 
 #include "bindings/interruptible.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 
 namespace gearbox {
 

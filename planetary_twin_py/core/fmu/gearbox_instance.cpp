@@ -8,7 +8,7 @@
 
 #include "fmu/gearbox_run.hpp"
 #include "fmu/instance.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 
 namespace gearbox {
 

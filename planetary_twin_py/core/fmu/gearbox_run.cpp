@@ -7,7 +7,6 @@
 
 #include "integrators/integrator.hpp"
 #include "integrators/radau.hpp"
-#include "integrators/step_control.hpp"
 #include "model/energy.hpp"
 #include "model/initial_state.hpp"
 
@@ -37,15 +36,15 @@ void load_point(const Exported& scene, RunState& run) {
     Control& control = run.integrator.control;
     if (!run.started || point.lambda_ratio != run.point.lambda_ratio)
         prescribe(model.oil, point.lambda_ratio);
-    Load load = load_at(scene.laws, point);
-    if (run.started) keep_given(model.load, load);
-    model.load = load;
+    Operation operation = operation_at(scene.laws, point);
+    if (run.started) keep_given(model.operation, operation);
+    model.operation = operation;
     control.tolerance = run.tolerance;
     control.deflection = deflection_at(scene.laws, point);
     control.elastic_deflection = elastic_deflection(scene.laws, point);
     set_nodes(scene, run);
     control.changed = true;
-    const Repetition& repetition = scene.repetition[load.ripple != 0.0];
+    const Repetition& repetition = scene.repetition[operation.ripple != 0.0];
     run.integrator.periodic.cycles = repetition.cycles;
     run.integrator.periodic.numerator = repetition.numerator;
     run.integrator.periodic.denominator = repetition.denominator;
@@ -107,7 +106,7 @@ void start(const Exported& scene, RunState& run) {
     load_point(scene, run);
     Integrator& integrator = run.integrator;
     double speed[AXES] = {start_speed(scene.laws, run.point), run.point.second_input_speed};
-    const double force = mesh_force(scene.laws, run.model.load.torque[0]);
+    const double force = mesh_force(scene.laws, run.model.operation.torque[0]);
     integrator.end = initial_state(run.model, speed, force).state;
     integrator.begin = integrator.end;
     begin_step(run.model, integrator);
@@ -139,7 +138,7 @@ void change_point(const Exported& scene, RunState& run) {
 Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
     const double duration = static_cast<double>(end - run.ticks) / static_cast<double>(TICKS);
     PortStep step{run.ticks, end, run.command, scene.linear, true};
-    if (check(run.model.load, scene.ranges, step.command) != Answer::ACCEPTED)
+    if (check(run.model.operation, scene.ranges, step.command) != Answer::ACCEPTED)
         return Outcome::REFUSED;
     run.command = NO_COMMAND;
     const Outcome outcome =

@@ -22,7 +22,7 @@ inline void bristle_damping(const Train& train, const ToothPairs& pairs, double 
         double damping = pairs.full[k] * pairs.bristle_gain[k];
         damping /= 1.0 / step + pairs.bristle_decay[k];
         damping *= 1.0 + RELAXATION / step;
-        add_outer(matrix, train.body[i], row, IN_PLANE, train.copies[i] * damping);
+        add_outer(matrix, train.mesh.body[i], row, IN_PLANE, train.mesh.copies[i] * damping);
     }
 }
 
@@ -51,9 +51,9 @@ inline void add_bristle_forces(const Train& train, const ToothPairs& start, cons
         work.bristle_stage[stage][k] = rate;
         sliding_row(train, start, k, work.row);
         double decay = start.bristle_decay[k];
-        double force = train.copies[i] * start.full[k] * rate / (1.0 / step + decay);
+        double force = train.mesh.copies[i] * start.full[k] * rate / (1.0 / step + decay);
         force *= 1.0 - RELAXATION * decay;
-        for (int j = 0; j < IN_PLANE; ++j) right[train.body[i][j]] -= force * work.row[j];
+        for (int j = 0; j < IN_PLANE; ++j) right[train.mesh.body[i][j]] -= force * work.row[j];
     }
 }
 
@@ -64,7 +64,7 @@ inline void solve_bristles(const Train& train, const ToothPairs& start, double s
         std::int64_t i = k % train.meshes;
         sliding_row(train, start, k, work.row);
         double sliding = 0.0;
-        for (int j = 0; j < IN_PLANE; ++j) sliding += work.row[j] * right[train.body[i][j]];
+        for (int j = 0; j < IN_PLANE; ++j) sliding += work.row[j] * right[train.mesh.body[i][j]];
         double rate = work.bristle_stage[stage][k] + start.bristle_gain[k] * sliding;
         work.bristle_stage[stage][k] = rate / (1.0 / step + start.bristle_decay[k]);
     }

@@ -7,7 +7,8 @@
 #include "integrators/collocation.hpp"
 #include "integrators/flanks.hpp"
 #include "integrators/frame.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
+#include "integrators/step_growth.hpp"
 #include "integrators/step_ledger.hpp"
 #include "integrators/work_of_machines.hpp"
 #include "mesh/deflection.hpp"
@@ -37,8 +38,8 @@ bool rosenbrock_is_faster(const Control& control, double h, int unconverged) {
 
 // Whether the teeth are helical: then a contact moves by other than one base pitch per mesh cycle.
 bool has_contact_lines(const Train& train) {
-    for (std::int64_t p = 0; p < train.present[0][0]; ++p)
-        if (train.travel[0][0][p] != 1.0) return true;
+    for (std::int64_t p = 0; p < train.teeth.present[0][0]; ++p)
+        if (train.teeth.travel[0][0][p] != 1.0) return true;
     return false;
 }
 
@@ -202,7 +203,7 @@ Accepted accepted_step(const Model& model, Integrator& integrator, double first,
 template <int L>
 void store_last_forces(const Train& train, const Propagation& run, Evaluation& last) {
     const Node& node = run.node[run.nodes.count - 1];
-    (Row<L>(train.mass) *
+    (Row<L>(train.body.mass) *
      sum_rows<L>(contacts_of(run).matrices.shapes(), Row<L>(node.friction_force)))
         .store(last.friction_force);
     std::memcpy(last.power, node.power, sizeof last.power);

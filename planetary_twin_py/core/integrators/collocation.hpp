@@ -63,7 +63,7 @@ void enter(const Model& model, Integrator& integrator) {
     copy<L>(integrator.begin.x, start.x);
     copy<L>(integrator.begin.v, start.v);
     for (int a = 0; a < AXES; ++a) start.trim[a] = integrator.begin.trim[a];
-    V mass(model.train.mass);
+    V mass(model.train.body.mass);
     RowPair<L> modes = sum_rows<L>(contacts.matrices.shapes_transposed(),
                                    RowPair<L>{mass * V(start.x), mass * V(start.v)});
     RowPair<MESH_LANES<L>> meshes = sum_rows<MESH_LANES<L>>(contacts.matrices.motion(), modes);

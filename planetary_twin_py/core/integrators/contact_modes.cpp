@@ -22,12 +22,12 @@ void find_stiffness(const Train& train, const State& state, ContactState& modes)
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = 0.0;
         if (state.side[i] != OPEN) {
-            std::int64_t kind = train.kind[i], segment = state.segment[i];
-            const double* edge = &train.edge[kind][segment];
+            std::int64_t kind = train.mesh.kind[i], segment = state.segment[i];
+            const double* edge = &train.teeth.edge[kind][segment];
             k = mesh_stiffness(train, i, segment, 0.5 * (edge[0] + edge[1]));
             double at_edge = mesh_stiffness(train, i, segment, edge[0]);
             modes.varies |= std::fabs(at_edge - k) > STEADY * k;
-            k *= train.copies[i];
+            k *= train.mesh.copies[i];
         }
         modes.stiffness[i] = k;
     }
@@ -59,10 +59,10 @@ void stiffness_matrix(const Train& train, const ContactState& modes, const doubl
                       double (*matrix)[BODIES]) {
     constexpr double ends[2] = {1.0, -1.0};
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        add_spring(matrix, train.body[i], train.sign[i], entries_of(train), modes.stiffness[i],
-                   scale);
+        add_spring(matrix, train.mesh.body[i], train.mesh.sign[i], entries_of(train),
+                   modes.stiffness[i], scale);
     for (std::int64_t c = 0; c < train.machines; ++c)
-        add_spring(matrix, train.coupling[c], ends, 2, train.coupling_stiffness[c], scale);
+        add_spring(matrix, train.coupling.ends[c], ends, 2, train.coupling.stiffness[c], scale);
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
         for (const BearingRow& row : rows_of_bearing(train, b)) {
             if (row.radial && floats(train, b)) continue;
@@ -106,26 +106,26 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double motion = 0.0;
         for (int a = 0; a < entries_of(train); ++a)
-            motion += train.sign[i][a] * shape[train.body[i][a]];
+            motion += train.mesh.sign[i][a] * shape[train.mesh.body[i][a]];
         matrices.entry(matrices.motion(), m, i) = motion;
         matrices.entry(matrices.motion_magnitude(), m, i) = std::fabs(motion);
-        matrices.entry(matrices.force_to_modes(), i, m) = -train.copies[i] * motion;
-        modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * motion * motion;
+        matrices.entry(matrices.force_to_modes(), i, m) = -train.mesh.copies[i] * motion;
+        modes.mesh_damping[train.mesh.kind[i]][m] += modes.stiffness[i] * motion * motion;
         if constexpr (MOVING) {
             const double slope = slope_of(train, i, shape), face = train.moving.face_square;
-            modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * face * slope * slope;
+            modes.mesh_damping[train.mesh.kind[i]][m] += modes.stiffness[i] * face * slope * slope;
             continue;
         }
-        double frame = shape[train.body[i][2]] * train.lever[2][i];
+        double frame = shape[train.mesh.body[i][2]] * train.mesh.lever[2][i];
         for (int g = 0; g < GEARS - 1; ++g) {
-            double spin = shape[train.body[i][g]] * train.lever[g][i] - frame;
+            double spin = shape[train.mesh.body[i][g]] * train.mesh.lever[g][i] - frame;
             matrices.entry(matrices.spin(g), m, i) = spin;
-            matrices.entry(matrices.torque_to_modes(g), i, m) = train.copies[i] * spin;
+            matrices.entry(matrices.torque_to_modes(g), i, m) = train.mesh.copies[i] * spin;
         }
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        double twist = shape[train.coupling[c][0]] - shape[train.coupling[c][1]];
-        modes.shaft_damping[m] += train.coupling_damping[c] * twist * twist;
+        double twist = shape[train.coupling.ends[c][0]] - shape[train.coupling.ends[c][1]];
+        modes.shaft_damping[m] += train.coupling.damping[c] * twist * twist;
     }
     damp_by_bearings(train, modes, m);
 }
@@ -133,10 +133,10 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
 void solve_modes(const Model& model, const State& state, ContactState& modes) {
     const Train& train = model.train;
     modes.contraction[0] = modes.contraction[1] = FIRST_CONTRACTION;
-    modes.varies = train.faults > 0 || train.lines[0] + train.lines[1] > 0;
+    modes.varies = train.faults.count > 0 || train.errors.lines[0] + train.errors.lines[1] > 0;
     double scale[BODIES] = {}, squares[BODIES], matrix[BODIES][BODIES] = {};
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        scale[j] = has_given_motion(model, j) ? 0.0 : 1.0 / std::sqrt(train.mass[j]);
+        scale[j] = has_given_motion(model, j) ? 0.0 : 1.0 / std::sqrt(train.body.mass[j]);
     find_stiffness(train, state, modes);
     stiffness_matrix(train, modes, scale, matrix);
     symmetric_eigen(matrix, static_cast<int>(train.bodies), squares);
@@ -182,10 +182,10 @@ ContactKey contact_key(const Model& model, const State& state) {
     const Train& train = model.train;
     ContactKey key{0, 0};
     for (std::int64_t c = 0; c < train.machines; ++c)
-        key.sun = 2 * key.sun + (model.load.port[c] == BY_MOTION ? 1 : 0);
+        key.sun = 2 * key.sun + (model.operation.port[c] == BY_MOTION ? 1 : 0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t segment = state.side[i] != OPEN ? state.segment[i] + 1 : 0;
-        const bool coast = only_side(train, i) == COAST_SIDE, sun = train.kind[i] == 0;
+        const bool coast = only_side(train, i) == COAST_SIDE, sun = train.mesh.kind[i] == 0;
         // Not by reference to one of them: that would keep them in memory.
         if (coast && sun)
             key.sun_coast = append(key.sun_coast, segment);

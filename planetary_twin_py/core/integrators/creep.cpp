@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 #include "lubrication/bristles.hpp"
 #include "model/equations.hpp"
 
@@ -24,7 +24,8 @@ bool vibration_is_slow(const Train& train, const State& state, const StepConstan
     static_assert(STICKING == 0.5);
     return with_lanes(train, [&]<int L>(std::integral_constant<int, L>) {
         using OfMeshes = Row<MESH_LANES<L>>;
-        const double vibration = largest(absolute(Row<L>(state.v) * Row<L>(train.inverse_radius)));
+        const double vibration =
+            largest(absolute(Row<L>(state.v) * Row<L>(train.body.inverse_radius)));
         OfMeshes slowest =
             smaller(absolute(OfMeshes(step.spin[0])), absolute(OfMeshes(step.spin[1])));
         return none(first_of_row<MESH_LANES<L>>(train.meshes) & !(slowest > 4.0 * vibration));
@@ -35,12 +36,12 @@ bool vibration_is_slow(const Train& train, const State& state, const StepConstan
 // its rigid speed.
 bool vibration_slows(const Train& train, const double* v, const double* rigid, double part) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        std::int64_t carrier = train.body[i][2];
-        double turning = v[carrier] * train.inverse_radius[carrier];
+        std::int64_t carrier = train.mesh.body[i][2];
+        double turning = v[carrier] * train.body.inverse_radius[carrier];
         for (int gear = 0; gear < 2; ++gear) {
-            std::int64_t body = train.body[i][gear];
+            std::int64_t body = train.mesh.body[i][gear];
             double steady = rigid[body] - rigid[carrier];
-            double change = v[body] * train.inverse_radius[body] - turning;
+            double change = v[body] * train.body.inverse_radius[body] - turning;
             if (-change * steady > part * steady * steady) return true;
         }
     }
@@ -53,7 +54,7 @@ bool creep_swings(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     double rigid[BODIES], rate = 0.0, size = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        double share = train.cycles[a] * model.load.target_speed[a];
+        double share = train.cycle.per_turn[a] * model.operation.target_speed[a];
         rate += share;
         size += std::fabs(share);
     }
@@ -61,7 +62,7 @@ bool creep_swings(const Model& model, const Integrator& integrator) {
     for (int j = 0; j < BODIES; ++j) {
         rigid[j] = 0.0;
         for (std::int64_t a = 0; a < train.axes; ++a)
-            rigid[j] += train.ratio[a][j] * model.load.target_speed[a];
+            rigid[j] += train.body.ratio[a][j] * model.operation.target_speed[a];
     }
     return vibration_slows(train, integrator.begin.v, rigid, SWINGING);
 }

@@ -108,7 +108,7 @@ void compute_rows(const Model& model, Integrator& integrator, Piece piece, Rows&
         Samples out = row_in(train, turns, row);
         sample(model, integrator, piece.begin + 0.5 * piece.length * (1.0 + s), out, 0);
         for (std::int64_t j = 0; j < train.bodies; ++j)
-            out.angle[j] -= train.ratio[0][j] * (TURN * integrator.begin.fraction[0]);
+            out.angle[j] -= train.body.ratio[0][j] * (TURN * integrator.begin.fraction[0]);
     }
 }
 
@@ -157,13 +157,14 @@ void set_allowed(const Model& model, const Integrator& integrator, const Rows& r
         std::fill_n(allowed + q * train.meshes, train.meshes, error);
     }
     for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double yields = share * control.deflection * train.inverse_radius[j];
+        double yields = share * control.deflection * train.body.inverse_radius[j];
         allowed[bodies + j] = yields;
         allowed[bodies + train.bodies + j] = yields * control.speed_per_deflection;
     }
     const std::int64_t axes = place_of_axes(train), tilting = axes + columns_of_axes(train);
     for (std::int64_t c = drags; c < axes; ++c) allowed[c] = share * largest(c, c + 1);
-    double force = control.deflection * std::max(train.stiffness[0], train.stiffness[1]);
+    double force =
+        control.deflection * std::max(train.teeth.stiffness[0], train.teeth.stiffness[1]);
     for (std::int64_t c = axes; c < tilting; ++c)
         allowed[c] = share * ((c - axes) % SAMPLE_AXES < 2 ? control.deflection : force);
     for (std::int64_t c = tilting; c < rows.columns; ++c) {
@@ -284,7 +285,7 @@ void put_bodies(const Train& train, Turns turns, const double* values, const Sam
     std::fill(whole, whole + out.axes, 0.0);
     whole[0] = turns.whole;
     for (std::int64_t j = 0; j < n; ++j)
-        out.angle[row * n + j] = values[j] + train.ratio[0][j] * (TURN * turns.fraction);
+        out.angle[row * n + j] = values[j] + train.body.ratio[0][j] * (TURN * turns.fraction);
 }
 
 // Write a sample from the table of a step.

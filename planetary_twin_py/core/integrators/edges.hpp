@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "integrators/integrator_record.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 #include "mesh/contact_change.hpp"
 #include "mesh/cycle.hpp"
 #include "model/model.hpp"
@@ -49,7 +49,7 @@ inline NextEvent next_event(const Model& model, const Integrator& integrator) {
         train, [&](auto lanes) { return first_edge<lanes>(constants, cycle_rate); });
     for (std::int64_t a = 0; a < train.axes; ++a) {
         if (constants.slew[a] == 0.0) continue;
-        double time = (model.load.target_speed[a] - state.set_speed[a]) / constants.slew[a];
+        double time = (model.operation.target_speed[a] - state.set_speed[a]) / constants.slew[a];
         if (time < nearest.time) nearest = {time, NO_MESH};
     }
     nearest.time = std::max(nearest.time, SHORTEST_STEP);
@@ -76,7 +76,7 @@ inline double time_to_edge(const Model& model, const Integrator& integrator, std
     double side = static_cast<double>(begin.side[i]);
     double rate = side * (integrator.constants.cycle_rate + cycle_shift(train, integrator.end.v));
     std::int64_t edge = begin.segment[i] + (rate > 0.0 ? 1 : 0);
-    double left = train.edge[train.kind[i]][edge] - integrator.constants.start[i];
+    double left = train.teeth.edge[train.mesh.kind[i]][edge] - integrator.constants.start[i];
     return (left - side * cycles_of_step(train, integrator)) / rate;
 }
 
@@ -85,16 +85,16 @@ inline double time_to_edge(const Model& model, const Integrator& integrator, std
 NOINLINE inline void pass_edge(const Model& model, Integrator& integrator, std::int64_t i,
                                int direction, double cycle) {
     const Train& train = model.train;
-    const std::int64_t kind = train.kind[i];
+    const std::int64_t kind = train.mesh.kind[i];
     std::int64_t& segment = integrator.end.segment[i];
-    for (std::int64_t k = 0; k < train.segments[kind]; ++k) {
+    for (std::int64_t k = 0; k < train.teeth.segments[kind]; ++k) {
         const double place = nearest_to_segment(train, kind, segment, cycle);
-        const double* edge = &train.edge[kind][segment];
+        const double* edge = &train.teeth.edge[kind][segment];
         if (direction > 0 ? place < edge[1] - EDGE : place > edge[0] + EDGE) return;
         if (integrator.control.creeping)
             pass_bristles(train, integrator.end.bristle, i, segment, direction);
         change_segment(model, integrator.end, integrator.scratch, i, direction, cycle);
-        integrator.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
+        integrator.control.pair_events += static_cast<std::int64_t>(train.mesh.copies[i]);
         integrator.control.changed = true;
     }
 }

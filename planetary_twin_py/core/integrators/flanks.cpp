@@ -68,7 +68,7 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
     const Propagation& run = integrator.run;
     const std::int64_t side = integrator.begin.side[i];
     LengthAndDamping own{run.node[n].d[i], tau * run.node[n].rate[i]}, wider{0.0, 0.0};
-    if (train.lines[train.kind[i]] > 0) {
+    if (train.errors.lines[train.mesh.kind[i]] > 0) {
         const MeshesNow& now = run.node[n].meshes;
         LengthAndRate error =
             form_error(train, i, static_cast<double>(side), integrator.constants.line_angle,
@@ -79,7 +79,7 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
         wider = {wide.length, tau * wide.rate};
     }
     double waves_add = d + tau * rate;
-    double left = remaining_gap(train, model.load, i, side, own, wider, 0.0);
+    double left = remaining_gap(train, model.operation.backlash, i, side, own, wider, 0.0);
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
@@ -87,15 +87,8 @@ double left_without_waves(const Model& model, const Integrator& integrator, std:
 // form, and of fixed axes if all are closed.
 template <int M>
 bool have_smooth_gaps(const Train& train, const StepConstants& constants) {
-    if (train.lines[0] + train.lines[1] > 0) return false;
+    if (train.errors.lines[0] + train.errors.lines[1] > 0) return false;
     return MOVING || none(first_of_row<M>(train.meshes) & (Row<M>(constants.side) == 0.0));
-}
-
-// Sides of the meshes, which are all closed or have an entry for each flank.
-template <int M>
-ALWAYS_INLINE Row<M> sides_of(const Train& train, const StepConstants& constants) {
-    if constexpr (!MOVING) return Row<M>(constants.side);
-    return select(first_of_row<M>(train.meshes / FLANKS), Row<M>(1.0), -1.0);
 }
 
 // The same as `left_without_waves` for all meshes, without errors of form.
@@ -104,16 +97,12 @@ ALWAYS_INLINE Row<M> left_in_rows(const Model& model, const Integrator& integrat
                                   const RowPair<M>& waves) {
     using V = Row<M>;
     const StepConstants& constants = integrator.constants;
+    const Backlash& backlash = model.operation.backlash;
     const Node& node = integrator.run.node[n];
-    const double half = model.load.half_backlash;
-    V tau = model.load.release * V(constants.damping_time),
-      side = sides_of<M>(model.train, constants);
-    V d = side * V(node.d), normal_force = d + tau * (side * V(node.rate));
-    V added = side * (waves.first + tau * waves.second);
-    V closed = normal_force - added - half;
-    if constexpr (!MOVING) return closed;
-    V open = half - smaller(d, normal_force) - absolute(added);
-    return select(V(constants.side) == 0.0, open, closed);
+    V left = remaining_gaps<M>(model.train, backlash, constants, V(node.d), V(node.rate));
+    V added = waves.first + backlash.release * V(constants.damping_time) * waves.second;
+    if constexpr (!MOVING) return left - V(constants.side) * added;
+    return left - select(V(constants.side) == 0.0, absolute(added), V(constants.side) * added);
 }
 
 // Free waves of the modes that may oscillate, at node n, and their rates.
@@ -154,21 +143,14 @@ ALWAYS_INLINE Row<L> bends_between_nodes(const Propagation& run, const Row<L>& w
     return 2.0 * smaller(waves, bend * (apart * apart / 8.0));
 }
 
-// Least gaps of the meshes at the start and at the nodes, without errors of form. The gap of open
-// flanks is at least that of their deflection; damping increases it.
+// Least gaps of the meshes at the start and at the nodes, without errors of form.
 template <int M>
 ALWAYS_INLINE Row<M> least_gaps(const Model& model, const Integrator& integrator) {
     using V = Row<M>;
-    const StepConstants& constants = integrator.constants;
     const Propagation& run = integrator.run;
-    const double half = model.load.half_backlash;
-    V tau = model.load.release * V(constants.damping_time),
-      side = sides_of<M>(model.train, constants);
-    const Mask<M> open = V(constants.side) == 0.0;
     auto gap_at = [&](const Node& node) {
-        V d(node.d), gap = side * (d + tau * V(node.rate)) - half;
-        if constexpr (MOVING) return select(open, half - side * d, gap);
-        return gap;
+        return remaining_gaps<M>(model.train, model.operation.backlash, integrator.constants,
+                                 V(node.d), V(node.rate));
     };
     V least = gap_at(run.start);
     for (int n = 0; n < run.nodes.count; ++n) least = smaller(least, gap_at(run.node[n]));
@@ -216,7 +198,8 @@ bool flanks_may_change(const Model& model, Integrator& integrator) {
         waves.first.store(d);
         waves.second.store(rate);
         for (std::int64_t i = 0; i < train.meshes; ++i) {
-            double tau = model.load.release * integrator.constants.tau[train.kind[i]];
+            double tau =
+                model.operation.backlash.release * integrator.constants.tau[train.mesh.kind[i]];
             left[i] = left_without_waves(model, integrator, i, n, tau, d[i], rate[i]);
         }
         least = smaller(least, Row<M>(left));
@@ -253,13 +236,13 @@ void scan(Integrator& integrator, double end) {
 int first_scanned(const Model& model, Integrator& integrator, std::int64_t i, double end) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;
-    double tau = integrator.constants.tau[train.kind[i]];
+    double tau = integrator.constants.tau[train.mesh.kind[i]];
     for (int k = 0; k < SCANNED; ++k) {
         double gap;
-        if (train.lines[train.kind[i]] > 0)
+        if (train.errors.lines[train.mesh.kind[i]] > 0)
             gap = contact_event_at(model, integrator, i, (k + 1) * end / SCANNED);
         else
-            gap = remaining_gap(train, model.load, i, integrator.begin.side[i],
+            gap = remaining_gap(train, model.operation.backlash, i, integrator.begin.side[i],
                                 {run.scan_d[k][i], tau * run.scan_rate[k][i]}, {0.0, 0.0},
                                 slack_of(integrator));
         if (gap < 0.0) return k;

@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "integrators/interpolant.hpp"
+#include "integrators/methods.hpp"
 #include "integrators/propagation.hpp"
-#include "integrators/step_control.hpp"
 #include "mesh/backlash.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/form_errors.hpp"
@@ -48,16 +48,16 @@ double smooth_contact_event(const Model& model, Integrator& integrator, std::int
         d += motion[m][i] * q[m];
         rate += motion[m][i] * p[m];
     }
-    double tau = integrator.constants.tau[model.train.kind[i]];
-    return remaining_gap(model.train, model.load, i, integrator.begin.side[i], {d, tau * rate},
-                         {0.0, 0.0}, slack_of(integrator));
+    double tau = integrator.constants.tau[model.train.mesh.kind[i]];
+    return remaining_gap(model.train, model.operation.backlash, i, integrator.begin.side[i],
+                         {d, tau * rate}, {0.0, 0.0}, slack_of(integrator));
 }
 
 // `contact_event` of mesh i on the interpolant.
 inline double contact_event_at(const Model& model, Integrator& integrator, std::int64_t i,
                                double delay) {
     const Train& train = model.train;
-    if (integrator.control.collocated && train.lines[train.kind[i]] == 0)
+    if (integrator.control.collocated && train.errors.lines[train.mesh.kind[i]] == 0)
         return with_lanes(train, [&](auto lanes) {
             return smooth_contact_event<lanes>(model, integrator, i, delay);
         });

@@ -26,18 +26,18 @@ inline void turn_frame(State& state, std::int64_t a, double turns) {
 template <int L>
 void rebase(const Train& train, State& state) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        std::int64_t motor = train.coupling[2 * a][0];
-        double angle = state.x[motor] * train.inverse_radius[motor];
-        double rate = state.v[motor] * train.inverse_radius[motor];
+        std::int64_t motor = train.coupling.ends[2 * a][0];
+        double angle = state.x[motor] * train.body.inverse_radius[motor];
+        double rate = state.v[motor] * train.body.inverse_radius[motor];
         // Entries beyond the bodies, the ground and the frame, stay zero.
         const Row<L> moved = select(first_of_row<L>(train.bodies),
-                                    Row<L>(train.ratio[a]) * Row<L>(train.radius), 0.0);
+                                    Row<L>(train.body.ratio[a]) * Row<L>(train.body.radius), 0.0);
         (Row<L>(state.x) - moved * angle).store(state.x);
         (Row<L>(state.v) - moved * rate).store(state.v);
         state.x[motor] = 0.0;
         state.v[motor] = 0.0;
         if constexpr (MOVING) {
-            double frame = train.ratio[a][train.moving.frame];
+            double frame = train.body.ratio[a][train.moving.frame];
             if (frame != 0.0) turn_displacements(train, frame * angle, frame * rate, state);
         }
         state.speed[a] += rate;

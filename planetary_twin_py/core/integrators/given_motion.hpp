@@ -19,16 +19,16 @@ struct GivenMotion {
 };
 
 inline GivenMotion given_motion(const Model& model, const State& begin, std::int64_t machine) {
-    std::int64_t body = model.train.coupling[machine][0];
+    std::int64_t body = model.train.coupling.ends[machine][0];
     return {begin.x[body], begin.v[body],
-            model.train.radius[body] * model.load.acceleration[machine]};
+            model.train.body.radius[body] * model.operation.acceleration[machine]};
 }
 
 // Set x and v of the ends of such shafts to those `delay` seconds after the start of the step.
 inline void move_given(const Model& model, const State& begin, double delay, double* x, double* v) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
-        if (model.load.port[c] != BY_MOTION) continue;
-        std::int64_t body = model.train.coupling[c][0];
+        if (model.operation.port[c] != BY_MOTION) continue;
+        std::int64_t body = model.train.coupling.ends[c][0];
         GivenMotion motion = given_motion(model, begin, c);
         x[body] = motion.x(delay);
         v[body] = motion.v(delay);

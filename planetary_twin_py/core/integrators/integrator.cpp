@@ -9,9 +9,9 @@
 #include "integrators/edges.hpp"
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
+#include "integrators/methods.hpp"
 #include "integrators/periodic.hpp"
 #include "integrators/progress.hpp"
-#include "integrators/step_control.hpp"
 #include "integrators/step_sums.hpp"
 #include "integrators/stiff_step.hpp"
 #include "integrators/window_sums.hpp"
@@ -53,7 +53,7 @@ double largest_squeeze(const Model& model, const State& state) {
     double largest = 0.0;
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         largest = std::max(largest, std::fabs(mesh_motion(model.train, i, state.x)));
-    return largest - model.load.half_backlash;
+    return largest - model.operation.backlash.half;
 }
 
 // Allow errors in proportion to the deflection of the meshes by torques or by inertia.
@@ -85,10 +85,10 @@ void set_tolerances(const Model& model, Integrator& integrator) {
 // End the slewing of set-points that have reached their targets.
 void end_slews(const Model& model, Integrator& integrator) {
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
-        double gap = model.load.target_speed[a] - integrator.end.set_speed[a];
+        double gap = model.operation.target_speed[a] - integrator.end.set_speed[a];
         double slew = integrator.constants.slew[a];
-        if (gap * slew <= 0.0 || std::fabs(gap) < AT_TARGET * model.load.slew_rate) {
-            integrator.end.set_speed[a] = model.load.target_speed[a];
+        if (gap * slew <= 0.0 || std::fabs(gap) < AT_TARGET * model.operation.slew_rate) {
+            integrator.end.set_speed[a] = model.operation.target_speed[a];
             integrator.control.changed |= slew != 0.0;
         }
     }
@@ -153,7 +153,7 @@ void accept(const Model& model, Integrator& integrator, std::int64_t mesh) {
     if (integrator.sums.known) sum_step(model, integrator);
     if (mesh != NO_MESH) {
         change_contact(model, integrator.end, integrator.scratch, mesh);
-        integrator.control.flank_events += static_cast<std::int64_t>(model.train.copies[mesh]);
+        integrator.control.flank_events += static_cast<std::int64_t>(model.train.mesh.copies[mesh]);
         integrator.control.changed = true;
     }
     with_mesh_lanes(model.train, [&](auto lanes) { pass_edges<lanes>(model, integrator); });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "integrators/frame.hpp"
 #include "integrators/node_forces.hpp"
@@ -56,8 +55,8 @@ void put_row(const Row<L>& row, std::int64_t count, double* out) {
 template <int L>
 Row<L> body_speeds(const Train& train, const State& begin, const double* v) {
     using V = Row<L>;
-    V rigid = V(train.ratio[0]) * begin.speed[0] + V(train.ratio[1]) * begin.speed[1];
-    return rigid + V(v) * V(train.inverse_radius);
+    V rigid = V(train.body.ratio[0]) * begin.speed[0] + V(train.body.ratio[1]) * begin.speed[1];
+    return rigid + V(v) * V(train.body.inverse_radius);
 }
 
 template <int L>
@@ -65,9 +64,9 @@ void sample_angles(const Train& train, const State& begin, const double* x, doub
                    const Samples& out, std::int64_t row) {
     using V = Row<L>;
     for (int a = 0; a < AXES; ++a) out.turns[row * out.axes + a] = begin.turns[a];
-    V angle = V(x) / V(train.radius);
+    V angle = V(x) / V(train.body.radius);
     for (std::int64_t a = 0; a < train.axes; ++a)
-        angle += V(train.ratio[a]) * (TURN * begin.fraction[a] + begin.speed[a] * delay);
+        angle += V(train.body.ratio[a]) * (TURN * begin.fraction[a] + begin.speed[a] * delay);
     put_row(angle, train.bodies, out.angle + row * out.bodies);
 }
 
@@ -84,38 +83,13 @@ void write_sample(const Model& model, Integrator& integrator, const double (*sho
         note_peaks(Row<MESH_LANES<L>>(shown[DTE]), out.peaks->dte);
         note_peaks(speed, out.peaks->speed);
     }
-    if (out.drag && train.joints + train.discs > 0)
+    if (out.drag && has_drag(train))
         sample_drag(model, integrator, v, shown, out.drag + row * SAMPLE_DRAGS);
     if (out.turns) {
         sample_angles<L>(train, begin, x, delay, out, row);
         put_row(speed, train.bodies, out.speed + row * out.bodies);
     }
     if constexpr (MOVING) sample_axes(train, begin, x, v, out, row);
-}
-
-// The quantities of `observe`, from a node and its friction.
-template <int L>
-void show_node(const Model& model, const Integrator& integrator, const Node& node,
-               double (*shown)[MESHES]) {
-    using V = Row<L>;
-    const Oil& oil = model.oil;
-    const MeshFriction& friction = node.friction;
-    V side(integrator.constants.side), force = larger(V(node.meshes.normal_force), V(0.0)),
-                                       share(0.0);
-    const Mask<L> open = side == 0.0;
-    for (std::int64_t p = 0; p < model.train.slots; ++p) share += V(node.meshes.share[p]);
-    V film(friction.film), lambda = film * exp(-oil.log_roughness);
-    if (oil.prescribed) lambda = share * oil.lambda_ratio;
-    constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
-    copy<L>(node.d, shown[DTE]);
-    (side * force).store(shown[MESH_FORCE]);
-    (force * (model.train.base_pitch * std::fabs(node.meshes.cycle_rate))).store(shown[MESH_POWER]);
-    select(open, NONE, film).store(shown[FILM]);
-    select(open, NONE, lambda).store(shown[LAMBDA]);
-    const double friction_acts = model.train.friction ? 1.0 : 0.0;
-    (friction_acts * V(friction.boundary)).store(shown[BOUNDARY]);
-    (friction_acts * V(friction.viscous)).store(shown[VISCOUS]);
-    (friction_acts * V(friction.lost)).store(shown[POWER_LOSS]);
 }
 
 // Samples of a collocation step, at most MOST_INSTANTS.
@@ -126,7 +100,7 @@ void sample_collocated(const Model& model, Integrator& integrator, const double*
     for (int n = 0; n < count; ++n) {
         const Node& node = integrator.run.shown[n];
         alignas(64) double shown[QUANTITIES][MESHES];
-        show_node<MESH_LANES<L>>(model, integrator, node, shown);
+        show<MESH_LANES<L>>(model, integrator.constants, node.d, node.meshes, node.friction, shown);
         write_sample<L>(model, integrator, shown, node.x, node.v, delays[n], out, row + n);
     }
 }

@@ -8,8 +8,8 @@
 
 #include <cstring>
 
+#include "integrators/methods.hpp"
 #include "integrators/propagation.hpp"
-#include "integrators/step_control.hpp"
 #include "integrators/trial_step.hpp"
 #include "run/samples.hpp"
 

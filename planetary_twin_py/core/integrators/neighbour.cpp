@@ -8,7 +8,7 @@
 #include "integrators/distance.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/mesh_cycle_start.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 
 namespace gearbox {
 
@@ -29,13 +29,15 @@ double share_of(std::int64_t body) {
 // Change the speeds by about equal energies of all bodies, and so of all modes, but not the speed
 // of the train as a whole: the speed loop controls it, and is stable by itself.
 void kick(const Train& train, double speed, State& state) {
-    const double lightest = *std::min_element(train.mass, train.mass + train.bodies);
-    auto own = [&](std::int64_t j) { return share_of(j) * std::sqrt(lightest / train.mass[j]); };
-    auto rigid = [&](std::int64_t j) { return train.ratio[0][j] * train.radius[j]; };
+    const double lightest = *std::min_element(train.body.mass, train.body.mass + train.bodies);
+    auto own = [&](std::int64_t j) {
+        return share_of(j) * std::sqrt(lightest / train.body.mass[j]);
+    };
+    auto rigid = [&](std::int64_t j) { return train.body.ratio[0][j] * train.body.radius[j]; };
     double momentum = 0.0, inertia = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
-        momentum += rigid(j) * train.mass[j] * own(j);
-        inertia += rigid(j) * train.mass[j] * rigid(j);
+        momentum += rigid(j) * train.body.mass[j] * own(j);
+        inertia += rigid(j) * train.body.mass[j] * rigid(j);
     }
     for (std::int64_t j = 0; j < train.bodies; ++j)
         state.v[j] += speed * (own(j) - rigid(j) * momentum / inertia);

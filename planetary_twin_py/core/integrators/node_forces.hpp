@@ -36,7 +36,7 @@ NOINLINE inline void find_friction_forces(const Model& model, const Integrator& 
                                           Node& node, double* friction_force) {
     const Train& train = model.train;
     if (train.friction) add_friction_forces(train, node.friction.drag, friction_force);
-    if (train.joints + train.discs == 0) return;
+    if (!has_drag(train)) return;
     for (int e : {BEARING, CHURNING}) node.power[e] = 0.0;
     apply_drag(model, integrator.begin, node.v, node.meshes.normal_force, friction_force,
                node.power);
@@ -86,7 +86,7 @@ ALWAYS_INLINE void find_modal_friction(const Model& model, const Integrator& int
                                        const ContactState& contacts, int count, Node* node) {
     const Train& train = model.train;
     int n = 0;
-    if (MOVING || !train.friction || train.printed_torque || train.joints + train.discs > 0)
+    if (MOVING || !train.friction || train.printed_torque || has_drag(train))
         for (; n < count; ++n) find_body_friction<L>(model, integrator, contacts, node[n]);
     for (; n + TOGETHER <= count; n += TOGETHER)
         find_mesh_friction<TOGETHER, L>(contacts, node + n);
@@ -130,8 +130,8 @@ NOINLINE Row<L> node_force(const Model& model, const Integrator& integrator,
     V force =
         V(node.friction_force) + sum_rows<L>(contacts.matrices.force_to_modes(), normal_force);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        force += V(share[train.coupling[c][0]]) * forces.machine[c];
-        force += V(share[train.coupling[c][1]]) * forces.member[c];
+        force += V(share[train.coupling.ends[c][0]]) * forces.machine[c];
+        force += V(share[train.coupling.ends[c][1]]) * forces.member[c];
     }
     if constexpr (MOVING) {
         alignas(64) double on_axes[BODIES];

@@ -73,14 +73,14 @@ bool close_cycle(const Model& model, Integrator& integrator) {
     const Train& train = model.train;
     const State& end = integrator.end;
     Place& whole = periodic.whole;
-    const std::int64_t motor = train.coupling[0][0];
+    const std::int64_t motor = train.coupling.ends[0][0];
     keep(periodic.start, end, whole);
     double took = whole.after;
-    double turned = whole.turned + end.x[motor] / train.radius[motor] / TURN;
+    double turned = whole.turned + end.x[motor] / train.body.radius[motor] / TURN;
     double turns =
         static_cast<double>(periodic.numerator) / static_cast<double>(periodic.denominator);
     whole.turned = std::copysign(turns, turned);
-    whole.after = whole.turned * TURN / model.load.target_speed[0];
+    whole.after = whole.turned * TURN / model.operation.target_speed[0];
     periodic.place = periodic.steps;
     periodic.part = 0;
     periodic.sums.time = 0.0;

@@ -18,12 +18,12 @@ inline constexpr int START = MOST_NODES;  // row of the values at the start
 
 // Whether given torques or motions at the ports change within a step.
 inline bool given_changes(const Model& model, const State& begin) {
-    const std::int64_t* port = model.load.port;
+    const std::int64_t* port = model.operation.port;
     if ((port[0] | port[1] | port[2]) == BY_MACHINE) return false;  // no input is given
     bool changes = false;
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
-        changes |= model.load.torque_rate[c] != 0.0;
-        if (model.load.port[c] != BY_MOTION) continue;
+        changes |= model.operation.torque_rate[c] != 0.0;
+        if (model.operation.port[c] != BY_MOTION) continue;
         GivenMotion end = given_motion(model, begin, c);
         changes |= end.speed != 0.0 || end.acceleration != 0.0;
     }
@@ -38,13 +38,14 @@ Row<L> gain_of_given(const Model& model, const Integrator& integrator, double de
     const ContactState& contacts = contacts_of(integrator.run);
     Row<L> gain(0.0);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
-        const double more = model.load.torque_rate[c] * delay * train.inverse_radius[body];
+        const std::int64_t body = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
+        const double more =
+            model.operation.torque_rate[c] * delay * train.body.inverse_radius[body];
         gain += Row<L>(contacts.matrices.shapes_transposed()[body]) * more;
-        if (model.load.port[c] != BY_MOTION) continue;
+        if (model.operation.port[c] != BY_MOTION) continue;
         const GivenMotion end = given_motion(model, integrator.begin, c);
-        const double coupling_force = train.coupling_stiffness[c] * (end.x(delay) - end.place) +
-                                      train.coupling_damping[c] * (end.v(delay) - end.speed);
+        const double coupling_force = train.coupling.stiffness[c] * (end.x(delay) - end.place) +
+                                      train.coupling.damping[c] * (end.v(delay) - end.speed);
         gain += Row<L>(contacts.matrices.shapes_transposed()[member]) * coupling_force;
     }
     return gain;

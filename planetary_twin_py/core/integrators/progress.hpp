@@ -6,7 +6,7 @@
 
 #include "integrators/integrator_record.hpp"
 #include "integrators/interruption.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 
 namespace gearbox {
 

@@ -328,10 +328,10 @@ inline void trim_at(const Model& model, const Integrator& integrator, double del
     const Train& train = model.train;
     const State& begin = integrator.begin;
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        std::int64_t motor = train.coupling[2 * a][0];
+        std::int64_t motor = train.coupling.ends[2 * a][0];
         double lag =
             begin.set_speed[a] - begin.speed[a] + 0.5 * integrator.constants.slew[a] * delay;
-        double turned = (x[motor] - begin.x[motor]) * train.inverse_radius[motor];
+        double turned = (x[motor] - begin.x[motor]) * train.body.inverse_radius[motor];
         trim[a] = begin.trim[a] + lag * delay - turned;
     }
 }
@@ -343,7 +343,7 @@ inline void turn_gears(const Train& train, const StepConstants& constants, Node&
         if (constants.side[i] == 0.0) continue;
         const double line = turning_of_line(train, i, node.v);
         for (int g = 0; g < GEARS - 1; ++g) {
-            double turning = node.v[train.body[i][g]] * train.lever[g][i];
+            double turning = node.v[train.mesh.body[i][g]] * train.mesh.lever[g][i];
             node.spin[g][i] = constants.spin[g][i] + turning - line;
         }
     }

@@ -27,8 +27,9 @@ constexpr double ENDS[2] = {1.0, -1.0};
 void add_machine_time_derivatives(const Model& model, Workspace& work) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t body = train.coupling[c][0];
-        work.time_derivative[body] += model.load.torque_rate[c] * train.inverse_radius[body];
+        std::int64_t body = train.coupling.ends[c][0];
+        work.time_derivative[body] +=
+            model.operation.torque_rate[c] * train.body.inverse_radius[body];
     }
 }
 
@@ -39,16 +40,17 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
     const double step = GAMMA * h, cycle_rate = constants.cycle_rate + cycle_shift(train, state.v);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (state.side[i] == OPEN) continue;
-        std::int64_t kind = train.kind[i];
-        double side = static_cast<double>(state.side[i]), copies = train.copies[i];
+        std::int64_t kind = train.mesh.kind[i];
+        double side = static_cast<double>(state.side[i]), copies = train.mesh.copies[i];
         double time_derivative =
             copies * force_time_derivative(model, state, constants, i, cycle_rate);
         for (int j = 0; j < entries_of(train); ++j)
-            work.time_derivative[train.body[i][j]] -= side * time_derivative * train.sign[i][j];
+            work.time_derivative[train.mesh.body[i][j]] -=
+                side * time_derivative * train.mesh.sign[i][j];
         double cycle = constants.start[i] + side * cycle_rate * 0.5 * h;
         double k = copies * mesh_stiffness(train, i, state.segment[i], cycle);
-        add_outer(work.stiffness, train.body[i], train.sign[i], entries_of(train), k);
-        add_outer(work.system, train.body[i], train.sign[i], entries_of(train),
+        add_outer(work.stiffness, train.mesh.body[i], train.mesh.sign[i], entries_of(train), k);
+        add_outer(work.system, train.mesh.body[i], train.mesh.sign[i], entries_of(train),
                   k * (constants.tau[kind] + step));
         if constexpr (MOVING) {
             add_slope_stiffness(train, i, k, work.stiffness);
@@ -61,11 +63,11 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
 void free_given(const Model& model, double h, Workspace& work) {
     const Train& train = model.train;
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        if (model.load.port[c] != BY_MOTION) continue;
-        std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+        if (model.operation.port[c] != BY_MOTION) continue;
+        std::int64_t body = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
         work.stiffness[body][body] = work.stiffness[body][member] = 0.0;
         work.system[body][member] = work.system[member][body] = 0.0;
-        work.system[body][body] = train.mass[body] / (GAMMA * h);
+        work.system[body][body] = train.body.mass[body] / (GAMMA * h);
     }
 }
 
@@ -92,9 +94,10 @@ void assemble(const Model& model, const State& state, const StepConstants& const
     assemble_meshes(model, state, constants, h, work);
     add_machine_time_derivatives(model, work);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        double k = train.coupling_stiffness[c];
-        add_outer(work.stiffness, train.coupling[c], ENDS, 2, k);
-        add_outer(work.system, train.coupling[c], ENDS, 2, train.coupling_damping[c] + step * k);
+        double k = train.coupling.stiffness[c];
+        add_outer(work.stiffness, train.coupling.ends[c], ENDS, 2, k);
+        add_outer(work.system, train.coupling.ends[c], ENDS, 2,
+                  train.coupling.damping[c] + step * k);
     }
     if constexpr (MOVING) assemble_bearings(train, state, step, work);
     if (train.friction) {
@@ -104,7 +107,7 @@ void assemble(const Model& model, const State& state, const StepConstants& const
             friction_damping(train, first.pairs, first.force, h, work.row, work.system);
     }
     drag_damping(model, state, first.now.normal_force, first.force, h, work.system);
-    for (std::int64_t j = 0; j <= train.bodies; ++j) work.system[j][j] += train.mass[j] / step;
+    for (std::int64_t j = 0; j <= train.bodies; ++j) work.system[j][j] += train.body.mass[j] / step;
     free_given(model, h, work);
 }
 
@@ -113,10 +116,10 @@ void add_given_motion_forces(const Model& model, double h, double* right) {
     const Train& train = model.train;
     const double step = GAMMA * h;
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        if (model.load.port[c] != BY_MOTION) continue;
-        std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
-        double factor = train.coupling_damping[c] + step * train.coupling_stiffness[c];
-        right[member] += factor * right[body] * step / train.mass[body];
+        if (model.operation.port[c] != BY_MOTION) continue;
+        std::int64_t body = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
+        double factor = train.coupling.damping[c] + step * train.coupling.stiffness[c];
+        right[member] += factor * right[body] * step / train.body.mass[body];
     }
 }
 
@@ -133,7 +136,7 @@ void place_stage(const Train& train, const State& state, double h, int i, Worksp
         work.x[j] = x;
         work.v[j] = v;
         work.rx[j] = v + cx / h;
-        work.rv[j] = train.mass[j] * cv / h;
+        work.rv[j] = train.body.mass[j] * cv / h;
     }
     for (std::int64_t a = 0; a < train.axes; ++a) {
         work.trim[a] = state.trim[a];
@@ -145,13 +148,13 @@ void place_stage(const Train& train, const State& state, double h, int i, Worksp
 void add_stage(const Train& train, const State& state, const StepConstants& constants, double h,
                int i, const Evaluation& out, Workspace& work) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        double speed = body_speed(train, state, work.v, train.coupling[2 * a][0]);
+        double speed = body_speed(train, state, work.v, train.coupling.ends[2 * a][0]);
         double set_speed = state.set_speed[a] + constants.slew[a] * STAGE.abscissa[i] * h;
         work.trim_rate[i][a] = set_speed - speed;
     }
     for (int e = 0; e < LEDGER; ++e) work.energy[e] += h * B[i] * out.power[e];
     for (std::int64_t c = 0; c < train.machines; ++c)
-        work.machine_displacement[c] += h * B[i] * work.v[train.coupling[c][0]];
+        work.machine_displacement[c] += h * B[i] * work.v[train.coupling.ends[c][0]];
 }
 
 // Stage i: evaluate, then solve for ux[i] and uv[i].
@@ -219,8 +222,8 @@ void sum_stage(const Model& model, double h, int i, const Evaluation& first, Sta
 void add_machine_work(const Train& train, const State& state, double h, const State& out,
                       Workspace& work) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t body = train.coupling[c][0];
-        double force = work.energy[IMPULSE + c] / (h * train.radius[body]);
+        std::int64_t body = train.coupling.ends[c][0];
+        double force = work.energy[IMPULSE + c] / (h * train.body.radius[body]);
         work.energy[WORK + c] +=
             force * (out.x[body] - state.x[body] - work.machine_displacement[c]);
     }

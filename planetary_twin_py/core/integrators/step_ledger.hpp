@@ -65,7 +65,7 @@ ALWAYS_INLINE Row<L> damped(const Propagation& run, double part) {
 // Sum of a row over all meshes and their copies.
 template <int L>
 ALWAYS_INLINE double sum_of_meshes(const Train& train, const Row<L>& row) {
-    return total(Row<L>(train.copies) * row);
+    return total(Row<L>(train.mesh.copies) * row);
 }
 
 // Fill the ledger h seconds after the start of the step, by quadrature at the nodes; the

@@ -8,9 +8,10 @@
 
 #include "integrators/contact_sums.hpp"
 #include "integrators/node_forces.hpp"
-#include "integrators/parabola.hpp"
+#include "integrators/peaks.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
+#include "integrators/step_values.hpp"
 #include "mesh/deflection.hpp"
 #include "model/equations.hpp"
 
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
 constexpr double LEAST_CLOSER = 2.0;           // intervals for each one where peaks are sought
-constexpr double VERTEX_ERROR = 0.5;           // of a vertex between nodes, of its rise above them
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 // Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
 constexpr double EARLIEST = 0.05, LATER = std::numbers::sqrt2;
@@ -44,8 +44,10 @@ void add_films_of_nodes(const Model& model, Integrator& integrator,
     }
     find_friction(model, integrator.constants, instants, 2,
                   integrator.control.tolerance >= SINGLE_PRECISION);
-    add_films(model.train, run.node[used[0]], weight, contacts);
-    add_films(model.train, run.node[used[1]], h - weight, contacts);
+    for (int k = 0; k < 2; ++k) {
+        const Node& node = run.node[used[k]];
+        add_films(model.train, node.meshes, node.friction, k == 0 ? weight : h - weight, contacts);
+    }
 }
 
 // Films of a shortened step, at the Gauss points of the remaining part: nodes after the separation
@@ -59,8 +61,10 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
     double delays[3];
     for (int k = 0; k < 3; ++k) delays[k] = (0.5 + FROM_MIDDLE[k]) * h;
     show_friction<L>(model, integrator, delays, 3);
-    for (int k = 0; k < 3; ++k)
-        add_films(model.train, integrator.run.shown[k], SHARE[k] * h, contacts);
+    for (int k = 0; k < 3; ++k) {
+        const Node& node = integrator.run.shown[k];
+        add_films(model.train, node.meshes, node.friction, SHARE[k] * h, contacts);
+    }
 }
 
 // Transmission errors and forces of a collocation step at a time within it, in row k of the series.
@@ -113,11 +117,10 @@ void fill_at_early_times(const Model& model, Integrator& integrator, double begi
 // Fill `sums.rates` with contacts and friction of an evaluation.
 void put_rates(const Model& model, const StepConstants& constants, const double* v,
                Evaluation& work, StepSums& sums) {
-    if (!model.train.friction) find_contacts(model, constants, v, work);
+    if (!model.train.friction) find_friction_of_pairs(model, constants, v, work);
     with_mesh_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         ContactSums<L> contacts;
-        add_films(model.train, work.pairs, 1.0, contacts);
-        add_friction(model.train, work, 1.0, contacts);
+        add_evaluation(model.train, 1.0, work, contacts);
         put_contacts(model.train, model.oil, contacts, sums.rates);
     });
 }
@@ -159,33 +162,6 @@ void add_ends(const Model& model, Integrator& integrator) {
     }
 }
 
-// Transmission errors and forces of a collocation step at its start and its nodes.
-struct AtNodes {
-    const Propagation& run;
-
-    std::int64_t count() const { return run.nodes.count + 1; }
-    double time(std::int64_t n) const {
-        return n == 0 ? 0.0 : run.nodes.abscissa[n - 1] * run.motion.step;
-    }
-    const Node& at(std::int64_t n) const { return n == 0 ? run.start : run.node[n - 1]; }
-    double weight(std::int64_t n) const { return n == 0 ? 0.0 : run.weight[n - 1]; }
-    const double* d(std::int64_t n) const { return at(n).d; }
-    const double* normal_force(std::int64_t n) const { return at(n).meshes.normal_force; }
-    const Neighbours& around(std::int64_t n) const { return run.nodes.neighbours[n - 1]; }
-};
-
-// The same of a series.
-struct AtEvenTimes {
-    const Series& series;
-
-    std::int64_t count() const { return series.count; }
-    double time(std::int64_t n) const { return series.at[n]; }
-    double weight(std::int64_t n) const { return series.weight[n]; }
-    const double* d(std::int64_t n) const { return series.d[n]; }
-    const double* normal_force(std::int64_t n) const { return series.normal_force[n]; }
-    const Neighbours& around(std::int64_t) const { return EVEN; }
-};
-
 template <int L, class Values>
 ALWAYS_INLINE void add_integrals(const StepConstants& constants, const Values& values,
                                  MeshSums& step) {
@@ -200,80 +176,6 @@ ALWAYS_INLINE void add_integrals(const StepConstants& constants, const Values& v
     mean.store(step.integral[DTE]);
     square.store(step.integral[SQUARE]);
     (V(constants.side) * force_sum).store(step.integral[MESH_FORCE]);
-}
-
-// Largest values, and the largest vertices of parabolas through three neighbouring ones, which are
-// at least as large.
-template <int L>
-struct Peaks {
-    Row<L> value, vertex;
-
-    ALWAYS_INLINE void add(const Row<L>& next) {
-        value = larger(value, next);
-        vertex = larger(vertex, next);
-    }
-    // Largest error of a vertex in shares `allowed`.
-    ALWAYS_INLINE double doubt(double allowed) const {
-        return VERTEX_ERROR / allowed *
-               largest((vertex - value) / larger(vertex, Row<L>(SMALLEST)));
-    }
-    // Where the vertex may err by more than this share.
-    ALWAYS_INLINE Mask<L> doubtful(double allowed) const {
-        return VERTEX_ERROR * (vertex - value) > allowed * vertex;
-    }
-    // Whether the motion near one of these vertices, `top`, may exceed both it and `yet`.
-    ALWAYS_INLINE bool may_exceed(const Row<L>& top, const double* yet, double allowed) const {
-        const Row<L> most = top + VERTEX_ERROR * (vertex - value);
-        return !none(doubtful(allowed) & (most > Row<L>(yet)));
-    }
-};
-
-template <int L>
-ALWAYS_INLINE Mask<L> nowhere() {
-    return first_of_row<L>(0);
-}
-
-template <int L>
-struct MeshPeaks {
-    Peaks<L> dte, force;
-
-    ALWAYS_INLINE bool may_exceed(const Row<L>& top_d, const Row<L>& top_force, const MeshSums& yet,
-                                  double allowed) const {
-        return dte.may_exceed(top_d, yet.dte_peak, allowed) ||
-               force.may_exceed(top_force, yet.force_peak, allowed);
-    }
-    ALWAYS_INLINE double doubt(double allowed) const {
-        return std::max(dte.doubt(allowed), force.doubt(allowed));
-    }
-};
-
-// Vertices of the parabolas through the values at n and its neighbours; where the force is `steep`
-// between the first two, the value in place of the vertex around them.
-template <int L, class Values>
-ALWAYS_INLINE RowPair<L> vertices(const Values& values, std::int64_t n, const Mask<L>& steep) {
-    using V = Row<L>;
-    const Neighbours& around = values.around(n);
-    const V d = vertex(around, V(values.d(n - 1)), V(values.d(n)), V(values.d(n + 1)));
-    const V force(values.normal_force(n));
-    const V top =
-        vertex(around, V(values.normal_force(n - 1)), force, V(values.normal_force(n + 1)));
-    return {absolute(d), n == 1 ? select(steep, force, top) : top};
-}
-
-template <int L, class Values>
-ALWAYS_INLINE MeshPeaks<L> find_peaks(const Values& values, const Mask<L>& steep) {
-    using V = Row<L>;
-    const V d = absolute(V(values.d(0))), force = larger(V(0.0), V(values.normal_force(0)));
-    MeshPeaks<L> peaks{{d, d}, {force, force}};
-    for (std::int64_t n = 1; n < values.count(); ++n) {
-        peaks.dte.add(absolute(V(values.d(n))));
-        peaks.force.add(V(values.normal_force(n)));
-        if (n == values.count() - 1) break;
-        const auto [top_d, top_force] = vertices<L>(values, n, steep);
-        peaks.dte.vertex = larger(peaks.dte.vertex, top_d);
-        peaks.force.vertex = larger(peaks.force.vertex, top_force);
-    }
-    return peaks;
 }
 
 // Raise the peaks of a step to these vertices.
@@ -319,52 +221,6 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
     raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, steep_there), step);
 }
 
-// Motion that decays between the first two values. The edge of a stiffness excites it where damping
-// is strong.
-template <int L>
-struct Brief {
-    Mask<L> steep;    // whether it changes the force of a mesh by more than the tolerance
-    bool may_exceed;  // whether a force may exceed both values and the largest one yet
-};
-
-// Force is stiffness times the sum of the transmission error and tau times its rate. An overdamped
-// wave q decays as q(0) exp(-slow t), to which q'(0) + slow q(0) adds less than this over `fast`:
-// something that rises, and then decays. Of all that decays, what has one sign exceeds what has the
-// other by the difference of the forces; they rise by at most the smaller of both. The second value
-// shows all of what decays in that time, and less the faster it decays. Where the force is steep,
-// the vertex around the second value is none of the peaks, but shows that there may be one.
-template <int L, class Values>
-Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrator,
-                                  const Values& values, const MeshSums& yet) {
-    constexpr int M = MESH_LANES<L>;
-    using V = Row<L>;
-    using OfMeshes = Row<M>;
-    const ModalMotion& motion = integrator.run.motion;
-    const double width = values.time(1) - values.time(0);
-    const V slow(motion.slow_rate), fast(motion.fast_rate);
-    if (none(fast * width > 1.0)) return {nowhere<M>(), false};
-    const ContactState& contacts = contacts_of(integrator.run);
-    const double tau = std::max(contacts.tau[0], contacts.tau[1]);
-    const V q(motion.free[0]), p(motion.free[1]), per_fast = 1.0 / fast;
-    const V lasting = absolute(q) * (1.0 + tau * slow), added = absolute(p + slow * q);
-    const V hidden = larger(V(0.0), 1.0 - 1.0 / (width * slow)) * lasting;
-    const V hidden_added = larger(V(0.0), 1.0 - per_fast / width) * added * (per_fast + tau);
-    const V amplitude = select(fast * width > 1.0, hidden + 2.0 * hidden_added, 0.0);
-    const OfMeshes decaying = OfMeshes(contacts.stiffness) / OfMeshes(model.train.copies) *
-                              sum_rows<M>(contacts.matrices.motion_magnitude(), amplitude);
-    const OfMeshes first(values.normal_force(0)), second(values.normal_force(1));
-    const OfMeshes value = larger(first, second);
-    const double allowed = integrator.control.tolerance;
-    const Mask<M> steep = decaying > allowed * value;
-    OfMeshes rise = 0.5 * (decaying - absolute(first - second));
-    if (values.count() > 2) {
-        const OfMeshes top = vertices<M>(values, 1, nowhere<M>()).second;
-        rise = larger(rise, select(steep, (1.0 + VERTEX_ERROR) * (top - value), 0.0));
-    }
-    const OfMeshes bound = value + rise;
-    return {steep, !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)))};
-}
-
 // Integrals of a part of a collocation step, and its peaks.
 //
 // Nodes are too far apart for the vertices of parabolas that may be the largest ones yet, and for
@@ -379,6 +235,11 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     static constexpr MeshSums NOTHING{};
     const bool first = integrator.periodic.recording || sums.total.time == 0.0;
     const MeshSums& yet = first ? NOTHING : sums.total;
+    if (!first && peaks_stay<L>(model, integrator, values, yet)) {
+        Row<M>(0.0).store(step.dte_peak);
+        Row<M>(0.0).store(step.force_peak);
+        return;
+    }
     const double begin = values.time(0), end = values.time(1);
     const auto [steep, brief] = brief_motion<L>(model, integrator, values, yet);
     const MeshPeaks<M> peaks = find_peaks<M>(values, steep);
@@ -395,14 +256,16 @@ template <int L>
 void add_contacts_of_nodes(const Model& model, Integrator& integrator, bool cut) {
     const Propagation& run = integrator.run;
     ContactSums<MESH_LANES<L>> contacts;
-    for (std::int64_t n = 0; n < run.nodes.count; ++n)
-        add_node(model.train, run.node[n], run.weight[n], contacts);
-    if (cut) {
-        contacts.share = contacts.film = 0.0;
-        add_films_of_cut_step<L>(model, integrator, contacts);
-    } else if (!model.train.friction) {
-        add_films_of_nodes<L>(model, integrator, contacts);
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
+        const Node& node = run.node[n];
+        add_friction(model.train, node.meshes, node.friction, run.weight[n], contacts);
+        if (model.train.friction && !cut)
+            add_films(model.train, node.meshes, node.friction, run.weight[n], contacts);
     }
+    if (cut)
+        add_films_of_cut_step<L>(model, integrator, contacts);
+    else if (!model.train.friction)
+        add_films_of_nodes<L>(model, integrator, contacts);
     put_contacts(model.train, model.oil, contacts, integrator.sums.step.integral);
 }
 

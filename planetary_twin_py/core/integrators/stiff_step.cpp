@@ -8,8 +8,9 @@
 #include "integrators/edges.hpp"
 #include "integrators/flanks.hpp"
 #include "integrators/frame.hpp"
+#include "integrators/methods.hpp"
 #include "integrators/rosenbrock.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/step_growth.hpp"
 #include "integrators/trial_step.hpp"
 #include "lubrication/bristles.hpp"
 #include "lubrication/tooth_friction.hpp"
@@ -48,7 +49,7 @@ double error_norm(const Model& model, const Integrator& integrator) {
     const Control& control = integrator.control;
     double largest = 0.0, total = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double tau = integrator.constants.tau[train.kind[i]];
+        double tau = integrator.constants.tau[train.mesh.kind[i]];
         double error = std::fabs(mesh_motion(train, i, work.error_x));
         // By damping, an error of the rate causes k tau times that error of the force.
         double slip = std::max(std::fabs(mesh_motion(train, i, work.error_v)) - ROUNDING, 0.0);
@@ -58,7 +59,7 @@ double error_norm(const Model& model, const Integrator& integrator) {
         largest = std::max(largest, std::fabs(work.error_v[j]) / control.tolerance_v);
         total += work.error_v[j];
     }
-    for (std::int64_t k = 0; control.creeping && k < train.slots * train.meshes; ++k) {
+    for (std::int64_t k = 0; control.creeping && k < train.teeth.slots * train.meshes; ++k) {
         double error = std::fabs(work.error_bristle[k]);
         largest = std::max(largest, error / (BRISTLE_SHARE * control.tolerance));
         total += error;

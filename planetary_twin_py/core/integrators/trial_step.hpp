@@ -1,10 +1,9 @@
 #pragma once
 
-// A step of the requested method other than collocation: for step control and samples.
+// A step of any method but collocation: for step control and samples.
 
 #include "integrators/integrator_record.hpp"
 #include "integrators/rosenbrock.hpp"
-#include "integrators/step_control.hpp"
 #include "model/model.hpp"
 
 namespace gearbox {
@@ -16,11 +15,8 @@ namespace gearbox {
 // and the displacement of the machines. It leaves sides and segments, which change only in
 // `accept`. The same arguments give the same bits, because a sample at h repeats the step.
 inline void trial_step(const Model& model, Integrator& integrator, double h, State& out) {
-    switch (integrator.control.method) {
-        default:
-            rosenbrock_step(model, integrator.begin, integrator.constants, h, integrator.first, out,
-                            integrator.work);
-    }
+    rosenbrock_step(model, integrator.begin, integrator.constants, h, integrator.first, out,
+                    integrator.work);
 }
 
 }  // namespace gearbox

@@ -7,7 +7,7 @@
 #include "integrators/step_sums.hpp"
 #include "mesh/add_sums.hpp"
 #include "mesh/deflection.hpp"
-#include "mesh/mesh_forces.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 
@@ -32,9 +32,8 @@ void count_part(const Model& model, Integrator& integrator, double begin, double
         copy<L>(work.now.d, series.d[k]);
         mesh_forces(model, integrator.begin, integrator.constants, x, v, series.at[k], work);
         copy<L>(work.now.normal_force, series.normal_force[k]);
-        find_contacts(model, integrator.constants, v, work);
-        add_films(train, work.pairs, series.weight[k], contacts);
-        add_friction(train, work, series.weight[k], contacts);
+        find_friction_of_pairs(model, integrator.constants, v, work);
+        add_evaluation(train, series.weight[k], work, contacts);
     }
     sums.part.time = end - begin;
     put_contacts(train, model.oil, contacts, sums.part.integral);

@@ -49,23 +49,24 @@ Moments moments(const Propagation& run, std::int64_t j, double h, const double* 
 // quadrature at the nodes [J]; `across` is the integral of the product of their speeds [m^2/s].
 inline double damped_across(const Model& model, const Propagation& run, std::int64_t c,
                             const GivenMotion& end, double across) {
-    const std::int64_t member = model.train.coupling[c][1];
+    const std::int64_t member = model.train.coupling.ends[c][1];
     double at_nodes = 0.0;
     for (std::int64_t n = 0; n < run.nodes.count; ++n) {
         double t = run.nodes.abscissa[n] * run.motion.step;
         at_nodes += run.weight[n] * end.v(t) * run.node[n].v[member];
     }
-    return -2.0 * model.train.coupling_damping[c] * (across - at_nodes);
+    return -2.0 * model.train.coupling.damping[c] * (across - at_nodes);
 }
 
 // Work of the torque ripple of the first motor over h seconds, exact at any speed: the torque is a
 // function of the angle of the shaft.
 inline double work_of_ripple(const Model& model, const Integrator& integrator, double h) {
-    const Load& load = model.load;
-    if (load.ripple == 0.0) return 0.0;
+    const Operation& operation = model.operation;
+    if (operation.ripple == 0.0) return 0.0;
     const double first = ripple_phase(model, integrator.begin, integrator.begin.x, 0.0);
     const double last = ripple_phase(model, integrator.begin, integrator.end.x, h);
-    return load.ripple / load.ripple_order * (sin_cos(first).cosine - sin_cos(last).cosine);
+    return operation.ripple / operation.ripple_order *
+           (sin_cos(first).cosine - sin_cos(last).cosine);
 }
 
 // Work of the torque of machine c on its shaft over h seconds. What is known of the torque before
@@ -76,10 +77,11 @@ void add_work_of_torque(const Model& model, Integrator& integrator, std::int64_t
     const Train& train = model.train;
     const Propagation& run = integrator.run;
     const State &begin = integrator.begin, &end = integrator.end;
-    const std::int64_t body = train.coupling[c][0];
+    const std::int64_t body = train.coupling.ends[c][0];
     const Drive& drive = integrator.constants.drive[c];
-    const double* gain = model.load.trim_gain[c];
-    const double per_radius = train.inverse_radius[body], rigid = integrator.constants.rigid[body];
+    const double* gain = model.operation.trim_gain[c];
+    const double per_radius = train.body.inverse_radius[body],
+                 rigid = integrator.constants.rigid[body];
     const double passed = rigid * h, swung = (end.x[body] - begin.x[body]) * per_radius;
     double torque = drive.torque, controlled = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) torque += gain[a] * begin.trim[a];
@@ -108,9 +110,9 @@ void add_work_of_given_motion(const Model& model, Integrator& integrator, std::i
     const State& begin = integrator.begin;
     State& after = integrator.end;
     const Propagation& run = integrator.run;
-    const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+    const std::int64_t body = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
     const GivenMotion end = given_motion(model, begin, c);
-    const double k = train.coupling_stiffness[c], damper = train.coupling_damping[c];
+    const double k = train.coupling.stiffness[c], damper = train.coupling.damping[c];
     const double v = end.speed, a = end.acceleration, moved = after.x[member] - begin.x[member];
     Moments own{h * (end.place + h * (v / 2.0 + h * a / 6.0)),
                 h * h * (end.place / 2.0 + h * (v / 3.0 + h * a / 8.0))};
@@ -119,10 +121,10 @@ void add_work_of_given_motion(const Model& model, Integrator& integrator, std::i
     double twisted = end.x(h) - end.place - moved, last = end.x(h) - after.x[member];
     double impulse = k * twist.zeroth + damper * twisted;
     double moment = k * twist.first + damper * (h * last - twist.zeroth);
-    double r = train.radius[body], speed = body_speed(train, begin, begin.v, body);
+    double r = train.body.radius[body], speed = body_speed(train, begin, begin.v, body);
     after.energy[IMPULSE + c] = begin.energy[IMPULSE + c] + r * impulse;
     after.energy[WORK + c] =
-        begin.energy[WORK + c] + r * (speed * impulse + model.load.acceleration[c] * moment);
+        begin.energy[WORK + c] + r * (speed * impulse + model.operation.acceleration[c] * moment);
     double across = v * moved + a * (h * after.x[member] - its.zeroth);
     after.energy[DAMPING] += damped_across(model, run, c, end, across);
 }
@@ -132,7 +134,7 @@ void add_work_of_given_motion(const Model& model, Integrator& integrator, std::i
 template <int L>
 void add_work_of_machines(const Model& model, Integrator& integrator, double h) {
     for (std::int64_t c = 0; c < model.train.machines; ++c) {
-        if (model.load.port[c] == BY_MOTION)
+        if (model.operation.port[c] == BY_MOTION)
             add_work_of_given_motion<L>(model, integrator, c, h);
         else
             add_work_of_torque<L>(model, integrator, c, h);

@@ -21,7 +21,7 @@ constexpr double LEAST_FRICTION = 1e-12;  // [N] pairs with less friction have n
 
 // Whether the frame is so slow that tooth pairs have bristles.
 inline bool creeps(const Train& train, double cycle_rate) {
-    bool slow = train.rolling_advance * std::abs(cycle_rate) < CREEPING;
+    bool slow = train.geometry.rolling_advance * std::abs(cycle_rate) < CREEPING;
     return slow && train.friction && !train.printed_torque;
 }
 
@@ -63,7 +63,7 @@ inline void apply_bristles(const Oil& oil, ToothPairs& pairs) {
 inline double bristle_energy(const Train& train, const Oil& oil, const ToothPairs& pairs) {
     double total = 0.0;
     for (std::int64_t k = 0; k < pairs.count; ++k) {
-        double copies = train.copies[k % train.meshes];
+        double copies = train.mesh.copies[k % train.meshes];
         total += copies * pairs.full[k] * pairs.bristle[k] * pairs.bristle[k];
     }
     return 0.5 * oil.presliding * total;
@@ -84,24 +84,24 @@ inline void steady_bristles(const ToothPairs& pairs, double* share) {
 // The position of a pair is cycle + shift: where the cycle restarts, its shift is larger by one.
 inline void pass_bristles(const Train& train, double* share, std::int64_t i, std::int64_t segment,
                           std::int64_t direction) {
-    std::int64_t kind = train.kind[i], count = train.segments[kind];
+    std::int64_t kind = train.mesh.kind[i], count = train.teeth.segments[kind];
     std::int64_t after = (segment + direction + count) % count;
     double wrapped = after != segment + direction ? static_cast<double>(direction) : 0.0;
-    const double *before = train.shift[kind][segment], *now = train.shift[kind][after];
+    const double *before = train.teeth.shift[kind][segment], *now = train.teeth.shift[kind][after];
     double old[PAIRS] = {};
-    for (std::int64_t p = 0; p < train.slots; ++p) {
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
         double& place = share[p * train.meshes + i];
         old[p] = place;
         place = 0.0;
     }
-    for (std::int64_t q = 0; q < train.present[kind][segment]; ++q)
-        for (std::int64_t p = 0; p < train.present[kind][after]; ++p)
+    for (std::int64_t q = 0; q < train.teeth.present[kind][segment]; ++q)
+        for (std::int64_t p = 0; p < train.teeth.present[kind][after]; ++p)
             if (now[p] == before[q] + wrapped) share[p * train.meshes + i] = old[q];
 }
 
 // Set the shares of mesh i to zero when its flanks separate or come into contact.
 inline void clear_bristles(const Train& train, double* share, std::int64_t i) {
-    for (std::int64_t p = 0; p < train.slots; ++p) share[p * train.meshes + i] = 0.0;
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) share[p * train.meshes + i] = 0.0;
 }
 
 }  // namespace gearbox

@@ -43,27 +43,14 @@ ALWAYS_INLINE void store_friction(const Oil& oil, const PairFriction<Lanes>& fou
     store_lanes(pairs.rolling_power + k, found.rolling_power * face);
 }
 
-// Each part of the laws is computed for all registers in turn, which hides latencies.
-// `tooth_contact` is the same for one pair.
 template <class Laws>
 void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
-    const double slowest = pairs.slowest_rolling, factor = area_factor(oil);
-    Flanks<Lanes> flanks[PAIR_CAPACITY / WIDTH];
-    Logarithms<Lanes> logarithms[PAIR_CAPACITY / WIDTH];
-    Contact<Lanes> contact[PAIR_CAPACITY / WIDTH];
-    Friction<Lanes> full[PAIR_CAPACITY / WIDTH];
-    for (int r = 0; r < registers; ++r)
-        flanks[r] = flanks_of(load_motion(pairs, r * WIDTH), oil, slowest);
-    for (int r = 0; r < registers; ++r) logarithms[r] = logarithms_of(flanks[r]);
-    for (int r = 0; r < registers; ++r) {
-        contact[r] = contact_of(oil, factor, flanks[r], logarithms[r]);
-        full[r] = mixed_friction<Laws>(oil, contact[r]);
-    }
-    for (int r = 0; r < registers; ++r) {
-        PairFriction<Lanes> found = sliding_friction<Laws>(oil, flanks[r], contact[r], full[r]);
-        if constexpr (Laws::ROLLING) add_rolling(oil, flanks[r], contact[r], found);
-        store_friction(oil, found, pairs, r * WIDTH);
-    }
+    find_pair_friction<Laws, Lanes, PAIR_CAPACITY / WIDTH>(
+        oil, registers,
+        [&](int r) { return flanks_of(load_motion(pairs, r * WIDTH), oil, pairs.slowest_rolling); },
+        [&](int r, const PairFriction<Lanes>& found) {
+            store_friction(oil, found, pairs, r * WIDTH);
+        });
 }
 
 }  // namespace

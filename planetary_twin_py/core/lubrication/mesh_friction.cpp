@@ -1,7 +1,6 @@
 #include "lubrication/mesh_friction.hpp"
 
 #include <cstring>
-#include <new>
 
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/mesh_forces.hpp"
@@ -91,13 +90,6 @@ ALWAYS_INLINE void store_register(Number* column, const Real& lanes) {
     std::memcpy(column, &lanes, sizeof lanes);
 }
 
-// Construct a value in its place: gcc copies structs of registers by halves, and to read them whole
-// would stall.
-template <class Value, class Make>
-ALWAYS_INLINE void construct(Value& place, Make&& make) {
-    new (&place) Value(make());
-}
-
 // Place of the pairs of the first `meshes` meshes in the columns.
 struct Stretch {
     std::int64_t first;   // entry
@@ -126,7 +118,7 @@ ALWAYS_INLINE void place_pairs(const Train& train, const StepConstants& step,
     using V = Row<L>;
     const V moved = path_position<L>(train, step, instant.meshes->advance);
     const V external(step.external), spin1(instant.spin[0]), spin2(instant.spin[1]);
-    for (std::int64_t p = 0, k = place.first; p < train.slots; ++p, k += place.meshes) {
+    for (std::int64_t p = 0, k = place.first; p < train.teeth.slots; ++p, k += place.meshes) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
         auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
         rho1.store(radii.first[p]);
@@ -147,7 +139,7 @@ template <int L, class Number>
 ALWAYS_INLINE void place_faces(const Train& train, const StepConstants& step,
                                const FrictionInstant& instant, const Stretch& place,
                                Columns<Number>& pairs) {
-    for (std::int64_t p = 0, k = place.first; p < train.slots; ++p, k += place.meshes)
+    for (std::int64_t p = 0, k = place.first; p < train.teeth.slots; ++p, k += place.meshes)
         put(face_in_contact<L>(step, p, instant.meshes->advance), pairs.face + k);
 }
 
@@ -185,43 +177,26 @@ void scale_forces(const Oil& oil, Columns<Number>& pairs, int count) {
     if (oil.rolling) scale_by_lines(oil, pairs.face, count, pairs.rolling);
 }
 
-// The same as `tooth_contact`, part by part for all registers.
 template <class Laws, class Number>
-void find_pair_friction(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
+void evaluate_columns(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
     using Real = typename RegisterOf<Number>::type;
     constexpr int IN_ONE = sizeof(Real) / sizeof(Number);
     constexpr int MOST = Columns<Number>::MOST / IN_ONE + 1;
-    const double factor = area_factor(oil);
-    const int registers = (count + IN_ONE - 1) / IN_ONE;
-    Flanks<Real> flanks[MOST];
-    Logarithms<Real> logarithms[MOST];
-    Contact<Real> contact[MOST];
-    Friction<Real> full[MOST];
-    for (int r = 0, k = 0; r < registers; ++r, k += IN_ONE) {
-        auto column = [k](const Number* from) { return load_register<Real>(from + k); };
-        construct(flanks[r], [&] {
-            return flanks_of(column(pairs.radius), {column(pairs.sliding), column(pairs.sum)},
-                             column(pairs.load), oil.sliding_threshold, slowest);
-        });
-    }
-    for (int r = 0; r < registers; ++r)
-        construct(logarithms[r], [&] { return logarithms_of(flanks[r]); });
-    for (int r = 0; r < registers; ++r) {
-        construct(contact[r], [&] { return contact_of(oil, factor, flanks[r], logarithms[r]); });
-        construct(full[r], [&] { return mixed_friction<Laws>(oil, contact[r]); });
-    }
-    for (int r = 0, k = 0; r < registers; ++r, k += IN_ONE) {
-        PairFriction<Real> found = sliding_friction<Laws>(oil, flanks[r], contact[r], full[r]);
-        if constexpr (Laws::ROLLING) {
-            add_rolling(oil, flanks[r], contact[r], found);
-            store_register(pairs.rolling + k, found.rolling);
-        }
+    auto flanks_at = [&](int r) {
+        auto column = [&](const Number* from) { return load_register<Real>(from + r * IN_ONE); };
+        return flanks_of(column(pairs.radius), {column(pairs.sliding), column(pairs.sum)},
+                         column(pairs.load), oil.sliding_threshold, slowest);
+    };
+    auto store = [&](int r, const PairFriction<Real>& found) {
+        const int k = r * IN_ONE;
+        if constexpr (Laws::ROLLING) store_register(pairs.rolling + k, found.rolling);
         store_register(pairs.friction + k, found.friction);
         store_register(pairs.boundary + k, found.boundary);
         store_register(pairs.viscous + k, found.viscous);
         // The exponential may have a rounding error.
         store_register(pairs.film + k, at_least(exp(found.log_film), Real{} + THINNEST_FILM));
-    }
+    };
+    find_pair_friction<Laws, Real, MOST>(oil, (count + IN_ONE - 1) / IN_ONE, flanks_at, store);
 }
 
 // Write torques on gears and line of action, and the power that they take from the gears, of the
@@ -259,9 +234,9 @@ template <int L, class Number>
 ALWAYS_INLINE void add_up_torques(const Train& train, const StepConstants& step, bool has_rolling,
                                   const Columns<Number>& pairs, const Stretch& place,
                                   const RadiiOfPairs<L>& radii, const FrictionInstant& instant) {
-    auto [moment1, moment2] = moments(train.slots, pairs.friction, place, radii);
+    auto [moment1, moment2] = moments(train.teeth.slots, pairs.friction, place, radii);
     if (has_rolling) {
-        auto [rolling1, rolling2] = moments(train.slots, pairs.rolling, place, radii);
+        auto [rolling1, rolling2] = moments(train.teeth.slots, pairs.rolling, place, radii);
         moment1 += rolling1;
         moment2 -= rolling2;
     }
@@ -274,7 +249,7 @@ ALWAYS_INLINE void add_up_parts(const Train& train, const Columns<Number>& pairs
                                 const Stretch& place, const FrictionInstant& instant) {
     using V = Row<L>;
     V boundary(0.0), viscous(0.0), film(0.0);
-    for (std::int64_t p = 0, k = place.first; p < train.slots; ++p, k += place.meshes) {
+    for (std::int64_t p = 0, k = place.first; p < train.teeth.slots; ++p, k += place.meshes) {
         boundary += get<L>(pairs.boundary + k);
         viscous += get<L>(pairs.viscous + k);
         film += V(instant.meshes->share[p]) * get<L>(pairs.film + k);
@@ -292,7 +267,7 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
     const Train& train = model.train;
     const Oil& oil = model.oil;
     const bool spur = is_spur(oil);
-    const std::int64_t of_instant = train.slots * meshes;
+    const std::int64_t of_instant = train.teeth.slots * meshes;
     const int all = static_cast<int>(count * of_instant);
     const Row<L> inverse = inverse_distance<L>(step, oil);
     auto place = [=](int n) { return Stretch{n * of_instant, meshes}; };
@@ -306,7 +281,7 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
     with_laws(oil, [&]<class Laws>() {
         constexpr bool SINGLE = std::is_same_v<Number, float>;
         if constexpr (!SINGLE || Laws::Traction::SINGLE_PRECISION)
-            find_pair_friction<Laws>(oil, slowest_rolling(train, step), pairs, all);
+            evaluate_columns<Laws>(oil, slowest_rolling(train, step), pairs, all);
     });
     if (!spur) scale_forces(oil, pairs, all);
     for (int n = 0; n < count; ++n) {

@@ -8,6 +8,8 @@
 // radius of curvature is larger by 1/cos(beta_b) (ISO/TS 6336-22). So the laws have the transverse
 // load on the face width, and their forces count `Oil::line_length` times.
 
+#include <new>
+
 #include "lubrication/boundary.hpp"
 #include "lubrication/bristles.hpp"
 #include "lubrication/contact.hpp"
@@ -212,16 +214,37 @@ ALWAYS_INLINE void add_rolling(const Oil& oil, const Flanks<Real>& flanks,
     found.rolling_power = force * flanks.sum;
 }
 
-template <class Laws, class Real>
-ALWAYS_INLINE PairFriction<Real> tooth_contact(const Oil& oil, double area_factor,
-                                               const PairMotion<Real>& pair,
-                                               double slowest_rolling) {
-    Flanks<Real> flanks = flanks_of(pair, oil, slowest_rolling);
-    Contact<Real> contact = contact_of(oil, area_factor, flanks, logarithms_of(flanks));
-    Friction<Real> full = mixed_friction<Laws>(oil, contact);
-    PairFriction<Real> found = sliding_friction<Laws>(oil, flanks, contact, full);
-    if constexpr (Laws::ROLLING) add_rolling(oil, flanks, contact, found);
-    return found;
+// Construct a value in its place: gcc copies structs of registers by halves, and to read them whole
+// would stall.
+template <class Value, class Make>
+ALWAYS_INLINE void construct(Value& place, Make&& make) {
+    new (&place) Value(make());
+}
+
+// The loop over tooth pairs: film and friction of the pairs in the first `count` of MOST registers.
+//
+// `flanks_at(r)` returns motion and load of the pairs in register r, `store(r, found)` takes their
+// friction. Each part of the laws is computed for all registers in turn, which hides latencies.
+template <class Laws, class Real, int MOST, class FlanksAt, class Store>
+ALWAYS_INLINE void find_pair_friction(const Oil& oil, int count, FlanksAt&& flanks_at,
+                                      Store&& store) {
+    const double factor = area_factor(oil);
+    Flanks<Real> flanks[MOST];
+    Logarithms<Real> logarithms[MOST];
+    Contact<Real> contact[MOST];
+    Friction<Real> full[MOST];
+    for (int r = 0; r < count; ++r) construct(flanks[r], [&] { return flanks_at(r); });
+    for (int r = 0; r < count; ++r)
+        construct(logarithms[r], [&] { return logarithms_of(flanks[r]); });
+    for (int r = 0; r < count; ++r) {
+        construct(contact[r], [&] { return contact_of(oil, factor, flanks[r], logarithms[r]); });
+        construct(full[r], [&] { return mixed_friction<Laws>(oil, contact[r]); });
+    }
+    for (int r = 0; r < count; ++r) {
+        PairFriction<Real> found = sliding_friction<Laws>(oil, flanks[r], contact[r], full[r]);
+        if constexpr (Laws::ROLLING) add_rolling(oil, flanks[r], contact[r], found);
+        store(r, found);
+    }
 }
 
 }  // namespace gearbox

@@ -10,6 +10,7 @@
 
 #include "capacities.hpp"
 #include "lubrication/bristles.hpp"
+#include "lubrication/mesh_friction.hpp"
 #include "lubrication/tooth_contact.hpp"
 #include "model/evaluation.hpp"
 #include "model/model.hpp"
@@ -27,14 +28,15 @@ constexpr double SLOWEST_TURN = 1e-3;  // [rad/s] below which the printed torque
 
 // Rolling speed that sets the least width of the layer in which friction reverses [m/s].
 inline double slowest_rolling(const Train& train, const StepConstants& step) {
-    double rolling = SLOWEST * train.rolling_advance * std::abs(step.cycle_rate);
+    double rolling = SLOWEST * train.geometry.rolling_advance * std::abs(step.cycle_rate);
     return at_least(rolling, SLOWEST_ROLLING);
 }
 
 // Speed at which the displacements of the gears turn the line of action of mesh i [rad/s], from v.
 inline double turning_of_line(const Train& train, std::int64_t i, const double* v) {
     double turning = 0.0;
-    for (int j = GEARS; j < IN_PLANE; ++j) turning += train.moving.line[i][j] * v[train.body[i][j]];
+    for (int j = GEARS; j < IN_PLANE; ++j)
+        turning += train.moving.line[i][j] * v[train.mesh.body[i][j]];
     return turning;
 }
 
@@ -45,12 +47,13 @@ inline void turn_pairs(const Train& train, const StepConstants& step, const doub
     std::int64_t meshes = train.meshes;
     pairs.slowest_rolling = slowest_rolling(train, step);
     double turn[BODIES];  // speeds of the bodies [rad/s]
-    for (int j = 0; j < BODIES; ++j) turn[j] = step.rigid[j] + v[j] * train.inverse_radius[j];
+    for (int j = 0; j < BODIES; ++j) turn[j] = step.rigid[j] + v[j] * train.body.inverse_radius[j];
     for (std::int64_t i = 0; i < meshes; ++i) {
-        double frame = turn[train.body[i][2]];
+        double frame = turn[train.mesh.body[i][2]];
         if constexpr (MOVING) frame += turning_of_line(train, i, v);
-        double speed1 = turn[train.body[i][0]] - frame, speed2 = turn[train.body[i][1]] - frame;
-        for (std::int64_t p = 0; p < train.slots; ++p) {
+        double speed1 = turn[train.mesh.body[i][0]] - frame,
+               speed2 = turn[train.mesh.body[i][1]] - frame;
+        for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
             pairs.speed1[p * meshes + i] = speed1;
             pairs.speed2[p * meshes + i] = speed2;
         }
@@ -61,7 +64,7 @@ inline void turn_pairs(const Train& train, const StepConstants& step, const doub
 //
 // Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, in both kinds of mesh.
 inline double friction_layer(const Train& train, const Oil& oil, double cycle_rate) {
-    double rolling = train.rolling_advance * std::abs(cycle_rate);
+    double rolling = train.geometry.rolling_advance * std::abs(cycle_rate);
     return at_least(oil.sliding_threshold, NARROWEST) * at_least(rolling, CREEPING);
 }
 
@@ -79,17 +82,18 @@ inline double deforming_power(const Train& train, const ToothPairs& pairs) {
     double power = 0.0;
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         double work = pairs.friction[k] * pairs.sliding[k];
-        power += train.copies[k % train.meshes] * (work - pairs.lost[k]);
+        power += train.mesh.copies[k % train.meshes] * (work - pairs.lost[k]);
     }
     return power;
 }
 
 // Add up the torques of the pairs of each mesh: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears, u1
 // and u2 the surface speeds.
-inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
+inline void collect(const Train& train, const ToothPairs& pairs, MeshFriction& found) {
+    DragOfMeshes& out = found.drag;
     for (std::int64_t i = 0; i < train.meshes; ++i)
         out.torque[0][i] = out.torque[1][i] = out.power[i] = 0.0;
-    for (std::int64_t p = 0; p < train.slots; ++p) {
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             std::int64_t k = p * train.meshes + i;
             double f = pairs.friction[k], rolling = pairs.rolling[k];
@@ -98,8 +102,27 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
             out.power[i] += dissipated(pairs, k) + pairs.rolling_power[k];
         }
     }
-    for (std::int64_t i = 0; i < train.meshes; ++i)
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
         out.torque[2][i] = -(out.torque[0][i] + out.torque[1][i]);
+        found.lost[i] = out.power[i];
+    }
+}
+
+// Add up the parts of friction of the pairs of each mesh, and their films weighted by load, if
+// `films`; else these are zero.
+inline void collect_parts(const Train& train, const ToothPairs& pairs, bool films,
+                          MeshFriction& found) {
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        found.boundary[i] = found.viscous[i] = found.film[i] = 0.0;
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
+        for (std::int64_t i = 0; i < train.meshes; ++i) {
+            std::int64_t k = p * train.meshes + i;
+            found.boundary[i] += pairs.boundary[k];
+            found.viscous[i] += pairs.viscous[k];
+            if (films)
+                found.film[i] += pairs.share[k] * at_least(exp(pairs.log_film[k]), THINNEST_FILM);
+        }
+    }
 }
 
 // Friction torque as Salagianni et al. 2017 print it.
@@ -112,8 +135,8 @@ inline void print_torques(const Train& train, const StepConstants& step, const d
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double lost = out.power[i], power = 0.0;
         for (int gear = 0; gear < 2; ++gear) {
-            std::int64_t body = train.body[i][gear];
-            double speed = step.rigid[body] + v[body] * train.inverse_radius[body];
+            std::int64_t body = train.mesh.body[i][gear];
+            double speed = step.rigid[body] + v[body] * train.body.inverse_radius[body];
             double torque = lost * speed / (speed * speed + SLOWEST_TURN * SLOWEST_TURN);
             out.torque[gear][i] = torque;
             power -= torque * speed;
@@ -127,9 +150,9 @@ inline void print_torques(const Train& train, const StepConstants& step, const d
 inline void sliding_row(const Train& train, const ToothPairs& pairs, std::int64_t k, double* row) {
     std::int64_t i = k % train.meshes;
     double rho1 = pairs.rho1[k], rho2 = pairs.external[k] * pairs.rho2[k];
-    row[0] = rho1 * train.lever[0][i];
-    row[1] = rho2 * train.lever[1][i];
-    row[2] = -(rho1 + rho2) * train.lever[2][i];
+    row[0] = rho1 * train.mesh.lever[0][i];
+    row[1] = rho2 * train.mesh.lever[1][i];
+    row[2] = -(rho1 + rho2) * train.mesh.lever[2][i];
     for (int j = GEARS; j < IN_PLANE; ++j) row[j] = -(rho1 + rho2) * train.moving.line[i][j];
 }
 
@@ -153,11 +176,11 @@ inline void friction_damping(const Train& train, const ToothPairs& pairs, const 
         sliding_row(train, pairs, k, row);
         double sliding = pairs.sliding[k], slope = pairs.slope[k], gain = 0.0;
         for (int j = 0; j < IN_PLANE; ++j) {
-            std::int64_t body = train.body[i][j];
-            gain += h * row[j] * force[body] / train.mass[body];
+            std::int64_t body = train.mesh.body[i][j];
+            gain += h * row[j] * force[body] / train.body.mass[body];
         }
         if (sliding * (sliding + gain) < 0.0) slope = at_least(slope, pairs.friction[k] / sliding);
-        add_outer(matrix, train.body[i], row, IN_PLANE, train.copies[i] * slope);
+        add_outer(matrix, train.mesh.body[i], row, IN_PLANE, train.mesh.copies[i] * slope);
     }
 }
 

@@ -12,6 +12,8 @@
 #include "mesh/damping.hpp"
 #include "mesh/deflection.hpp"
 #include "model/model.hpp"
+#include "model/step_constants.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
@@ -27,22 +29,40 @@ struct LengthAndDamping {
 // the errors of the flanks of a closed mesh already.
 inline LengthAndRate widening(const Train& train, const StepConstants& step, std::int64_t i,
                               std::int64_t side, double advance, double cycle_rate) {
-    if (side != OPEN || train.lines[train.kind[i]] == 0) return {0.0, 0.0};
+    if (side != OPEN || train.errors.lines[train.mesh.kind[i]] == 0) return {0.0, 0.0};
     return radial_error(train, i, step.line_angle, advance, cycle_rate);
 }
 
 // Gap [m] left to mesh i on `side`, from its deflection and the increase of its backlash; see
 // `contact_event`.
-inline double remaining_gap(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
-                            LengthAndDamping motion, LengthAndDamping wider, double slack) {
-    double d = motion.length, half = load.half_backlash;
-    double normal_force = d + load.release * motion.damping;
+inline double remaining_gap(const Train& train, const Backlash& backlash, std::int64_t i,
+                            std::int64_t side, LengthAndDamping motion, LengthAndDamping wider,
+                            double slack) {
+    double d = motion.length, half = backlash.half;
+    double normal_force = d + backlash.release * motion.damping;
     if (side != OPEN) return static_cast<double>(side) * normal_force - half + slack;
-    double gap = wider.length, slower = wider.length + load.release * wider.damping;
+    double gap = wider.length, slower = wider.length + backlash.release * wider.damping;
     double drive = at_most(d - gap, normal_force - slower),
            coast = at_most(-d - gap, -normal_force - slower);
     if constexpr (MOVING) return slack - (only_side(train, i) == DRIVE_SIDE ? drive : coast) + half;
     return slack - at_least(drive, coast) + half;
+}
+
+// The same for all meshes without errors of form, from their transmission errors and the rates; if
+// axes do not move, all meshes are closed.
+template <int L>
+ALWAYS_INLINE Row<L> remaining_gaps(const Train& train, const Backlash& backlash,
+                                    const StepConstants& step, const Row<L>& motion,
+                                    const Row<L>& rate) {
+    using V = Row<L>;
+    V side(step.side);
+    if constexpr (MOVING)
+        side = select(first_of_row<L>(train.meshes / FLANKS), V(1.0), -1.0);  // drive flanks first
+    V d = side * motion;
+    V normal_force = d + backlash.release * V(step.damping_time) * (side * rate);
+    V closed = normal_force - backlash.half;
+    if constexpr (!MOVING) return closed;
+    return select(V(step.side) == 0.0, backlash.half - smaller(d, normal_force), closed);
 }
 
 // Gap [m] that mesh i has left before its contact changes; negative: it has changed.
@@ -57,9 +77,9 @@ inline double contact_event(const Model& model, const State& state, const StepCo
     const Train& train = model.train;
     auto [advance, cycle_rate, slack] = position;
     auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, cycle_rate);
-    double tau = damping_time(train, train.kind[i], passing_rate(train, step, v));
+    double tau = damping_time(train, train.mesh.kind[i], passing_rate(train, step, v));
     LengthAndRate wider = widening(train, step, i, state.side[i], advance, cycle_rate);
-    return remaining_gap(train, model.load, i, state.side[i], {d, tau * rate},
+    return remaining_gap(train, model.operation.backlash, i, state.side[i], {d, tau * rate},
                          {wider.length, tau * wider.rate}, slack);
 }
 

@@ -15,13 +15,14 @@ namespace gearbox {
 inline bool both_flanks_touch(const Model& model, const State& state, const StepConstants& step) {
     if constexpr (MOVING) return false;  // each flank has its own force
     const Train& train = model.train;
-    const bool turned_only =
-        train.lines[0] == train.harmonics[0] && train.lines[1] == train.harmonics[1];
+    const bool turned_only = train.errors.lines[0] == train.errors.harmonics[0] &&
+                             train.errors.lines[1] == train.errors.harmonics[1];
     if (turned_only) return false;  // the errors have no radial part
-    const double half = model.load.half_backlash;
+    const double half = model.operation.backlash.half;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        std::int64_t kind = train.kind[i];
-        if (state.side[i] == OPEN || train.lines[kind] == train.harmonics[kind]) continue;
+        std::int64_t kind = train.mesh.kind[i];
+        if (state.side[i] == OPEN || train.errors.lines[kind] == train.errors.harmonics[kind])
+            continue;
         double gap = half + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
         if (gap >= 0.0) continue;
         double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;

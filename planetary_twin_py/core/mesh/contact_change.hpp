@@ -18,20 +18,20 @@ NOINLINE inline double stored_energy(const Model& model, const State& state, Ste
     if (state.side[i] == OPEN) return 0.0;
     const Train& train = model.train;
     double side = static_cast<double>(state.side[i]);
-    std::int64_t kind = train.kind[i], segment = state.segment[i];
+    std::int64_t kind = train.mesh.kind[i], segment = state.segment[i];
     place_mesh(train, state, step, i, frame_cycle(train, state, 1) + cycle_shift(train, state.x));
     double u = step.start[i] - step.low[i];
     double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
     double energy = 0.0, stiffness = 0.0;
-    for (std::int64_t p = 0; p < train.present[kind][segment]; ++p) {
+    for (std::int64_t p = 0; p < train.teeth.present[kind][segment]; ++p) {
         auto [k, gap] = pair_stiffness(train, step, i, segment, p, u);
-        double q = side * d - model.load.offset - gap;
+        double q = side * d - model.operation.backlash.offset - gap;
         if (gap > 0.0 && q <= 0.0) continue;
-        energy += 0.5 * k * (q * q - model.load.inner_squared);
+        energy += 0.5 * k * (q * q - model.operation.backlash.inner_squared);
         stiffness += k;
     }
     if (tilts(train)) energy += slope_energy(train, i, stiffness, state.x);
-    return train.copies[i] * energy;
+    return train.mesh.copies[i] * energy;
 }
 
 // Close an open mesh on the side where contact starts, or open a closed one.
@@ -50,7 +50,7 @@ NOINLINE inline void change_contact(const Model& model, State& state, StepConsta
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
         if constexpr (MOVING) side = only_side(train, i);
         state.segment[i] =
-            find_segment(train, train.kind[i], mesh_cycle(train, state, i, side), 1.0);
+            find_segment(train, train.mesh.kind[i], mesh_cycle(train, state, i, side), 1.0);
         state.side[i] = side;
     } else {
         state.side[i] = OPEN;
@@ -64,11 +64,11 @@ inline double squeeze(const Model& model, const State& state, StepConstants& ste
     const Train& train = model.train;
     const double side = static_cast<double>(state.side[i]);
     double d = mesh_motion(train, i, state.x);
-    if (train.lines[train.kind[i]] > 0) {
+    if (train.errors.lines[train.mesh.kind[i]] > 0) {
         place_lines(train, state, i, step.line_angle);
         d -= form_error(train, i, side, step.line_angle, 0.0, 0.0).length;
     }
-    return side * d - model.load.offset;
+    return side * d - model.operation.backlash.offset;
 }
 
 // Work on the train as closed mesh i without faults, and its copies, become stiffer by `stiffer`
@@ -76,9 +76,9 @@ inline double squeeze(const Model& model, const State& state, StepConstants& ste
 inline double work_of_jump(const Model& model, const State& state, StepConstants& step,
                            std::int64_t i, double stiffer) {
     const double q = squeeze(model, state, step, i);
-    double work = 0.5 * stiffer * (q * q - model.load.inner_squared);
+    double work = 0.5 * stiffer * (q * q - model.operation.backlash.inner_squared);
     if (tilts(model.train)) work += slope_energy(model.train, i, stiffer, state.x);
-    return model.train.copies[i] * work;
+    return model.train.mesh.copies[i] * work;
 }
 
 // The same for a mesh with faults, which enters segment `after`.
@@ -95,7 +95,7 @@ COLD inline double work_of_faulty_jump(const Model& model, State& state, StepCon
 // Stiffness [N/m] of mesh i without faults at a position in its cycle, by the law of a segment.
 inline double stiffness_by(const Train& train, std::int64_t i, std::int64_t segment, double cycle) {
     return mesh_stiffness(train, i, segment,
-                          nearest_to_segment(train, train.kind[i], segment, cycle));
+                          nearest_to_segment(train, train.mesh.kind[i], segment, cycle));
 }
 
 // Move mesh i, at this position in its cycle, to the next segment in this direction; a jump of its
@@ -103,10 +103,11 @@ inline double stiffness_by(const Train& train, std::int64_t i, std::int64_t segm
 inline void change_segment(const Model& model, State& state, StepConstants& step, std::int64_t i,
                            std::int64_t direction, double cycle) {
     const Train& train = model.train;
-    const std::int64_t segment = state.segment[i], last = train.segments[train.kind[i]] - 1;
+    const std::int64_t segment = state.segment[i],
+                       last = train.teeth.segments[train.mesh.kind[i]] - 1;
     const std::int64_t after =
         direction > 0 ? (segment < last ? segment + 1 : 0) : (segment > 0 ? segment - 1 : last);
-    if (train.faults > 0) {
+    if (train.faults.count > 0) {
         state.energy[STIFFNESS_WORK] += work_of_faulty_jump(model, state, step, i, after);
     } else if (state.side[i] != OPEN) {
         const double stiffer =

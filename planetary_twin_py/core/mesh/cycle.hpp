@@ -17,20 +17,20 @@ namespace gearbox {
 
 // Mesh cycles by which the train is ahead of the rigid frame.
 inline double cycle_shift(const Train& train, const double* x) {
-    return train.sun_advance * x[train.sun] + train.carrier_advance * x[train.carrier];
+    return train.cycle.sun_advance * x[train.sun] + train.cycle.carrier_advance * x[train.carrier];
 }
 
 // Mesh cycles of the rigid frame since the start, modulo `modulus`.
 inline double frame_cycle(const Train& train, const State& state, std::int64_t modulus) {
     double total = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        std::int64_t denominator = train.cycles_denominator[a];
+        std::int64_t denominator = train.cycle.denominator[a];
         std::int64_t period = denominator * modulus;
         std::int64_t turns = static_cast<std::int64_t>(state.turns[a]);
-        std::int64_t whole = turns * train.cycles_numerator[a] % period;
+        std::int64_t whole = turns * train.cycle.numerator[a] % period;
         if (whole < 0) whole += period;
         total += static_cast<double>(whole) / static_cast<double>(denominator) +
-                 train.cycles[a] * state.fraction[a];
+                 train.cycle.per_turn[a] * state.fraction[a];
     }
     double m = static_cast<double>(modulus);
     return total - m * std::floor(total / m);
@@ -42,10 +42,10 @@ inline double frame_cycle(const Train& train, const State& state, std::int64_t m
 // as their spaces.
 inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t side, double cycle,
                             std::int64_t modulus) {
-    cycle = static_cast<double>(side) * (cycle - train.phase[i]);
-    if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
+    cycle = static_cast<double>(side) * (cycle - train.mesh.phase[i]);
+    if (side == COAST_SIDE) cycle += train.geometry.coast_lead[train.mesh.kind[i]];
     double m = static_cast<double>(modulus);
-    return cycle - m * std::floor((cycle - train.edge[train.kind[i]][0]) / m);
+    return cycle - m * std::floor((cycle - train.teeth.edge[train.mesh.kind[i]][0]) / m);
 }
 
 // The side on which an entry of the meshes may be closed: both (OPEN) where it stands for all of
@@ -76,9 +76,9 @@ inline double mesh_cycle(const Train& train, const State& state, std::int64_t i,
 // Segment of the table of tooth pairs at a position in the cycle; at an edge, the one ahead.
 inline std::int64_t find_segment(const Train& train, std::int64_t kind, double cycle,
                                  double direction) {
-    std::int64_t last = train.segments[kind] - 1, segment = 0;
-    while (segment < last && train.edge[kind][segment + 1] <= cycle) ++segment;
-    if (direction < 0.0 && cycle == train.edge[kind][segment])
+    std::int64_t last = train.teeth.segments[kind] - 1, segment = 0;
+    while (segment < last && train.teeth.edge[kind][segment + 1] <= cycle) ++segment;
+    if (direction < 0.0 && cycle == train.teeth.edge[kind][segment])
         segment = segment > 0 ? segment - 1 : last;
     return segment;
 }
@@ -92,7 +92,7 @@ ALWAYS_INLINE Real nearest_between(const Real& low, const Real& high, const Real
 
 inline double nearest_to_segment(const Train& train, std::int64_t kind, std::int64_t segment,
                                  double cycle) {
-    const double* edge = train.edge[kind];
+    const double* edge = train.teeth.edge[kind];
     return nearest_between(edge[segment], edge[segment + 1], cycle);
 }
 

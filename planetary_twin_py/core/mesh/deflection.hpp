@@ -12,7 +12,8 @@ namespace gearbox {
 // Transmission error of mesh i from x, its rate from v.
 inline double mesh_motion(const Train& train, std::int64_t i, const double* x) {
     double total = 0.0;
-    for (int j = 0; j < entries_of(train); ++j) total += train.sign[i][j] * x[train.body[i][j]];
+    for (int j = 0; j < entries_of(train); ++j)
+        total += train.mesh.sign[i][j] * x[train.mesh.body[i][j]];
     return total;
 }
 
@@ -32,7 +33,7 @@ struct Deflection {
 inline Deflection deflection(const Train& train, const StepConstants& step, std::int64_t i,
                              const double* x, const double* v, double advance, double cycle_rate) {
     double d = mesh_motion(train, i, x), rate = mesh_motion(train, i, v);
-    if (train.lines[train.kind[i]] == 0) return {d, rate, 0.0};
+    if (train.errors.lines[train.mesh.kind[i]] == 0) return {d, rate, 0.0};
     LengthAndRate e = form_error(train, i, step.side[i], step.line_angle, advance, cycle_rate);
     return {d - e.length, rate - e.rate, e.rate};
 }

@@ -18,10 +18,10 @@ constexpr std::int64_t NOWHERE = -1;
 // Fill faulty[i][p][f] after `whole` cycles, modulo the teeth of the gear of fault f.
 inline void mark_fault(const Train& train, std::int64_t i, std::int64_t side, std::int64_t segment,
                        std::int64_t f, std::int64_t whole, std::int8_t (*faulty)[PAIRS][FAULTS]) {
-    std::int64_t kind = train.kind[i], flank = side == DRIVE_SIDE ? 0 : 1;
-    std::int64_t pair = train.fault_pair[f][i][flank], teeth = train.fault_teeth[f];
+    std::int64_t kind = train.mesh.kind[i], flank = side == DRIVE_SIDE ? 0 : 1;
+    std::int64_t pair = train.faults.pair[f][i][flank], teeth = train.faults.teeth[f];
     for (int p = 0; p < PAIRS; ++p) {
-        auto behind = static_cast<std::int64_t>(std::floor(train.shift[kind][segment][p]));
+        auto behind = static_cast<std::int64_t>(std::floor(train.teeth.shift[kind][segment][p]));
         std::int64_t number = whole - behind;
         faulty[i][p][f] = pair != NOWHERE && (number - pair) % teeth == 0;
     }
@@ -30,8 +30,8 @@ inline void mark_fault(const Train& train, std::int64_t i, std::int64_t side, st
 // Fill faulty[i][p][f]: whether pair p of mesh i, at `start` in its cycle, has fault f.
 inline void find_faults(const Train& train, const State& state, std::int64_t i, std::int64_t side,
                         double start, std::int8_t (*faulty)[PAIRS][FAULTS]) {
-    for (std::int64_t f = 0; f < train.faults; ++f) {
-        double cycle = counted_cycle(train, state, i, side, train.fault_teeth[f]);
+    for (std::int64_t f = 0; f < train.faults.count; ++f) {
+        double cycle = counted_cycle(train, state, i, side, train.faults.teeth[f]);
         auto whole = static_cast<std::int64_t>(std::nearbyint(cycle - start));
         mark_fault(train, i, side, state.segment[i], f, whole, faulty);
     }

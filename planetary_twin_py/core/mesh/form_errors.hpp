@@ -23,20 +23,20 @@ struct LengthAndRate {
 
 // Angle [rad] by which line n of a kind of mesh advances in a mesh cycle.
 inline double line_order(const Train& train, std::int64_t kind, std::int64_t n) {
-    return 2.0 * std::numbers::pi * train.line_harmonic[kind][n] /
-           static_cast<double>(train.line_period[kind][n]);
+    return 2.0 * std::numbers::pi * train.errors.harmonic[kind][n] /
+           static_cast<double>(train.errors.period[kind][n]);
 }
 
 // Fill angle[i] with the phases of the sines of mesh i [rad].
 inline void place_lines(const Train& train, const State& state, std::int64_t i,
                         double (*angle)[LINES]) {
-    std::int64_t kind = train.kind[i], planets = planets_of(train);
-    for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
-        std::int64_t counter = train.line_of_planet[kind][n] ? i % planets : i;
-        std::int64_t period = train.line_period[kind][n];
+    std::int64_t kind = train.mesh.kind[i], planets = planets_of(train);
+    for (std::int64_t n = 0; n < train.errors.lines[kind]; ++n) {
+        std::int64_t counter = train.errors.of_planet[kind][n] ? i % planets : i;
+        std::int64_t period = train.errors.period[kind][n];
         double cycle = counted_cycle(train, state, counter, DRIVE_SIDE, period);
-        double turn = cycle * train.line_harmonic[kind][n] / static_cast<double>(period);
-        angle[i][n] = 2.0 * std::numbers::pi * turn + train.line_phase[i][n];
+        double turn = cycle * train.errors.harmonic[kind][n] / static_cast<double>(period);
+        angle[i][n] = 2.0 * std::numbers::pi * turn + train.errors.phase[i][n];
     }
 }
 
@@ -44,14 +44,14 @@ inline void place_lines(const Train& train, const State& state, std::int64_t i,
 // after `place_lines`, at `cycle_rate` mesh cycles per second.
 inline LengthAndRate radial_error(const Train& train, std::int64_t i, const double (*angle)[LINES],
                                   double advance, double cycle_rate) {
-    std::int64_t kind = train.kind[i];
+    std::int64_t kind = train.mesh.kind[i];
     double error = 0.0, rate = 0.0;
-    for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
+    for (std::int64_t n = train.errors.harmonics[kind]; n < train.errors.lines[kind]; ++n) {
         double order = line_order(train, kind, n);
         double turned = angle[i][n] + order * advance;
         auto [sine, cosine] = sin_cos(turned);
-        error += train.line_radial[i][n] * cosine;
-        rate -= train.line_radial[i][n] * order * cycle_rate * sine;
+        error += train.errors.radial[i][n] * cosine;
+        rate -= train.errors.radial[i][n] * order * cycle_rate * sine;
     }
     return {error, rate};
 }
@@ -60,14 +60,14 @@ inline LengthAndRate radial_error(const Train& train, std::int64_t i, const doub
 // alone. The other arguments are those of `radial_error`.
 inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
                                 const double (*angle)[LINES], double advance, double cycle_rate) {
-    std::int64_t kind = train.kind[i];
+    std::int64_t kind = train.mesh.kind[i];
     double error = 0.0, rate = 0.0;
-    for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
+    for (std::int64_t n = 0; n < train.errors.lines[kind]; ++n) {
         double order = line_order(train, kind, n);
         double turned = angle[i][n] + order * advance;
         auto [sine, cosine] = sin_cos(turned);
-        error += train.line_tangential[i][n] * sine;
-        rate += train.line_tangential[i][n] * order * cycle_rate * cosine;
+        error += train.errors.tangential[i][n] * sine;
+        rate += train.errors.tangential[i][n] * order * cycle_rate * cosine;
     }
     LengthAndRate radial = radial_error(train, i, angle, advance, cycle_rate);
     return {error + side * radial.length, rate + side * radial.rate};
@@ -76,16 +76,16 @@ inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
 // Second derivative of e [m/s^2] of mesh i on a side, at `place_lines`, at `cycle_rate` cycles/s.
 inline double form_error_acceleration(const Train& train, std::int64_t i, double side,
                                       const double (*angle)[LINES], double cycle_rate) {
-    std::int64_t kind = train.kind[i];
+    std::int64_t kind = train.mesh.kind[i];
     double acceleration = 0.0;
-    for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
+    for (std::int64_t n = 0; n < train.errors.lines[kind]; ++n) {
         double rate = line_order(train, kind, n) * cycle_rate;
-        acceleration -= train.line_tangential[i][n] * (rate * rate) * sin_cos(angle[i][n]).sine;
+        acceleration -= train.errors.tangential[i][n] * (rate * rate) * sin_cos(angle[i][n]).sine;
     }
-    for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
+    for (std::int64_t n = train.errors.harmonics[kind]; n < train.errors.lines[kind]; ++n) {
         double rate = line_order(train, kind, n) * cycle_rate;
         acceleration -=
-            side * train.line_radial[i][n] * (rate * rate) * sin_cos(angle[i][n]).cosine;
+            side * train.errors.radial[i][n] * (rate * rate) * sin_cos(angle[i][n]).cosine;
     }
     return acceleration;
 }

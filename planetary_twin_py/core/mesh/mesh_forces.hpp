@@ -36,9 +36,9 @@ inline void place_meshes(const Train& train, const State& state, const StepConst
                          const double* x, const double* v, double delay, MeshesNow& now) {
     now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
     now.cycle_rate = step.cycle_rate + cycle_shift(train, v);
-    now.speed_damping_time =
-        train.damping_cycles / at_least(passing_rate(train, step, v), train.lowest_frequency);
-    if (train.lines[0] + train.lines[1] > 0) place_errors(train, step, now);
+    now.speed_damping_time = train.damping.cycles /
+                             at_least(passing_rate(train, step, v), train.damping.lowest_frequency);
+    if (train.errors.lines[0] + train.errors.lines[1] > 0) place_errors(train, step, now);
 }
 
 // Position of each mesh in its segment [cycles].
@@ -73,8 +73,8 @@ ALWAYS_INLINE Weights<L> weigh(std::int64_t terms, const double (*coefficient)[M
 inline void add_mesh_power(const Train& train, const MeshesNow& now, double* power) {
     double lost = 0.0, work = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        lost += train.copies[i] * now.damping_power[i];
-        work += train.copies[i] * now.stiffness_power[i];
+        lost += train.mesh.copies[i] * now.damping_power[i];
+        work += train.mesh.copies[i] * now.stiffness_power[i];
     }
     power[DAMPING] += lost;
     power[STIFFNESS_WORK] += work;
@@ -85,9 +85,10 @@ template <int L>
 ALWAYS_INLINE void healthy_mesh_forces(const Model& model, const StepConstants& step,
                                        MeshesNow& now) {
     using V = Row<L>;
-    const double offset = model.load.offset, inner_squared = model.load.inner_squared;
+    const double offset = model.operation.backlash.offset,
+                 inner_squared = model.operation.backlash.inner_squared;
     V u = place_in_segment<L>(step, now.advance);
-    auto [weight, growth] = weigh<L>(model.train.terms, step.weight[TOTAL], u);
+    auto [weight, growth] = weigh<L>(model.train.teeth.terms, step.weight[TOTAL], u);
     V side(step.side), closed = absolute(side), gain(step.gain);
     V k = closed * (V(step.base) + gain * weight);
     V deflection = side * V(now.d) - offset, closing = side * V(now.rate);
@@ -109,9 +110,9 @@ template <int L>
 ALWAYS_INLINE void spread_loads(const Train& train, const StepConstants& step, MeshesNow& now) {
     using V = Row<L>;
     V u = place_in_segment<L>(step, now.advance), normal_force(now.normal_force);
-    V inverse = 1.0 / weigh<L>(train.terms, step.weight[TOTAL], u).value;
-    for (std::int64_t p = 0; p < train.slots; ++p) {
-        V share = weigh<L>(train.terms, step.weight[p], u).value * inverse;
+    V inverse = 1.0 / weigh<L>(train.teeth.terms, step.weight[TOTAL], u).value;
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
+        V share = weigh<L>(train.teeth.terms, step.weight[p], u).value * inverse;
         share.store(now.share[p]);
         larger(share * normal_force, V(0.0)).store(now.load[p]);
     }
@@ -133,7 +134,7 @@ ALWAYS_INLINE Radii<L> flank_radii(const StepConstants& step, std::int64_t p, co
 // Distance of the contacts along their path from cycle 0 [m].
 template <int L>
 ALWAYS_INLINE Row<L> path_position(const Train& train, const StepConstants& step, double advance) {
-    const double pitch = train.base_pitch;
+    const double pitch = train.geometry.base_pitch;
     return Row<L>(step.side) * (advance * pitch) + Row<L>(step.start) * pitch;
 }
 
@@ -150,7 +151,7 @@ template <int L>
 inline void fill_pairs(const Train& train, const StepConstants& step, const MeshesNow& now,
                        ToothPairs& pairs) {
     Row<L> moved = path_position<L>(train, step, now.advance);
-    for (std::int64_t p = 0; p < train.slots; ++p) {
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
         std::int64_t first =
             p * train.meshes;  // the next pair overwrites entries beyond the meshes
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
@@ -161,28 +162,30 @@ inline void fill_pairs(const Train& train, const StepConstants& step, const Mesh
         face_in_contact<L>(step, p, now.advance).store(pairs.face + first);
         copy<L>(step.external, pairs.external + first);
     }
-    pairs.count = train.slots * train.meshes;
+    pairs.count = train.teeth.slots * train.meshes;
 }
 
 // Force of mesh i from its tooth pairs, each of which may have faults.
 inline void faulty_mesh_force(const Model& model, const State& state, const StepConstants& step,
                               std::int64_t i, MeshesNow& now) {
     const Train& train = model.train;
-    const std::int64_t kind = train.kind[i], segment = state.segment[i];
+    const std::int64_t kind = train.mesh.kind[i], segment = state.segment[i];
     now.normal_force[i] = now.damping_power[i] = now.stiffness_power[i] = now.stiffness[i] =
         now.stiffening[i] = 0.0;
-    for (std::int64_t p = 0; p < train.slots; ++p) now.load[p][i] = 0.0;
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) now.load[p][i] = 0.0;
     if (state.side[i] == OPEN) return;
     double side = static_cast<double>(state.side[i]);
     double u = step.start[i] - step.low[i] + side * now.advance;
-    double deflection = side * now.d[i] - model.load.offset, closing = side * now.rate[i];
+    double deflection = side * now.d[i] - model.operation.backlash.offset,
+           closing = side * now.rate[i];
     auto [total, fading] = total_weight(train, kind, segment, u);
     double tau = step.fixed_damping_time[i] + now.speed_damping_time,
            per_weight = step.base[i] / total + step.gain[i];
     double falling = -step.base[i] * fading / (total * total), work = 0.0;
-    for (std::int64_t p = 0; p < train.slots; ++p) {
+    for (std::int64_t p = 0; p < train.teeth.slots; ++p) {
         FaultEffect effect = fault_effect(train, step, i, segment, p, u);
-        auto [weight, growth] = polynomial(train.weight[kind][segment][p], u, train.terms);
+        auto [weight, growth] =
+            polynomial(train.teeth.weight[kind][segment][p], u, train.teeth.terms);
         double k = per_weight * weight * effect.factor;
         double dk = (per_weight * growth + falling * weight) * effect.factor +
                     per_weight * weight * effect.growth;
@@ -194,7 +197,7 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         now.stiffness[i] += k;
         now.stiffening[i] += side * dk * now.cycle_rate;
         now.damping_power[i] += (force - k * q) * closing;
-        work += 0.5 * dk * (q * q - model.load.inner_squared);
+        work += 0.5 * dk * (q * q - model.operation.backlash.inner_squared);
         now.load[p][i] = at_least(force, 0.0);
     }
     now.stiffness_power[i] =
@@ -214,7 +217,7 @@ COLD void faulty_mesh_forces(const Model& model, const State& state, const StepC
 template <int L>
 ALWAYS_INLINE void find_mesh_forces(const Model& model, const State& state,
                                     const StepConstants& step, MeshesNow& now) {
-    if (model.train.faults > 0)
+    if (model.train.faults.count > 0)
         faulty_mesh_forces<L>(model, state, step, now);
     else
         healthy_mesh_forces<L>(model, step, now);
@@ -223,7 +226,7 @@ ALWAYS_INLINE void find_mesh_forces(const Model& model, const State& state,
 // Distribute the forces to the tooth pairs where that is not done yet.
 template <int L>
 NOINLINE void distribute_forces(const Train& train, const StepConstants& step, MeshesNow& now) {
-    if (train.faults == 0) spread_loads<L>(train, step, now);
+    if (train.faults.count == 0) spread_loads<L>(train, step, now);
 }
 
 // Forces of the meshes, whose transmission errors are in out.now; initialises out.power.
@@ -249,14 +252,14 @@ inline void share_loads(const Model& model, const StepConstants& step, Evaluatio
 inline double force_time_derivative(const Model& model, const State& state,
                                     const StepConstants& step, std::int64_t i, double cycle_rate) {
     const Train& train = model.train;
-    std::int64_t kind = train.kind[i];
+    std::int64_t kind = train.mesh.kind[i];
     double side = static_cast<double>(state.side[i]);
     double tau = step.tau[kind], u = step.start[i] - step.low[i];
     auto [d, rate, error_rate] = deflection(train, step, i, state.x, state.v, 0.0, cycle_rate);
     auto [total, growth] = total_weight(train, kind, state.segment[i], u);
-    double normal_force = side * d - model.load.offset + tau * side * rate;
+    double normal_force = side * d - model.operation.backlash.offset + tau * side * rate;
     double derivative = step.gain[i] * growth * side * cycle_rate * normal_force;
-    if (train.lines[kind] > 0) {
+    if (train.errors.lines[kind] > 0) {
         double k = step.base[i] + step.gain[i] * total;
         double acceleration =
             form_error_acceleration(train, i, step.side[i], step.line_angle, cycle_rate);

@@ -18,7 +18,7 @@ namespace gearbox {
 // Fill the loads (PAIRS,) that add up to `force`; pairs with negative loads are removed one by one.
 inline void balance_pairs(const Train& train, const StepConstants& step, std::int64_t i,
                           std::int64_t segment, double u, double force, double* load) {
-    std::int64_t present = train.present[train.kind[i]][segment];
+    std::int64_t present = train.teeth.present[train.mesh.kind[i]][segment];
     for (std::int64_t p = 0; p < present; ++p) load[p] = 1.0;
     for (std::int64_t pass = 0; pass < present; ++pass) {
         double stiffness = 0.0, deflection = force;
@@ -50,22 +50,23 @@ struct PairContacts {
 // the faults.
 inline void share_force(const Train& train, StepConstants& step, std::int64_t i, double cycles,
                         const double* counted, double force, const PairContacts& contact) {
-    std::int64_t kind = train.kind[i], side = force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
+    std::int64_t kind = train.mesh.kind[i], side = force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
     double cycle = cycle_on_side(train, i, side, cycles, 1);
     std::int64_t segment = find_segment(train, kind, cycle, 1.0);
-    for (std::int64_t f = 0; f < train.faults; ++f) {
-        double own = cycle_on_side(train, i, side, counted[f], train.fault_teeth[f]);
+    for (std::int64_t f = 0; f < train.faults.count; ++f) {
+        double own = cycle_on_side(train, i, side, counted[f], train.faults.teeth[f]);
         auto whole = static_cast<std::int64_t>(std::nearbyint(own - cycle));
         mark_fault(train, i, side, segment, f, whole, step.faulty);
     }
     for (int p = 0; p < PAIRS; ++p) {
-        double place = train.centre[kind][segment][p] + train.travel[kind][segment][p] * cycle;
+        double place =
+            train.teeth.centre[kind][segment][p] + train.teeth.travel[kind][segment][p] * cycle;
         contact.position[p] = place;
-        contact.ahead[p] = place - cycle - std::floor(train.shift[kind][segment][p]);
+        contact.ahead[p] = place - cycle - std::floor(train.teeth.shift[kind][segment][p]);
         contact.face[p] =
-            train.face[kind][segment][p] + train.face_growth[kind][segment][p] * cycle;
+            train.teeth.face[kind][segment][p] + train.teeth.face_growth[kind][segment][p] * cycle;
     }
-    double u = cycle - train.edge[kind][segment];
+    double u = cycle - train.teeth.edge[kind][segment];
     balance_pairs(train, step, i, segment, u, std::abs(force), contact.load);
 }
 

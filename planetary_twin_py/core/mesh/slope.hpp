@@ -43,7 +43,7 @@ inline void add_slope_moment(const Train& train, std::int64_t i, double moment, 
     if (!tilts(train)) return;
     const MovingAxes& axes = train.moving;
     for (int j = 0; j < SLOPES; ++j)
-        force[axes.slope_place[i][j]] -= train.copies[i] * moment * axes.slope[i][j];
+        force[axes.slope_place[i][j]] -= train.mesh.copies[i] * moment * axes.slope[i][j];
 }
 
 // Add the moments against the slopes of all meshes.

@@ -25,16 +25,17 @@ inline ValueAndSlope polynomial(const double* coefficient, double u, std::int64_
 // Sum of the weights of the tooth pairs of a mesh `u` cycles into a segment.
 inline ValueAndSlope total_weight(const Train& train, std::int64_t kind, std::int64_t segment,
                                   double u) {
-    return polynomial(train.weight[kind][segment][TOTAL], u, train.terms);
+    return polynomial(train.teeth.weight[kind][segment][TOTAL], u, train.teeth.terms);
 }
 
 // Stiffness [N/m] of mesh i without faults at a fraction of its cycle.
 inline double mesh_stiffness(const Train& train, std::int64_t i, std::int64_t segment,
                              double cycle) {
-    const std::int64_t kind = train.kind[i];
-    double total = total_weight(train, kind, segment, cycle - train.edge[kind][segment]).value;
-    return train.stiffness_factor[i] *
-           (train.stiffness_base[kind] + train.stiffness_gain[kind] * total);
+    const std::int64_t kind = train.mesh.kind[i];
+    double total =
+        total_weight(train, kind, segment, cycle - train.teeth.edge[kind][segment]).value;
+    return train.mesh.stiffness_factor[i] *
+           (train.teeth.stiffness_base[kind] + train.teeth.stiffness_gain[kind] * total);
 }
 
 struct FaultEffect {
@@ -45,13 +46,13 @@ struct FaultEffect {
 inline FaultEffect fault_effect(const Train& train, const StepConstants& step, std::int64_t i,
                                 std::int64_t segment, std::int64_t pair, double u) {
     FaultEffect effect{1.0, 0.0, 0.0};
-    for (std::int64_t f = 0; f < train.faults; ++f) {
+    for (std::int64_t f = 0; f < train.faults.count; ++f) {
         if (!step.faulty[i][pair][f]) continue;
         auto [value, slope] =
-            polynomial(train.fault_factor[f][train.kind[i]][segment][pair], u, TERMS);
+            polynomial(train.faults.factor[f][train.mesh.kind[i]][segment][pair], u, TERMS);
         effect.growth = effect.growth * value + effect.factor * slope;
         effect.factor *= value;
-        effect.gap += train.fault_gap[f];
+        effect.gap += train.faults.gap[f];
     }
     return effect;
 }
@@ -63,12 +64,12 @@ struct StiffnessAndGap {
 // Stiffness of a tooth pair `u` cycles into a segment, with its faults.
 inline StiffnessAndGap pair_stiffness(const Train& train, const StepConstants& step, std::int64_t i,
                                       std::int64_t segment, std::int64_t pair, double u) {
-    std::int64_t kind = train.kind[i];
+    std::int64_t kind = train.mesh.kind[i];
     double total = total_weight(train, kind, segment, u).value;
-    double per_weight = train.stiffness_base[kind] / total + train.stiffness_gain[kind];
-    double weight = polynomial(train.weight[kind][segment][pair], u, train.terms).value;
+    double per_weight = train.teeth.stiffness_base[kind] / total + train.teeth.stiffness_gain[kind];
+    double weight = polynomial(train.teeth.weight[kind][segment][pair], u, train.teeth.terms).value;
     FaultEffect effect = fault_effect(train, step, i, segment, pair, u);
-    return {train.stiffness_factor[i] * per_weight * weight * effect.factor, effect.gap};
+    return {train.mesh.stiffness_factor[i] * per_weight * weight * effect.factor, effect.gap};
 }
 
 }  // namespace gearbox

@@ -227,7 +227,7 @@ inline void accelerate_displaced(const Train& train, double rate, State& state) 
     const MovingAxes& axes = train.moving;
     for (std::int64_t b = 0; b < axes.bearings; ++b)
         state.v[train.carrier] -= axes.carried[b] * axes.mass[b] * state.x[axes.place[b][0]] *
-                                  rate / train.mass[train.carrier];
+                                  rate / train.body.mass[train.carrier];
 }
 
 // Transform the displacements to a frame that is ahead by `angle` [rad] and faster by `rate`

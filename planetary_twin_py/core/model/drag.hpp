@@ -17,6 +17,10 @@ namespace gearbox {
 constexpr double SLOWEST_DRAG_TURN = 1e-2;  // [rad/s] below which drag decreases to zero
 constexpr std::int64_t NO_PLANET = -1;
 
+inline bool has_drag(const Train& train) {
+    return train.joints.count + train.discs.count > 0;
+}
+
 inline double drag_sense(double speed) {
     return speed / std::sqrt(speed * speed + SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN);
 }
@@ -29,18 +33,18 @@ inline double pin_load(const Train& train, const State& state, const double* nor
     double sum = 0.0;
     for (std::int64_t i = planet; i < train.meshes; i += planets)
         sum += static_cast<double>(state.side[i]) * normal_force[i];
-    return train.pin_share * std::abs(sum);
+    return train.joints.pin_share * std::abs(sum);
 }
 
 // Magnitude [N m] of the drag of joint b at a speed [rad/s] above SLOWEST_DRAG_TURN.
 inline double joint_drag(const Model& model, const State& state, const double* normal_force,
                          std::int64_t b, double speed) {
     const Train& train = model.train;
-    double load = pin_load(train, state, normal_force, train.joint_planet[b]);
-    double torque = train.joint_coulomb[b] + train.joint_viscous[b] * std::abs(speed);
-    torque += bearing_torque(train.joint_no_load_factor[b], train.joint_load_factor[b],
+    double load = pin_load(train, state, normal_force, train.joints.planet[b]);
+    double torque = train.joints.coulomb[b] + train.joints.viscous[b] * std::abs(speed);
+    torque += bearing_torque(train.joints.no_load_factor[b], train.joints.load_factor[b],
                              model.oil.kinematic, speed, load);
-    return torque * train.body_copies[train.joint_body[b][0]];
+    return torque * train.body.copies[train.joints.body[b][0]];
 }
 
 // Add the damping of the drag of joints to `matrix`.
@@ -51,13 +55,13 @@ inline double joint_drag(const Model& model, const State& state, const double* n
 inline void drag_damping(const Model& model, const State& state, const double* normal_force,
                          const double* force, double h, Matrix matrix) {
     const Train& train = model.train;
-    for (std::int64_t b = 0; b < train.joints; ++b) {
-        const std::int64_t* body = train.joint_body[b];
+    for (std::int64_t b = 0; b < train.joints.count; ++b) {
+        const std::int64_t* body = train.joints.body[b];
         double speed =
             body_speed(train, state, state.v, body[0]) - body_speed(train, state, state.v, body[1]);
-        double row[2] = {train.inverse_radius[body[0]], -train.inverse_radius[body[1]]};
-        double gain = h * (row[0] * force[body[0]] / train.mass[body[0]] +
-                           row[1] * force[body[1]] / train.mass[body[1]]);
+        double row[2] = {train.body.inverse_radius[body[0]], -train.body.inverse_radius[body[1]]};
+        double gain = h * (row[0] * force[body[0]] / train.body.mass[body[0]] +
+                           row[1] * force[body[1]] / train.body.mass[body[1]]);
         double square = speed * speed + SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN;
         double chord = joint_drag(model, state, normal_force, b, speed) / std::sqrt(square);
         double tangent = chord * SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN / square;
@@ -72,21 +76,22 @@ inline void apply_drag(const Model& model, const State& state, const double* v,
                        const double* normal_force, double* friction_force, double* power) {
     const Train& train = model.train;
     const Oil& oil = model.oil;
-    for (std::int64_t b = 0; b < train.joints; ++b) {
-        std::int64_t inner = train.joint_body[b][0], outer = train.joint_body[b][1];
+    for (std::int64_t b = 0; b < train.joints.count; ++b) {
+        std::int64_t inner = train.joints.body[b][0], outer = train.joints.body[b][1];
         double speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer);
         double torque = joint_drag(model, state, normal_force, b, speed) * drag_sense(speed);
-        friction_force[inner] -= torque / train.radius[inner];
-        friction_force[outer] += torque / train.radius[outer];
+        friction_force[inner] -= torque / train.body.radius[inner];
+        friction_force[outer] += torque / train.body.radius[outer];
         power[BEARING] += torque * speed;
     }
-    for (std::int64_t n = 0; n < train.discs; ++n) {
-        std::int64_t body = train.disc_body[n];
-        double radius = train.disc_radius[n], speed = body_speed(train, state, v, body);
-        double density = train.disc_fill * oil.density;
-        double torque = disc_torque(radius, train.disc_gap / radius, density, oil.kinematic, speed);
+    for (std::int64_t n = 0; n < train.discs.count; ++n) {
+        std::int64_t body = train.discs.body[n];
+        double radius = train.discs.radius[n], speed = body_speed(train, state, v, body);
+        double density = train.discs.fill * oil.density;
+        double torque =
+            disc_torque(radius, train.discs.gap / radius, density, oil.kinematic, speed);
         torque *= drag_sense(speed);
-        friction_force[body] -= torque / train.radius[body];
+        friction_force[body] -= torque / train.body.radius[body];
         power[CHURNING] += torque * speed;
     }
 }

@@ -19,8 +19,8 @@ inline double kinetic(const Model& model, const State& state) {
     double total = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         if (has_given_motion(model, j)) continue;
-        double speed = body_speed(train, state, state.v, j) * train.radius[j];
-        total += 0.5 * train.mass[j] * speed * speed;
+        double speed = body_speed(train, state, state.v, j) * train.body.radius[j];
+        total += 0.5 * train.body.mass[j] * speed * speed;
     }
     if constexpr (MOVING) {
         double turning = rigid_speed(train, state, train.moving.frame);
@@ -41,8 +41,8 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
     double total = state.presliding;
     for (std::int64_t i = 0; i < train.meshes; ++i) total += stored_energy(model, state, step, i);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        double twist = state.x[train.coupling[c][0]] - state.x[train.coupling[c][1]];
-        total += 0.5 * train.coupling_stiffness[c] * twist * twist;
+        double twist = state.x[train.coupling.ends[c][0]] - state.x[train.coupling.ends[c][1]];
+        total += 0.5 * train.coupling.stiffness[c] * twist * twist;
     }
     if constexpr (MOVING) {
         for (std::int64_t b = 0; b < train.moving.bearings; ++b) {

@@ -4,7 +4,7 @@
 //
 // J_s th_s'' = T_s - r_bs sum F_sp + Q_s and so on for every body (Salagianni et al. 2017, eqs.
 // (18)-(20), with friction as the generalised force Q_j = -f dVs/dw_j instead of P/w). In the
-// coordinates x = r theta all mesh forces enter with the signs of `Train.sign`.
+// coordinates x = r theta all mesh forces enter with the signs of `Train.mesh.sign`.
 
 #include <cmath>
 #include <numbers>
@@ -24,20 +24,29 @@ inline void add_friction_forces(const Train& train, const DragOfMeshes& drag,
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (MOVING && drag.torque[0][i] == 0.0 && drag.torque[1][i] == 0.0) continue;
         for (int j = 0; j < GEARS; ++j) {
-            double force = drag.torque[j][i] * train.lever[j][i];
-            friction_force[train.body[i][j]] += train.copies[i] * force;
+            double force = drag.torque[j][i] * train.mesh.lever[j][i];
+            friction_force[train.mesh.body[i][j]] += train.mesh.copies[i] * force;
         }
         for (int j = GEARS; j < IN_PLANE; ++j)
-            friction_force[train.body[i][j]] +=
-                train.copies[i] * drag.torque[2][i] * train.moving.line[i][j];
+            friction_force[train.mesh.body[i][j]] +=
+                train.mesh.copies[i] * drag.torque[2][i] * train.moving.line[i][j];
     }
 }
 
 // Power lost to the friction of all meshes [W].
 inline double friction_power(const Train& train, const DragOfMeshes& drag) {
     double power = 0.0;
-    for (std::int64_t i = 0; i < train.meshes; ++i) power += train.copies[i] * drag.power[i];
+    for (std::int64_t i = 0; i < train.meshes; ++i) power += train.mesh.copies[i] * drag.power[i];
     return power;
+}
+
+// Friction of the tooth pairs and its sums over those of each mesh, from the forces of the meshes.
+inline void find_friction_of_pairs(const Model& model, const StepConstants& step, const double* v,
+                                   Evaluation& out) {
+    share_loads(model, step, out);
+    turn_pairs(model.train, step, v, out.pairs);
+    evaluate(model, out.pairs);
+    collect(model.train, out.pairs, out.friction);
 }
 
 // Friction of the tooth pairs and drag in out.friction_force, from the forces of the meshes.
@@ -46,16 +55,14 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
     const Train& train = model.train;
     for (double& force : out.friction_force) force = 0.0;
     if (train.friction) {
-        share_loads(model, step, out);
-        turn_pairs(train, step, v, out.pairs);
-        evaluate(model, out.pairs);
-        collect(train, out.pairs, out.dragging);
-        if (train.printed_torque) print_torques(train, step, v, out.dragging);
-        add_friction_forces(train, out.dragging, out.friction_force);
-        out.power[FRICTION] += friction_power(train, out.dragging);
+        DragOfMeshes& drag = out.friction.drag;
+        find_friction_of_pairs(model, step, v, out);
+        if (train.printed_torque) print_torques(train, step, v, drag);
+        add_friction_forces(train, drag, out.friction_force);
+        out.power[FRICTION] += friction_power(train, drag);
         out.power[STIFFNESS_WORK] -= deforming_power(train, out.pairs);  // see book_bristles
     }
-    if (train.joints + train.discs > 0)
+    if (has_drag(train))
         apply_drag(model, state, v, out.now.normal_force, out.friction_force, out.power);
 }
 
@@ -69,10 +76,10 @@ struct MachineForces {
 ALWAYS_INLINE void apply_couplings(const Train& train, const double* x, const double* v,
                                    MachineForces& forces, double* power) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
         double rate = v[machine] - v[member];
-        double damping = train.coupling_damping[c] * rate;
-        double total = train.coupling_stiffness[c] * (x[machine] - x[member]) + damping;
+        double damping = train.coupling.damping[c] * rate;
+        double total = train.coupling.stiffness[c] * (x[machine] - x[member]) + damping;
         forces.machine[c] = -total;
         forces.member[c] = total;
         power[DAMPING] += damping * rate;
@@ -82,10 +89,10 @@ ALWAYS_INLINE void apply_couplings(const Train& train, const double* x, const do
 // Phase of the torque ripple of the first motor [rad], which follows the angle of its shaft.
 ALWAYS_INLINE double ripple_phase(const Model& model, const State& state, const double* x,
                                   double delay) {
-    const std::int64_t body = model.train.coupling[MOTOR][0];
+    const std::int64_t body = model.train.coupling.ends[MOTOR][0];
     double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
-    angle += x[body] / model.train.radius[body];
-    return model.load.ripple_order * angle;
+    angle += x[body] / model.train.body.radius[body];
+    return model.operation.ripple_order * angle;
 }
 
 // Add the torques of the motors, which control their speeds, and of the load; or given ones.
@@ -96,20 +103,21 @@ ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const 
                                   const double* x, const double* v, double delay,
                                   const double* trim, MachineForces& forces, double* power) {
     const Train& train = model.train;
-    const Load& load = model.load;
+    const Operation& operation = model.operation;
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        const std::int64_t body = train.coupling[c][0];
+        const std::int64_t body = train.coupling.ends[c][0];
         const Drive& drive = step.drive[c];
-        const double spin = v[body] * train.inverse_radius[body], speed = step.rigid[body] + spin;
+        const double spin = v[body] * train.body.inverse_radius[body],
+                     speed = step.rigid[body] + spin;
         double torque = drive.torque + drive.rate * delay - drive.gain * spin;
-        for (std::int64_t a = 0; a < train.axes; ++a) torque += load.trim_gain[c][a] * trim[a];
-        if (c == MOTOR && load.ripple != 0.0)
-            torque += load.ripple * sin_cos(ripple_phase(model, state, x, delay)).sine;
-        double force = torque * train.inverse_radius[body];
-        if (load.port[c] == BY_MOTION) {
-            torque = -forces.machine[c] * train.radius[body];
+        for (std::int64_t a = 0; a < train.axes; ++a) torque += operation.trim_gain[c][a] * trim[a];
+        if (c == MOTOR && operation.ripple != 0.0)
+            torque += operation.ripple * sin_cos(ripple_phase(model, state, x, delay)).sine;
+        double force = torque * train.body.inverse_radius[body];
+        if (operation.port[c] == BY_MOTION) {
+            torque = -forces.machine[c] * train.body.radius[body];
             forces.machine[c] = 0.0;
-            force = train.mass[body] * train.radius[body] * load.acceleration[c];
+            force = train.body.mass[body] * train.body.radius[body] * operation.acceleration[c];
         }
         forces.machine[c] += force;
         power[WORK + c] = torque * speed;
@@ -125,16 +133,16 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
     for (int j = 0; j < BODIES; ++j) out.force[j] = out.friction_force[j];
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double normal_force =
-            train.copies[i] * static_cast<double>(state.side[i]) * out.now.normal_force[i];
+            train.mesh.copies[i] * static_cast<double>(state.side[i]) * out.now.normal_force[i];
         for (int j = 0; j < entries_of(train); ++j)
-            out.force[train.body[i][j]] -= normal_force * train.sign[i][j];
+            out.force[train.mesh.body[i][j]] -= normal_force * train.mesh.sign[i][j];
     }
     MachineForces forces;
     apply_couplings(train, x, v, forces, out.power);
     apply_machines(model, state, step, x, v, delay, trim, forces, out.power);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        out.force[train.coupling[c][0]] += forces.machine[c];
-        out.force[train.coupling[c][1]] += forces.member[c];
+        out.force[train.coupling.ends[c][0]] += forces.machine[c];
+        out.force[train.coupling.ends[c][1]] += forces.member[c];
     }
     if constexpr (MOVING) {
         apply_axes(train, state, step.rigid, delay, x, v, out.force, out.power);

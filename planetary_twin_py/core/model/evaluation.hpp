@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "capacities.hpp"
+#include "lubrication/mesh_friction.hpp"
 #include "lubrication/tooth_pairs.hpp"
 #include "mesh/meshes_now.hpp"
 
@@ -14,7 +15,7 @@ struct alignas(64) Evaluation {
     alignas(64) double power[LEDGER];           // integrands of the energy ledger [W]
     MeshesNow now;
     ToothPairs pairs;
-    DragOfMeshes dragging;
+    MeshFriction friction;
 };
 
 }  // namespace gearbox

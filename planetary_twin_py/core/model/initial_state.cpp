@@ -52,7 +52,7 @@ void place_pairs(Start& start) {
         if (side == OPEN) continue;
         double direction = std::copysign(1.0, static_cast<double>(side) * rate);
         double cycle = mesh_cycle(train, state, i, side);
-        state.segment[i] = find_segment(train, train.kind[i], cycle, direction);
+        state.segment[i] = find_segment(train, train.mesh.kind[i], cycle, direction);
     }
     set_step_constants(start.model, state, start.step);
 }
@@ -83,7 +83,8 @@ void add_bearing_stiffness(Start& start) {
             add_outer(stiffness, row.place, row.factor, row.size,
                       row.radial ? radial : row.stiffness);
     }
-    double regularisation = REGULARISATION * std::max(train.stiffness[0], train.stiffness[1]);
+    double regularisation =
+        REGULARISATION * std::max(train.teeth.stiffness[0], train.teeth.stiffness[1]);
     for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
 }
 
@@ -96,14 +97,15 @@ void displace_by_forces(Start& start) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
         if (MOVING && start.state.side[i] == OPEN) continue;
-        add_outer(balance.stiffness, train.body[i], train.sign[i], entries_of(train),
-                  train.copies[i] * k);
-        if constexpr (MOVING) add_slope_stiffness(train, i, train.copies[i] * k, balance.stiffness);
+        add_outer(balance.stiffness, train.mesh.body[i], train.mesh.sign[i], entries_of(train),
+                  train.mesh.copies[i] * k);
+        if constexpr (MOVING)
+            add_slope_stiffness(train, i, train.mesh.copies[i] * k, balance.stiffness);
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
-        add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
+        add_outer(balance.stiffness, train.coupling.ends[c], ENDS, 2, train.coupling.stiffness[c]);
     if constexpr (MOVING) add_bearing_stiffness(start);
-    for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling[2 * a][0]);
+    for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling.ends[2 * a][0]);
     const double turning = MOVING ? start.step.rigid[train.moving.frame] : 0.0;
     if (!displace_above_critical_speed(train, turning, balance.stiffness, balance.force)) {
         factorise(balance.stiffness, train.bodies);
@@ -118,7 +120,7 @@ void displace_by_forces(Start& start) {
 // if all are equally stiff at this angle.
 void balance_mean_forces(Start& start) {
     const Train& train = start.model.train;
-    const Load& load = start.model.load;
+    const Operation& operation = start.model.operation;
     const State& state = start.state;
     double* force = start.balance.force;
     std::fill(force, force + BODIES, 0.0);
@@ -126,14 +128,15 @@ void balance_mean_forces(Start& start) {
         double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double normal_force =
-            start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
+            start.force + k * (static_cast<double>(state.side[i]) * operation.backlash.offset - d);
         for (int g = 0; g < ENTRIES; ++g)
-            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * normal_force;
+            force[train.mesh.body[i][g]] +=
+                train.mesh.copies[i] * train.mesh.sign[i][g] * normal_force;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        double coupling_force = load.torque[c] / train.radius[machine];
-        coupling_force -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
+        double coupling_force = operation.torque[c] / train.body.radius[machine];
+        coupling_force -= train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
         force[machine] += coupling_force;
         force[member] -= coupling_force;
     }
@@ -149,7 +152,7 @@ bool touch_flanks(Start& start) {
         auto side = static_cast<double>(only_side(train, i));
         double error = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
         double deflection =
-            side * (mesh_motion(train, i, state.x) - error) - start.model.load.offset;
+            side * (mesh_motion(train, i, state.x) - error) - start.model.operation.backlash.offset;
         std::int64_t found = deflection > 0.0 ? only_side(train, i) : OPEN;
         changes |= found != state.side[i];
         state.side[i] = found;
@@ -160,7 +163,7 @@ bool touch_flanks(Start& start) {
 // Forces on every body at x, at rest in the frame; into `balance.force`.
 void forces_at_rest(Start& start) {
     const Train& train = start.model.train;
-    const Load& load = start.model.load;
+    const Operation& operation = start.model.operation;
     const State& state = start.state;
     double* force = start.balance.force;
     std::fill(force, force + BODIES, 0.0);
@@ -168,22 +171,24 @@ void forces_at_rest(Start& start) {
         if (state.side[i] == OPEN) continue;
         double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
-        double normal_force = k * (d - static_cast<double>(state.side[i]) * load.offset);
+        double normal_force =
+            k * (d - static_cast<double>(state.side[i]) * operation.backlash.offset);
         for (int j = 0; j < entries_of(train); ++j)
-            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * normal_force;
+            force[train.mesh.body[i][j]] -=
+                train.mesh.copies[i] * train.mesh.sign[i][j] * normal_force;
         if constexpr (MOVING)
             add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
                              force);
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        double coupling_force = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += load.torque[c] / train.radius[machine] - coupling_force;
+        std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
+        double coupling_force = train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += operation.torque[c] / train.body.radius[machine] - coupling_force;
         force[member] += coupling_force;
     }
     double power[LEDGER] = {};
     apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
-    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
+    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling.ends[2 * a][0]] = 0.0;
 }
 
 // Move x to the equilibrium of unilateral flanks and bearings with clearance under the mean
@@ -247,7 +252,8 @@ double drag(const Start& start, std::int64_t axis) {
     const Train& train = start.model.train;
     double total = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        total -= train.ratio[axis][j] * start.balance.evaluation.force[j] * train.radius[j];
+        total -=
+            train.body.ratio[axis][j] * start.balance.evaluation.force[j] * train.body.radius[j];
     return total;
 }
 
@@ -257,7 +263,7 @@ void mean_drag(Start& start, double* drags) {
     const Train& train = start.model.train;
     std::fill(drags, drags + AXES, 0.0);
     for (int point = 0; point < CYCLE_POINTS; ++point) {
-        start.state.fraction[0] = point / (CYCLE_POINTS * std::abs(train.cycles[0]));
+        start.state.fraction[0] = point / (CYCLE_POINTS * std::abs(train.cycle.per_turn[0]));
         balance_at_angle(start);
         forces_at_constant_speed(start.model, start);
         for (std::int64_t a = 0; a < train.axes; ++a) drags[a] += drag(start, a) / CYCLE_POINTS;
@@ -269,7 +275,7 @@ void mean_drag(Start& start, double* drags) {
 // separate them.
 void choose_sides(Start& start) {
     const Train& train = start.model.train;
-    double half = start.model.load.half_backlash;
+    double half = start.model.operation.backlash.half;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double side = static_cast<double>(start.state.side[i]);
         double d = mesh_motion(train, i, start.state.x);
@@ -301,7 +307,8 @@ void trim(const Model& model, const double* drags, State& state) {
     for (std::int64_t c = 0; c < train.machines; ++c)
         for (std::int64_t a = 0; a < train.axes; ++a)
             for (std::int64_t b = 0; b < train.axes; ++b)
-                effect[a][b] += train.ratio[a][train.coupling[c][0]] * model.load.trim_gain[c][b];
+                effect[a][b] += train.body.ratio[a][train.coupling.ends[c][0]] *
+                                model.operation.trim_gain[c][b];
     if (train.axes == 1 || effect[0][0] == 0.0 || effect[1][1] == 0.0) {
         for (std::int64_t a = 0; a < train.axes; ++a)
             if (effect[a][a] != 0.0) state.trim[a] += drags[a] / effect[a][a];
@@ -331,8 +338,9 @@ InitialState initial_state(const Model& model, const double* speed, double force
         state.side[i] = only == OPEN || only == side ? side : OPEN;
     }
     auto steady = std::make_unique<Model>(model);
-    steady->load.ripple = 0.0;
-    std::fill(std::begin(steady->load.proportional), std::end(steady->load.proportional), 0.0);
+    steady->operation.ripple = 0.0;
+    std::fill(std::begin(steady->operation.proportional), std::end(steady->operation.proportional),
+              0.0);
     auto start = std::unique_ptr<Start>(new Start{*steady, force, state, {}, {}});
     double drags[AXES];
     mean_drag(*start, drags);

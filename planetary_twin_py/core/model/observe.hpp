@@ -3,61 +3,53 @@
 // Quantities of the meshes at one instant that are published and recorded.
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
-#include "lubrication/tooth_friction.hpp"
-#include "mesh/mesh_forces.hpp"
+#include "model/equations.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
 
-// Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
+// Fill out[:, i] for every mesh i from its transmission error `d`, its forces and its friction.
 //
-// Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work` is
-// work space; out (QUANTITIES, meshes) has rows of `room` entries. Without `films`, their
-// quantities are zero.
-inline void observe(const Model& model, const State& state, const StepConstants& step,
-                    const double* x, const double* v, double delay, Evaluation& work, double* out,
-                    std::int64_t room, bool films = true) {
-    const Train& train = model.train;
+// Film and lambda ratio are means over the tooth pairs, weighted by load; NaN without contact.
+// Friction forces are magnitudes.
+template <int L>
+ALWAYS_INLINE void show(const Model& model, const StepConstants& step, const double* d,
+                        const MeshesNow& now, const MeshFriction& friction, double (*out)[MESHES]) {
+    using V = Row<L>;
     const Oil& oil = model.oil;
-    const MeshesNow& now = work.now;
-    ToothPairs& pairs = work.pairs;
-    auto at = [=](int row, std::int64_t i) -> double& { return out[row * room + i]; };
-    for (int row = 0; row < QUANTITIES; ++row)
-        for (std::int64_t i = 0; i < train.meshes; ++i) at(row, i) = 0.0;
-    move_meshes(train, x, v, work.now);
-    mesh_forces(model, state, step, x, v, delay, work);
-    share_loads(model, step, work);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double force = at_least(now.normal_force[i], 0.0);
-        at(DTE, i) = mesh_motion(train, i, x);
-        at(MESH_FORCE, i) = static_cast<double>(state.side[i]) * force;
-        at(MESH_POWER, i) = force * train.base_pitch * std::abs(now.cycle_rate);
-        if (state.side[i] == OPEN)
-            at(FILM, i) = at(LAMBDA, i) = std::numeric_limits<double>::quiet_NaN();
-    }
-    turn_pairs(train, step, v, pairs);
-    evaluate(model, pairs);
-    for (std::int64_t p = 0; p < train.slots; ++p) {
-        for (std::int64_t i = 0; i < train.meshes; ++i) {
-            std::int64_t k = p * train.meshes + i;
-            if (films) {
-                at(FILM, i) += pairs.share[k] * at_least(exp(pairs.log_film[k]), THINNEST_FILM);
-                at(LAMBDA, i) += pairs.share[k] * lambda_ratio_of(oil, pairs.log_film[k]);
-            }
-            if (!train.friction) continue;
-            at(BOUNDARY, i) += pairs.boundary[k];
-            at(VISCOUS, i) += pairs.viscous[k];
-            at(POWER_LOSS, i) += dissipated(pairs, k) + pairs.rolling_power[k];
-        }
-    }
+    V side(step.side), force = larger(V(now.normal_force), V(0.0)), share(0.0);
+    const Mask<L> open = side == 0.0;
+    for (std::int64_t p = 0; p < model.train.teeth.slots; ++p) share += V(now.share[p]);
+    V film(friction.film), lambda = film * exp(-oil.log_roughness);
+    if (oil.prescribed) lambda = share * oil.lambda_ratio;
+    constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+    copy<L>(d, out[DTE]);
+    (side * force).store(out[MESH_FORCE]);
+    (force * (model.train.geometry.base_pitch * std::fabs(now.cycle_rate))).store(out[MESH_POWER]);
+    select(open, NONE, film).store(out[FILM]);
+    select(open, NONE, lambda).store(out[LAMBDA]);
+    const double friction_acts = model.train.friction ? 1.0 : 0.0;
+    (friction_acts * V(friction.boundary)).store(out[BOUNDARY]);
+    (friction_acts * V(friction.viscous)).store(out[VISCOUS]);
+    (friction_acts * V(friction.lost)).store(out[POWER_LOSS]);
 }
 
+// The same of a motion, without films if they are not wanted. `work` is work space.
 inline void observe(const Model& model, const State& state, const StepConstants& step,
                     const double* x, const double* v, double delay, Evaluation& work,
                     double (*out)[MESHES], bool films = true) {
-    observe(model, state, step, x, v, delay, work, &out[0][0], MESHES, films);
+    alignas(64) double d[MESHES] = {};
+    move_meshes(model.train, x, v, work.now);
+    std::memcpy(d, work.now.d, sizeof d);
+    mesh_forces(model, state, step, x, v, delay, work);
+    find_friction_of_pairs(model, step, v, work);
+    collect_parts(model.train, work.pairs, films, work.friction);
+    with_mesh_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
+        show<L>(model, step, d, work.now, work.friction, out);
+    });
 }
 
 }  // namespace gearbox

@@ -31,7 +31,7 @@ inline double frame_angle(const Train& train, const State& state, double delay) 
     for (int a = 0; a < AXES; ++a) {
         const std::int64_t period = axes.turn_denominator[a];
         auto whole = static_cast<std::int64_t>(state.turns[a]) % period;
-        const double ratio = train.ratio[a][axes.frame];
+        const double ratio = train.body.ratio[a][axes.frame];
         turns += static_cast<double>(whole * axes.turn_numerator[a] % period) /
                  static_cast<double>(period);
         turns += ratio * state.fraction[a];
@@ -43,7 +43,7 @@ inline double frame_angle(const Train& train, const State& state, double delay) 
 // Gravity [m/s^2] relative to the carrier, from the angle of the frame [rad] and x.
 inline InPlane gravity_at(const Train& train, double angle, const double* x) {
     const MovingAxes& axes = train.moving;
-    angle += x[train.carrier] * train.inverse_radius[train.carrier];
+    angle += x[train.carrier] * train.body.inverse_radius[train.carrier];
     auto [sine, cosine] = sin_cos(axes.downwards - angle);
     return {axes.gravity * cosine, axes.gravity * sine};
 }
@@ -63,7 +63,7 @@ inline InPlane weight_of(const Train& train, std::int64_t b, const InPlane& grav
 inline void add_weight(const Train& train, double turning, const InPlane& gravity, const double* x,
                        const double* v, double* force, double& power) {
     const MovingAxes& axes = train.moving;
-    const double rate = turning + v[train.carrier] * train.inverse_radius[train.carrier];
+    const double rate = turning + v[train.carrier] * train.body.inverse_radius[train.carrier];
     for (std::int64_t b = 0; b < axes.bearings; ++b) {
         const std::int64_t along = axes.place[b][0], across = axes.place[b][1];
         const InPlane weight = weight_of(train, b, gravity);

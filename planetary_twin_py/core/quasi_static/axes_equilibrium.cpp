@@ -53,7 +53,7 @@ void place_pairs(const Model& model, Equilibrium& run) {
         if (side == OPEN) continue;
         const double direction = std::copysign(1.0, static_cast<double>(side) * rate);
         state.segment[i] =
-            find_segment(train, train.kind[i], mesh_cycle(train, state, i, side), direction);
+            find_segment(train, train.mesh.kind[i], mesh_cycle(train, state, i, side), direction);
     }
     set_step_constants(model, state, run.step);
 }
@@ -82,7 +82,8 @@ bool touch_flanks(const Model& model, Equilibrium& run) {
         const std::int64_t only = only_side(train, i);
         const auto side = static_cast<double>(only);
         const double error = form_error(train, i, side, run.step.line_angle, 0.0, 0.0).length;
-        const bool touches = side * (mesh_motion(train, i, state.x) - error) > model.load.offset;
+        const bool touches =
+            side * (mesh_motion(train, i, state.x) - error) > model.operation.backlash.offset;
         changes |= touches != (state.side[i] != OPEN);
         state.side[i] = touches ? only : OPEN;
     }
@@ -121,20 +122,20 @@ void find_forces(const Model& model, Equilibrium& run, double* force) {
     balance_torques(model, run);
     std::copy_n(run.external, BODIES, force);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const double normal_force =
-            train.copies[i] * static_cast<double>(state.side[i]) * evaluation.now.normal_force[i];
+        const double normal_force = train.mesh.copies[i] * static_cast<double>(state.side[i]) *
+                                    evaluation.now.normal_force[i];
         for (int j = 0; j < entries_of(train); ++j)
-            force[train.body[i][j]] -= normal_force * train.sign[i][j];
+            force[train.mesh.body[i][j]] -= normal_force * train.mesh.sign[i][j];
     }
     if (tilts(train)) add_slope_moments(train, evaluation.now, force);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        const std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        const std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
         const double coupling_force =
-            train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+            train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
         force[machine] -= coupling_force;
         force[member] += coupling_force;
     }
-    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
+    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling.ends[2 * a][0]] = 0.0;
     force[train.bodies] = 0.0;  // the ground
 }
 
@@ -166,23 +167,24 @@ BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
 void assemble(const Train& train, const Equilibrium& run, SquareMatrix& stiffness) {
     std::memset(stiffness, 0, sizeof stiffness);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k = train.copies[i] * run.evaluation.now.stiffness[i];
+        double k = train.mesh.copies[i] * run.evaluation.now.stiffness[i];
         if (run.state.side[i] == OPEN) {
             if (run.state.side[other_flank(train, i)] != OPEN) continue;
-            k = IDLE_MESH * train.copies[i] * train.stiffness[train.kind[i]];
+            k = IDLE_MESH * train.mesh.copies[i] * train.teeth.stiffness[train.mesh.kind[i]];
         }
-        add_outer(stiffness, train.body[i], train.sign[i], entries_of(train), k);
+        add_outer(stiffness, train.mesh.body[i], train.mesh.sign[i], entries_of(train), k);
         add_slope_stiffness(train, i, k, stiffness);
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
-        add_outer(stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
+        add_outer(stiffness, train.coupling.ends[c], ENDS, 2, train.coupling.stiffness[c]);
     for (std::int64_t b = 0; b < train.moving.bearings; ++b)
         for (const BearingRow& row : tangent_rows(train, b, run.state.x))
             add_outer(stiffness, row.place, row.factor, row.size, row.stiffness);
-    const double regularisation = REGULARISATION * std::max(train.stiffness[0], train.stiffness[1]);
+    const double regularisation =
+        REGULARISATION * std::max(train.teeth.stiffness[0], train.teeth.stiffness[1]);
     for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        const std::int64_t motor = train.coupling[2 * a][0];
+        const std::int64_t motor = train.coupling.ends[2 * a][0];
         for (int j = 0; j < BODIES; ++j) stiffness[motor][j] = stiffness[j][motor] = 0.0;
         stiffness[motor][motor] = 1.0;
     }
@@ -192,8 +194,8 @@ void assemble(const Train& train, const Equilibrium& run, SquareMatrix& stiffnes
 double mean_force(const Train& train, const double (*shown)[MESHES]) {
     double total = 0.0, copies = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        total += train.copies[i] * std::fabs(shown[MESH_FORCE][i]);
-        copies += train.copies[i];
+        total += train.mesh.copies[i] * std::fabs(shown[MESH_FORCE][i]);
+        copies += train.mesh.copies[i];
     }
     return FLANKS * total / copies;
 }
@@ -202,7 +204,7 @@ double mean_force(const Train& train, const double (*shown)[MESHES]) {
 double largest(const Train& train, const double* force) {
     double found = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        found = std::max(found, std::fabs(force[j]) / train.body_copies[j]);
+        found = std::max(found, std::fabs(force[j]) / train.body.copies[j]);
     return found;
 }
 

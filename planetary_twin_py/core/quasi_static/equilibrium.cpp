@@ -49,7 +49,7 @@ bool friction_converged(const Model& model, Equilibrium& run, double slack) {
     bool still = true;
     for (std::int64_t j = 0; j < model.train.bodies; ++j) {
         double change = std::abs(evaluation.friction_force[j] - run.before[j]);
-        still = still && change <= slack * model.train.body_copies[j];
+        still = still && change <= slack * model.train.body.copies[j];
     }
     return still;
 }
@@ -67,13 +67,13 @@ void center_idle_planets(const Train& train, Equilibrium& run) {
 
 // A force that jumps where flanks come into contact cannot be below its jump at rest.
 void check_jump(const Model& model, const Equilibrium& run) {
-    const Load& load = model.load;
-    if (load.half_backlash == load.offset) return;
+    const Operation& operation = model.operation;
+    if (operation.backlash.half == operation.backlash.offset) return;
     for (std::int64_t i = 0; i < model.train.meshes; ++i) {
         double side = static_cast<double>(run.state.side[i]);
         double d = mesh_motion(model.train, i, run.state.x) - run.error[i];
         double radial = radial_error(model.train, i, run.step.line_angle, 0.0, 0.0).length;
-        if (side != 0.0 && side * d - radial < load.half_backlash)
+        if (side != 0.0 && side * d - radial < operation.backlash.half)
             throw std::invalid_argument(
                 "mesh.backlash = 'regulatory_factor': without dynamics every mesh must carry "
                 "more than its stiffness times the backlash");

@@ -30,18 +30,20 @@ void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double ra
     if (state.side[i] != OPEN) run.closing_side[i] = state.side[i];
     std::int64_t side = state.side[i] = run.closing_side[i];
     double cycle = mesh_cycle(train, state, i, side);
-    state.segment[i] = find_segment(train, train.kind[i], cycle, std::copysign(1.0, side * rate));
+    state.segment[i] =
+        find_segment(train, train.mesh.kind[i], cycle, std::copysign(1.0, side * rate));
 }
 
 // The loaded pairs of mesh i as one spring, pair by pair, since each may have faults.
 Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i, double healthy) {
     const Train& train = model.train;
     const StepConstants& step = run.step;
-    std::int64_t segment = run.state.segment[i], kind = train.kind[i], side = run.state.side[i];
-    double u = step.start[i] - train.edge[kind][segment];
+    std::int64_t segment = run.state.segment[i], kind = train.mesh.kind[i],
+                 side = run.state.side[i];
+    double u = step.start[i] - train.teeth.edge[kind][segment];
     double deflection = side * (mesh_motion(train, i, run.state.x) - run.error[i]);
     deflection -= run.clearance[i][side == DRIVE_SIDE ? DRIVE_CLEARANCE : COAST_CLEARANCE];
-    std::int64_t count = train.present[kind][segment];
+    std::int64_t count = train.teeth.present[kind][segment];
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t p = 0; p < count; ++p)
         least = std::min(least, fault_effect(train, step, i, segment, p, u).gap);
@@ -50,7 +52,8 @@ Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i,
     for (std::int64_t p = 0; p < count; ++p) {
         auto effect = fault_effect(train, step, i, segment, p, u);
         if (effect.gap > std::max(deflection, least)) continue;
-        double weight = polynomial(train.weight[kind][segment][p], u, train.terms).value;
+        double weight =
+            polynomial(train.teeth.weight[kind][segment][p], u, train.teeth.terms).value;
         double k = std::max(healthy * effect.factor * weight / total, LEAST_STIFFNESS * healthy);
         stiffness += k;
         first += k * effect.gap;
@@ -68,15 +71,15 @@ void place_springs(const Model& model, Equilibrium& run) {
     set_step_constants(model, run.state, run.step);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         run.error[i] = form_error(train, i, 0.0, step.line_angle, 0.0, 0.0).length;
-        double clearance =
-            model.load.offset + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
+        double clearance = model.operation.backlash.offset +
+                           radial_error(train, i, step.line_angle, 0.0, 0.0).length;
         int carrying = run.state.side[i] == DRIVE_SIDE ? DRIVE_CLEARANCE : COAST_CLEARANCE;
         // Negative only with a regulatory factor, whose forces grow from zero deflection; the gap
         // of a flank without load is positive.
         run.clearance[i][DRIVE_CLEARANCE] = run.clearance[i][COAST_CLEARANCE] = std::abs(clearance);
         run.clearance[i][carrying] = clearance;
         Spring spring{mesh_stiffness(train, i, run.state.segment[i], step.start[i]), 0.0};
-        if (train.faults > 0) spring = faulty_spring(model, run, i, spring.stiffness);
+        if (train.faults.count > 0) spring = faulty_spring(model, run, i, spring.stiffness);
         run.stiffness[i] = spring.stiffness;
         run.clearance[i][carrying] += spring.gap;
     }

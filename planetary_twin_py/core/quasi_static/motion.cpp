@@ -7,11 +7,11 @@
 namespace gearbox {
 
 void advance_shafts(const Model& model, const State& origin, double after, State& state) {
-    const Load& load = model.load;
+    const Operation& operation = model.operation;
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
-        double begin = origin.set_speed[a], target = load.target_speed[a];
-        double slew = std::copysign(load.slew_rate, target - begin);
-        double ramp = std::min(after, std::abs(target - begin) / load.slew_rate);
+        double begin = origin.set_speed[a], target = operation.target_speed[a];
+        double slew = std::copysign(operation.slew_rate, target - begin);
+        double ramp = std::min(after, std::abs(target - begin) / operation.slew_rate);
         double speed = ramp == after ? begin + slew * ramp : target;
         double angle = (begin + 0.5 * slew * ramp) * ramp + target * (after - ramp);
         double fraction = origin.fraction[a] + angle / (2.0 * std::numbers::pi);

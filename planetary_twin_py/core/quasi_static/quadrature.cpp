@@ -71,17 +71,17 @@ double to_next_edge(std::span<const double> edges, double cycle, double sense) {
 // Time [s] from `state` to the end of its panel.
 double panel_length(const Model& model, const State& state, std::span<const double> edges) {
     const Train& train = model.train;
-    const Load& load = model.load;
+    const Operation& operation = model.operation;
     double step = LONGEST_PANEL, acceleration = 0.0;
     for (std::int64_t a = 0; a < train.axes; ++a) {
-        double gap = load.target_speed[a] - state.set_speed[a];
+        double gap = operation.target_speed[a] - state.set_speed[a];
         if (gap == 0.0) continue;
-        step = std::min(step, std::abs(gap) / load.slew_rate);
-        acceleration += train.cycles[a] * std::copysign(load.slew_rate, gap) / TURN;
+        step = std::min(step, std::abs(gap) / operation.slew_rate);
+        acceleration += train.cycle.per_turn[a] * std::copysign(operation.slew_rate, gap) / TURN;
     }
-    if (load.ripple > 0.0) {
-        double turn = std::abs(state.speed[0]) + load.slew_rate * step;
-        step = std::min(step, TURN / (PER_RIPPLE * load.ripple_order * turn));
+    if (operation.ripple > 0.0) {
+        double turn = std::abs(state.speed[0]) + operation.slew_rate * step;
+        step = std::min(step, TURN / (PER_RIPPLE * operation.ripple_order * turn));
     }
     double rate = frame_cycle_rate(train, state), sense = rate != 0.0 ? rate : acceleration;
     if (sense == 0.0) return step;
@@ -98,7 +98,7 @@ double panel_length(const Model& model, const State& state, std::span<const doub
 bool is_steady(const Model& model, const State& state) {
     bool steady = true;
     for (std::int64_t a = 0; a < model.train.axes; ++a)
-        steady = steady && state.set_speed[a] == model.load.target_speed[a];
+        steady = steady && state.set_speed[a] == model.operation.target_speed[a];
     return steady;
 }
 

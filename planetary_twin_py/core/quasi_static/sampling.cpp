@@ -24,7 +24,7 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double angle = 0.0;
         for (std::int64_t a = 0; a < train.axes; ++a)
-            angle += train.ratio[a][j] * 2.0 * std::numbers::pi * state.fraction[a];
+            angle += train.body.ratio[a][j] * 2.0 * std::numbers::pi * state.fraction[a];
         out.speed[row * out.bodies + j] = body_speed(train, state, state.v, j);
         out.angle[row * out.bodies + j] = angle;
     }

@@ -21,10 +21,10 @@ constexpr double RIGID = 1e9;  // factor on the stiffness for a rigid coupling
 double steepest_torque(const Model& model, double tolerance, std::int64_t closing_side,
                        const State& origin, const double* speed) {
     auto rigid = std::make_unique<Model>(model);
-    rigid->train.coupling_stiffness[SECOND_MOTOR] *= RIGID;
+    rigid->train.coupling.stiffness[SECOND_MOTOR] *= RIGID;
     State begin = origin;
     for (int a = 0; a < AXES; ++a)
-        rigid->load.target_speed[a] = begin.set_speed[a] = begin.speed[a] = speed[a];
+        rigid->operation.target_speed[a] = begin.set_speed[a] = begin.speed[a] = speed[a];
     double rate = std::abs(frame_cycle_rate(rigid->train, begin));
     if (rate == 0.0) return 0.0;
     auto run = std::make_unique<Equilibrium>(first_guess(closing_side));

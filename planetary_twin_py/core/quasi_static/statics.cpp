@@ -17,8 +17,9 @@ namespace {
 void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
     Springs& springs = run.springs;
     std::int64_t s = p, r = train.meshes / 2 + p;
-    springs.copies[p] = train.copies[p];
-    double friction = springs.friction[p] = run.external[train.body[p][1]] / train.copies[p];
+    springs.copies[p] = train.mesh.copies[p];
+    double friction = springs.friction[p] =
+        run.external[train.mesh.body[p][1]] / train.mesh.copies[p];
     springs.compliance[p] = 1.0 / run.stiffness[s] + 1.0 / run.stiffness[r];
     springs.error[p] = run.error[s] + run.error[r] + friction / run.stiffness[s];
     double* steps = springs.steps[p];
@@ -41,21 +42,21 @@ void choose_sides(const Train& train, Equilibrium& run) {
 
 // Factor of the carrier's x in w, the sum of the transmission errors of a planet's two meshes.
 double carrier_factor(const Train& train) {
-    return train.sign[0][2] + train.sign[train.meshes / 2][2];
+    return train.mesh.sign[0][2] + train.mesh.sign[train.meshes / 2][2];
 }
 
 // Displace couplings and members by their loads; w [m] is the lag of the ring behind the sun.
 void displace_by_windup(const Train& train, Equilibrium& run, double w) {
     double* x = run.state.x;
-    std::int64_t planets = train.meshes / 2, loaded = train.coupling[LOAD_MACHINE][1];
+    std::int64_t planets = train.meshes / 2, loaded = train.coupling.ends[LOAD_MACHINE][1];
     x[loaded] = 0.0;
     for (std::int64_t c = 0; c < train.machines; c += 2) {  // the motors are fixed to their frame
-        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
-        x[member] = -run.external[machine] / train.coupling_stiffness[c];
+        std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
+        x[member] = -run.external[machine] / train.coupling.stiffness[c];
     }
     x[train.bodies] = 0.0;
     double wound =
-        x[train.sun] + x[train.body[planets][1]] + carrier_factor(train) * x[train.carrier];
+        x[train.sun] + x[train.mesh.body[planets][1]] + carrier_factor(train) * x[train.carrier];
     x[loaded] = (w - wound) / (loaded == train.carrier ? carrier_factor(train) : 1.0);
 }
 
@@ -82,20 +83,20 @@ void put_external(const Model& model, Equilibrium& run) {
     std::copy_n(run.evaluation.friction_force, train.bodies, run.external);
     balance_torques(model, run);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
         run.external[member] += run.external[machine];
     }
 }
 
 double solve_load_sharing(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
-    std::int64_t planets = train.meshes / 2, ring = train.body[planets][1];
+    std::int64_t planets = train.meshes / 2, ring = train.mesh.body[planets][1];
     bool sun_turns = train.sun != train.bodies;
     double total = run.external[sun_turns ? train.sun : ring], copies = 0.0;
     for (std::int64_t p = 0; p < planets; ++p) {
         place_spring(train, run, p);
-        copies += train.copies[p];
-        if (sun_turns) total -= train.copies[p] * run.springs.friction[p];
+        copies += train.mesh.copies[p];
+        if (sun_turns) total -= train.mesh.copies[p] * run.springs.friction[p];
     }
     double w = solve_windup(total, planets, run.springs);
     for (std::int64_t p = 0; p < planets; ++p) {
@@ -111,7 +112,7 @@ void place_planets(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     double* x = run.state.x;
     std::int64_t planets = train.meshes / 2;
-    double sun = x[train.sun], ring = x[train.body[planets][1]], carrier = x[train.carrier];
+    double sun = x[train.sun], ring = x[train.mesh.body[planets][1]], carrier = x[train.carrier];
     for (std::int64_t p = 0; p < planets; ++p) {
         double d, w = sun + ring + carrier_factor(train) * carrier;
         if (run.force[p] != 0.0)
@@ -120,7 +121,7 @@ void place_planets(const Model& model, Equilibrium& run) {
             d = w - stretch(run, planets + p);
         else
             d = idle_deflection(run, p, w);
-        x[train.body[p][1]] = d - sun + carrier;
+        x[train.mesh.body[p][1]] = d - sun + carrier;
     }
 }
 

@@ -19,7 +19,7 @@ double mean_speed(const Train& train, const WindowEnd& begin, const WindowEnd& e
                   double duration) {
     double turned = 0.0;
     for (int a = 0; a < AXES; ++a)
-        turned += FULL_TURN * (end.turns[a] - begin.turns[a]) * train.ratio[a][j];
+        turned += FULL_TURN * (end.turns[a] - begin.turns[a]) * train.body.ratio[a][j];
     return (turned + end.angle[j] - begin.angle[j]) / duration;
 }
 
@@ -33,7 +33,7 @@ void put_bodies(const Train& train, const Report& report, const WindowEnd& begin
         out.mean_speed[n] = turns ? mean_speed(train, begin, end, j, duration) : 0.0;
     }
     for (std::int64_t m = 0; m < train.machines; ++m)
-        out.machine_speed[m] = mean_speed(train, begin, end, train.coupling[m][0], duration);
+        out.machine_speed[m] = mean_speed(train, begin, end, train.coupling.ends[m][0], duration);
 }
 
 void put_powers(const Train& train, const WindowEnd& begin, const WindowEnd& end, double duration,

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "capacities.hpp"
-#include "model/load.hpp"
+#include "model/operation.hpp"
 #include "model/train.hpp"
 
 namespace gearbox {
@@ -28,11 +28,11 @@ struct Limits {
 };
 
 // Whether a value exceeds its limit or is NaN. `power` is that of the ledger.
-inline bool exceeds(const Limits& limits, const Train& train, const Load& load, const Peaks& peaks,
-                    const double* power) {
+inline bool exceeds(const Limits& limits, const Train& train, const Operation& operation,
+                    const Peaks& peaks, const double* power) {
     bool within = true;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double least = peaks.dte[i] - load.half_backlash - limits.error[i];
+        double least = peaks.dte[i] - operation.backlash.half - limits.error[i];
         within &= least <= limits.deflection[i];
     }
     for (std::int64_t j = 0; j < train.bodies; ++j) within &= peaks.speed[j] <= limits.speed[j];

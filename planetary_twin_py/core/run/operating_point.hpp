@@ -1,7 +1,7 @@
 #pragma once
 
-// Values in the records of a run that depend on the operating point: the loads, the prescribed
-// lambda ratio, and the deflection to which tolerances are relative.
+// Values in the records of a run that depend on the operating point: its `Operation`, the
+// prescribed lambda ratio, and the deflection to which tolerances are relative.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "lubrication/boundary.hpp"
 #include "lubrication/oil.hpp"
-#include "model/load.hpp"
+#include "model/operation.hpp"
 
 namespace gearbox {
 
@@ -41,7 +41,7 @@ inline constexpr PointField POINT_FIELDS[] = {
 
 // Dependence of the values on the operating point in a scene.
 struct alignas(64) PointLaws {
-    Load constant;                 // constant part of the loads
+    Operation constant;            // what does not depend on it
     double half_backlash_factor;   // half the backlash along the line of action per backlash, or
                                    // the whole if the force grows from zero [-]
     bool from_zero;                // whether the force grows from a DTE of zero
@@ -72,38 +72,38 @@ inline double half_backlash(const PointLaws& laws, const OperatingPoint& point) 
     return point.backlash * laws.half_backlash_factor;
 }
 
-// Loads at an operating point; given torques and speeds are those of steady running there.
-inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
-    Load load = laws.constant;
-    load.half_backlash = half_backlash(laws, point);
-    load.offset = laws.from_zero ? 0.0 : load.half_backlash;
-    const double inner = load.half_backlash - load.offset;
-    load.inner_squared = inner * inner;
-    load.target_speed[0] = point.input_speed;
-    load.target_speed[1] = point.second_input_speed;
-    load.ripple = point.torque_ripple;
+// What follows from an operating point; given torques and speeds are those of steady running there.
+inline Operation operation_at(const PointLaws& laws, const OperatingPoint& point) {
+    Operation operation = laws.constant;
+    operation.backlash.half = half_backlash(laws, point);
+    operation.backlash.offset = laws.from_zero ? 0.0 : operation.backlash.half;
+    const double inner = operation.backlash.half - operation.backlash.offset;
+    operation.backlash.inner_squared = inner * inner;
+    operation.target_speed[0] = point.input_speed;
+    operation.target_speed[1] = point.second_input_speed;
+    operation.ripple = point.torque_ripple;
     for (int m = 0; m < MACHINES; ++m) {
-        load.torque[m] = point.input_torque * laws.torque[m];
-        load.speed[m] = laws.ratio[m][0] * start_speed(laws, point) +
-                        laws.ratio[m][1] * point.second_input_speed;
+        operation.torque[m] = point.input_torque * laws.torque[m];
+        operation.speed[m] = laws.ratio[m][0] * start_speed(laws, point) +
+                             laws.ratio[m][1] * point.second_input_speed;
     }
-    return load;
+    return operation;
 }
 
-// Keep given torques and motions during a change of other loads.
-inline void keep_given(const Load& before, Load& load) {
+// Keep given torques and motions during a change of the operating point.
+inline void keep_given(const Operation& before, Operation& operation) {
     for (int m = 0; m < MACHINES; ++m) {
         if (before.port[m] == BY_TORQUE) {
-            load.torque[m] = before.torque[m];
-            load.torque_rate[m] = before.torque_rate[m];
+            operation.torque[m] = before.torque[m];
+            operation.torque_rate[m] = before.torque_rate[m];
         }
-        load.speed[m] = before.speed[m];
-        load.acceleration[m] = before.acceleration[m];
-        load.reaches_position[m] = before.reaches_position[m];
-        load.speed_after[m] = before.speed_after[m];
+        operation.speed[m] = before.speed[m];
+        operation.acceleration[m] = before.acceleration[m];
+        operation.reaches_position[m] = before.reaches_position[m];
+        operation.speed_after[m] = before.speed_after[m];
     }
-    load.since_seconds = before.since_seconds;
-    load.since = before.since;
+    operation.since_seconds = before.since_seconds;
+    operation.since = before.since;
 }
 
 // Set the prescribed lambda ratio of the oil.

@@ -6,7 +6,7 @@
 #include "integrators/frame.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/interpolant.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/deflection.hpp"
 #include "model/equations.hpp"
@@ -29,17 +29,19 @@ struct Action {
 };
 
 // Input of a port, `passed` seconds after the instant of the load.
-Action acting(const Load& load, int port, double passed) {
-    if (load.port[port] == BY_MOTION)
-        return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port],
-                load.reaches_position[port] != 0, load.speed_after[port]};
-    return {load.torque[port] + load.torque_rate[port] * passed, load.torque_rate[port]};
+Action acting(const Operation& operation, int port, double passed) {
+    if (operation.port[port] == BY_MOTION)
+        return {operation.speed[port] + operation.acceleration[port] * passed,
+                operation.acceleration[port], operation.reaches_position[port] != 0,
+                operation.speed_after[port]};
+    return {operation.torque[port] + operation.torque_rate[port] * passed,
+            operation.torque_rate[port]};
 }
 
 // Input of a port under a command.
-Action commanded(const Load& load, int port, const Action& before, const Command& command,
+Action commanded(const Operation& operation, int port, const Action& before, const Command& command,
                  double reaching) {
-    const bool moved = load.port[port] == BY_MOTION;
+    const bool moved = operation.port[port] == BY_MOTION;
     const double value = moved ? command.speed[port] : command.torque[port];
     const double approach = moved ? command.approach[port] : NOT_A_NUMBER;
     if (!std::isnan(approach)) return {approach, 0.0, true, std::isnan(value) ? 0.0 : value};
@@ -51,9 +53,10 @@ Action commanded(const Load& load, int port, const Action& before, const Command
 
 // Set the speed of the end of a shaft, without any other change.
 void set_speed(const Train& train, State& state, int machine, double speed) {
-    std::int64_t body = train.coupling[machine][0];
-    double rigid = train.ratio[0][body] * state.speed[0] + train.ratio[1][body] * state.speed[1];
-    state.v[body] = (speed - rigid) * train.radius[body];
+    std::int64_t body = train.coupling.ends[machine][0];
+    double rigid =
+        train.body.ratio[0][body] * state.speed[0] + train.body.ratio[1][body] * state.speed[1];
+    state.v[body] = (speed - rigid) * train.body.radius[body];
 }
 
 // Inputs of both ports from an instant on.
@@ -62,56 +65,59 @@ struct Actions {
     bool change;
 };
 
-Actions actions_of(const Load& load, const Instant& now, const Command& command, double reaching) {
-    double passed = static_cast<double>(now.seconds - load.since_seconds) + (now.time - load.since);
+Actions actions_of(const Operation& operation, const Instant& now, const Command& command,
+                   double reaching) {
+    double passed =
+        static_cast<double>(now.seconds - operation.since_seconds) + (now.time - operation.since);
     Actions actions{};
     for (int port = 0; port < PORTS; ++port) {
-        if (load.port[port] == BY_MACHINE) continue;
-        Action before = acting(load, port, passed);
-        actions.at[port] = commanded(load, port, before, command, reaching);
+        if (operation.port[port] == BY_MACHINE) continue;
+        Action before = acting(operation, port, passed);
+        actions.at[port] = commanded(operation, port, before, command, reaching);
         actions.change |= !(before == actions.at[port]);
     }
     return actions;
 }
 
 void act_at(Model& model, State& state, int port, const Action& action) {
-    Load& load = model.load;
-    if (load.port[port] != BY_MOTION) {
-        load.torque[port] = action.value;
-        load.torque_rate[port] = action.rate;
+    Operation& operation = model.operation;
+    if (operation.port[port] != BY_MOTION) {
+        operation.torque[port] = action.value;
+        operation.torque_rate[port] = action.rate;
         return;
     }
-    load.speed[port] = action.value;
-    load.acceleration[port] = action.rate;
-    load.reaches_position[port] = action.reaches_position;
-    load.speed_after[port] = action.speed_after;
+    operation.speed[port] = action.value;
+    operation.acceleration[port] = action.rate;
+    operation.reaches_position[port] = action.reaches_position;
+    operation.speed_after[port] = action.speed_after;
     set_speed(model.train, state, port, action.value);
 }
 
 // Start new inputs at an instant within the last step. The sums of the meshes restart there.
 void act(Model& model, Integrator& integrator, const Instant& now, const Actions& actions) {
-    Load& load = model.load;
+    Operation& operation = model.operation;
     interrupt(model, integrator, now);
-    load.since_seconds = now.seconds;
-    load.since = now.time;
+    operation.since_seconds = now.seconds;
+    operation.since = now.time;
     for (int port = 0; port < PORTS; ++port)
-        if (load.port[port] != BY_MACHINE) act_at(model, integrator.end, port, actions.at[port]);
+        if (operation.port[port] != BY_MACHINE)
+            act_at(model, integrator.end, port, actions.at[port]);
     integrator.sums.taken = integrator.control.step;
 }
 
 // Whether a torque or motion is given: then cycles do not repeat, and steps without a window need
 // no sums.
-bool is_driven(const Load& load) {
-    return load.port[MOTOR] != BY_MACHINE || load.port[LOAD_MACHINE] != BY_MACHINE;
+bool is_driven(const Operation& operation) {
+    return operation.port[MOTOR] != BY_MACHINE || operation.port[LOAD_MACHINE] != BY_MACHINE;
 }
 
 // Angle of a shaft since the start, `passed` seconds into the last step [rad].
 double angle_at(const Train& train, const Integrator& integrator, int port, double passed) {
     const State& begin = integrator.begin;
-    const std::int64_t body = train.coupling[port][0];
-    double angle = integrator.dense.x[body] / train.radius[body];
+    const std::int64_t body = train.coupling.ends[port][0];
+    double angle = integrator.dense.x[body] / train.body.radius[body];
     for (std::int64_t a = 0; a < train.axes; ++a)
-        angle += train.ratio[a][body] *
+        angle += train.body.ratio[a][body] *
                  (TURN * (begin.turns[a] + begin.fraction[a]) + begin.speed[a] * passed);
     return angle;
 }
@@ -127,13 +133,13 @@ void note_peaks(const Model& model, const Integrator& integrator, Peaks& peaks) 
 
 }  // namespace
 
-Answer check(const Load& load, const PortRanges& ranges, const Command& command) {
+Answer check(const Operation& operation, const PortRanges& ranges, const Command& command) {
     for (int port = 0; port < PORTS; ++port) {
         const double torque = command.torque[port], speed = command.speed[port];
         const double approach = command.approach[port];
         const bool moved = !std::isnan(speed) || !std::isnan(approach);
-        bool misplaced = (!std::isnan(torque) && load.port[port] != BY_TORQUE) ||
-                         (moved && load.port[port] != BY_MOTION);
+        bool misplaced = (!std::isnan(torque) && operation.port[port] != BY_TORQUE) ||
+                         (moved && operation.port[port] != BY_MOTION);
         if (misplaced) return Answer::NOT_GIVEN;
         if (std::fabs(torque) > ranges.torque[port] || std::fabs(speed) > ranges.speed[port] ||
             std::fabs(approach) > ranges.speed[port])
@@ -155,7 +161,7 @@ void approach(const Model& model, Integrator& integrator, const Instant& now, do
 
 void apply_command(Model& model, Integrator& integrator, const Instant& now, const Command& command,
                    double reaching) {
-    Actions actions = actions_of(model.load, now, command, reaching);
+    Actions actions = actions_of(model.operation, now, command, reaching);
     if (!actions.change) return;
     count_until(model, integrator, delay(integrator.begin, now));
     act(model, integrator, now, actions);
@@ -176,7 +182,7 @@ void read_ports(const Model& model, Integrator& integrator, const Instant& time,
     out.time = static_cast<double>(time.seconds) + time.time;
     for (int port = 0; port < PORTS; ++port) {
         out.angle[port] = angle_at(train, integrator, port, passed);
-        out.speed[port] = body_speed(train, begin, v, train.coupling[port][0]);
+        out.speed[port] = body_speed(train, begin, v, train.coupling.ends[port][0]);
         out.torque[port] = power[IMPULSE + port];
     }
 }
@@ -185,9 +191,9 @@ Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, c
                    WindowEnd& end, PortStates& out) {
     const Instant now = instant_of(step.begin), until = instant_of(step.end);
     const double duration = static_cast<double>(step.end - step.begin) / static_cast<double>(TICKS);
-    Actions actions = actions_of(model.load, now, step.command, step.linear ? duration : 0.0);
+    Actions actions = actions_of(model.operation, now, step.command, step.linear ? duration : 0.0);
     bool finite = true;
-    integrator.sums.not_requested = is_driven(model.load) && !step.sums;
+    integrator.sums.not_requested = is_driven(model.operation) && !step.sums;
     try {
         if (actions.change && step.sums)
             count_until(model, integrator, delay(integrator.begin, now));
@@ -202,7 +208,7 @@ Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, c
     note_peaks(model, integrator, end.peaks);
     std::fill(std::begin(end.power), std::end(end.power), 0.0);
     std::copy_n(out.torque, PORTS, end.power + IMPULSE);
-    bool exceeded = exceeds(limits, model.train, model.load, end.peaks, end.power);
+    bool exceeded = exceeds(limits, model.train, model.operation, end.peaks, end.power);
     return exceeded ? Outcome::EXCEEDED : Outcome::WITHIN_LIMITS;
 }
 

@@ -52,7 +52,7 @@ enum class Answer { ACCEPTED, OUT_OF_RANGE, NOT_GIVEN };
 
 // Check a command: whether its values are in their ranges, and of quantities that are given at the
 // ports.
-Answer check(const Load& load, const PortRanges& ranges, const Command& command);
+Answer check(const Operation& operation, const PortRanges& ranges, const Command& command);
 
 // Set the constant speeds at which the shafts reach positions [rad] `duration` seconds after `now`;
 // NaN: no position is given.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "integrators/integrator.hpp"
-#include "integrators/step_control.hpp"
+#include "integrators/methods.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/join_flanks.hpp"
 #include "model/energy.hpp"
@@ -123,7 +123,7 @@ bool fill_waveform(const WindowJob& job) {
     put_waveform(job.report, train, mesh.get(), job.out);
     if constexpr (MOVING) put_axes(job.report, train, waves, job.out.axes);
     std::copy_n(job.integrator.last.power, LEDGER, end.power);
-    return exceeds(job.limits, train, job.model.load, end.peaks, end.power);
+    return exceeds(job.limits, train, job.model.operation, end.peaks, end.power);
 }
 
 }  // namespace

@@ -124,6 +124,13 @@ ALWAYS_INLINE Mask<L> operator&(const Mask<L>& a, const Mask<L>& b) {
 }
 
 template <int L>
+ALWAYS_INLINE Mask<L> operator|(const Mask<L>& a, const Mask<L>& b) {
+    Mask<L> out;
+    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = a.part[k] | b.part[k];
+    return out;
+}
+
+template <int L>
 ALWAYS_INLINE Mask<L> operator!(const Mask<L>& a) {
     Mask<L> out;
     for (int k = 0; k < L / WIDTH; ++k) out.part[k] = ~a.part[k];

@@ -14,9 +14,9 @@ from ..._core import (
     MESH_FORCE,
     WAVEFORM,
     Control,
-    Load,
     Model,
     Oil,
+    Operation,
     Report,
     State,
     WindowEnd,
@@ -27,7 +27,7 @@ from ...model.library import library, record_in
 from ...model.mesh_sums import MeshSums, mesh_sums, record_of
 from ...model.oil import build_oil
 from ...model.planet_bearings import check_planet_bearings
-from ...model.start import build_load
+from ...model.start import build_operation
 from ...model.static_load import mesh_force
 from ...model.train import build_train
 from ...scene import OperatingPoint, Scene
@@ -86,12 +86,11 @@ class QuasiStaticEngine:
 
         If there is no equilibrium, nothing changes.
         """
-        load: Load = record_in(self._core, build_load(self.scene, point, self.train))
+        operation: Operation = record_in(self._core, build_operation(self.scene, point, self.train))
         oil: Oil = record_in(self._core, build_oil(self.scene, point))
-        model: Model = self._core.Model(train=self.train, oil=oil, load=load)
-        closing_side = (
-            DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
-        )
+        model: Model = self._core.Model(train=self.train, oil=oil, operation=operation)
+        force = mesh_force(self.scene, float(operation.torque[MOTOR]))
+        closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
         check_second_coupling(self._core, model, tolerance, closing_side, origin)
         ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy)
         self.model, self.tolerance, self._closing_side, self._ledger = (
@@ -120,7 +119,7 @@ class QuasiStaticEngine:
             self.model, self.tolerance, self._origin, self._run, at, samples
         )
         try:
-            self._limits.check_deflection(samples, self.model.load)
+            self._limits.check_deflection(samples, self.model.operation)
             self._limits.check_displacements(samples.moved, samples.tilting)
         except ArithmeticError as reason:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
@@ -152,7 +151,7 @@ class QuasiStaticEngine:
 
     def _put_axes(self, samples: Samples, place: np.ndarray, out: Waves) -> None:
         """Fill what a waveform has of axes that move."""
-        ratio = self.train.ratio[self.train.carrier]
+        ratio = self.train.body.ratio[self.train.carrier]
         angle = 2.0 * np.pi * samples.turns @ ratio
         if self.train.carrier < self.train.bodies:
             angle = angle + samples.angle[:, self.train.carrier]

@@ -134,9 +134,9 @@ class Ledger:
 
     def _panels(self, origin: State) -> np.ndarray:
         """Edges of panels [mesh cycles of the frame], fine enough for the target speed."""
-        for speed in (self._model.load.target_speed, origin.set_speed):
+        for speed in (self._model.operation.target_speed, origin.set_speed):
             model, state = self._model.copy(), origin.copy()
-            model.load.target_speed = speed
+            model.operation.target_speed = speed
             state.set_speed = state.speed = speed
             rate = self._core.frame_cycle_rate(model.train, state)
             if rate != 0.0:
@@ -164,25 +164,25 @@ class Ledger:
 
     def _corners(self, origin: State) -> np.ndarray:
         """Mesh cycles of the frame at which the ramp of a tooth pair begins or ends."""
-        train, load, run = (
+        train, operation, run = (
             self._model.train,
-            self._model.load,
+            self._model.operation,
             self._core.first_guess(self._closing_side),
         )
         self._core.advance_shafts(self._model, origin, 0.0, run.state)
         self._core.solve_equilibrium(self._model, self._tolerance, run)
         shift = self._core.cycle_shift(train, run.state.x)
-        reverses = load.ripple >= abs(load.torque[MOTOR])
+        reverses = operation.ripple >= abs(operation.torque[MOTOR])
         sides = (DRIVE_SIDE, COAST_SIDE) if reverses else (self._closing_side,)
         corners = []
         for i in range(train.meshes):
-            kind = train.kind[i]
-            edge = train.edge[kind, : train.segments[kind]]
+            kind = train.mesh.kind[i]
+            edge = train.teeth.edge[kind, : train.teeth.segments[kind]]
             for side in sides:
                 if side not in self._sides_of(i):
                     continue
-                late = float(train.coast_lead[kind]) if side == COAST_SIDE else 0.0
-                corners.append(side * (edge - late) + train.phase[i] - shift)
+                late = float(train.geometry.coast_lead[kind]) if side == COAST_SIDE else 0.0
+                corners.append(side * (edge - late) + train.mesh.phase[i] - shift)
         return np.unique(np.mod(np.concatenate(corners), 1.0))
 
     def _sides_of(self, mesh: int) -> tuple[int, ...]:
@@ -193,7 +193,7 @@ class Ledger:
         return (DRIVE_SIDE,) if mesh < train.meshes // 2 else (COAST_SIDE,)
 
     def _is_steady(self) -> bool:
-        return bool(np.all(self._reached.set_speed == self._model.load.target_speed))
+        return bool(np.all(self._reached.set_speed == self._model.operation.target_speed))
 
     def _integral(self, begin: float, end: float) -> tuple[np.ndarray, np.ndarray]:
         """Totals and peaks between two times after the end of the integrals [s] in one panel.
@@ -225,6 +225,6 @@ class Ledger:
 def _repeats(model: Model) -> bool:
     """Whether the powers of steady running depend only on the position in the mesh cycle."""
     train = model.train
-    periods = [train.line_period[kind, : train.lines[kind]] for kind in range(2)]
-    at_rest = model.load.ripple == 0.0 and train.moving.gravity == 0.0
-    return bool(at_rest and train.faults == 0 and np.all(np.concatenate(periods) == 1))
+    periods = [train.errors.period[kind, : train.errors.lines[kind]] for kind in range(2)]
+    at_rest = model.operation.ripple == 0.0 and train.moving.gravity == 0.0
+    return bool(at_rest and train.faults.count == 0 and np.all(np.concatenate(periods) == 1))

@@ -38,10 +38,10 @@ def check_second_coupling(
     if model.train.axes < 2:
         return
     train = model.train
-    member = train.coupling[SECOND_MOTOR, 1]
-    stiffness = float(train.coupling_stiffness[SECOND_MOTOR] * train.radius[member] ** 2)
-    winding = abs(float(train.cycles[1])) / (2.0 * math.pi * stiffness)
-    for speed in (model.load.target_speed, origin.set_speed):
+    member = train.coupling.ends[SECOND_MOTOR, 1]
+    stiffness = float(train.coupling.stiffness[SECOND_MOTOR] * train.body.radius[member] ** 2)
+    winding = abs(float(train.cycle.per_turn[1])) / (2.0 * math.pi * stiffness)
+    for speed in (model.operation.target_speed, origin.set_speed):
         feedback = winding * core.steepest_torque(model, tolerance, closing_side, origin, speed)
         if feedback > MOST_FEEDBACK:
             raise ValueError(

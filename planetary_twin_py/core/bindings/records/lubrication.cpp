@@ -8,94 +8,22 @@
 namespace gearbox {
 
 void bind_lubrication_records(nb::module_& m) {
-    record<Oil>(m, "Oil")
-        .FIELD(Oil, film)
-        .FIELD(Oil, asperities)
-        .FIELD(Oil, traction_law)
-        .FIELD(Oil, traction)
-        .FIELD(Oil, shear_thinning)
-        .FIELD(Oil, log_schlenk)
-        .FIELD(Oil, contact_modulus)
-        .FIELD(Oil, face_width)
-        .FIELD(Oil, line_length)
-        .FIELD(Oil, log_speed_group)
-        .FIELD(Oil, log_material)
-        .FIELD(Oil, log_load_group)
-        .FIELD(Oil, log_area)
-        .FIELD(Oil, log_roughness)
-        .FIELD(Oil, density)
-        .FIELD(Oil, kinematic)
-        .FIELD(Oil, prescribed)
-        .FIELD(Oil, lambda_ratio)
-        .FIELD(Oil, log_lambda)
-        .FIELD(Oil, asperity_shear)
-        .FIELD(Oil, printed_asperities)
-        .FIELD(Oil, sharing)
-        .FIELD(Oil, boundary_coefficient)
-        .FIELD(Oil, rolling)
-        .FIELD(Oil, sliding_threshold)
-        .FIELD(Oil, presliding)
-        .FIELD(Oil, table);
-    record<ToothPairs>(m, "ToothPairs")
-        .FIELD(ToothPairs, count)
-        .FIELD(ToothPairs, slowest_rolling)
-        .FIELD(ToothPairs, share)
-        .FIELD(ToothPairs, rho1)
-        .FIELD(ToothPairs, rho2)
-        .FIELD(ToothPairs, external)
-        .FIELD(ToothPairs, speed1)
-        .FIELD(ToothPairs, speed2)
-        .FIELD(ToothPairs, load)
-        .FIELD(ToothPairs, face)
-        .FIELD(ToothPairs, friction)
-        .FIELD(ToothPairs, boundary)
-        .FIELD(ToothPairs, viscous)
-        .FIELD(ToothPairs, log_film)
-        .FIELD(ToothPairs, sliding)
-        .FIELD(ToothPairs, slope)
-        .FIELD(ToothPairs, rolling)
-        .FIELD(ToothPairs, rolling_power)
-        .FIELD(ToothPairs, has_bristles)
-        .FIELD(ToothPairs, bristle)
-        .FIELD(ToothPairs, full)
-        .FIELD(ToothPairs, bristle_rate)
-        .FIELD(ToothPairs, bristle_decay)
-        .FIELD(ToothPairs, bristle_gain)
-        .FIELD(ToothPairs, lost);
-    record<DragOfMeshes>(m, "DragOfMeshes").FIELD(DragOfMeshes, torque).FIELD(DragOfMeshes, power);
-    record<FrictionTable>(m, "FrictionTable")
-        .FIELD(FrictionTable, size)
-        .FIELD(FrictionTable, knot)
-        .FIELD(FrictionTable, coefficient);
-    record<Film>(m, "Film")
-        .FIELD(Film, log_coefficient)
-        .FIELD(Film, speed)
-        .FIELD(Film, material)
-        .FIELD(Film, load);
-    record<Asperities>(m, "Asperities")
-        .FIELD(Asperities, area_factor)
-        .FIELD(Asperities, pressure_factor)
-        .FIELD(Asperities, shear_stress)
-        .FIELD(Asperities, pressure_coefficient);
-    record<Traction>(m, "Traction")
-        .FIELD(Traction, shear_stress)
-        .FIELD(Traction, pressure_viscosity)
-        .FIELD(Traction, log_root)
-        .FIELD(Traction, least)
-        .FIELD(Traction, log_heating);
-    record<ShearThinning>(m, "ShearThinning")
-        .FIELD(ShearThinning, shear_stress)
-        .FIELD(ShearThinning, pressure_viscosity)
-        .FIELD(ShearThinning, log_shear_time)
-        .FIELD(ShearThinning, limiting_stress)
-        .FIELD(ShearThinning, film_heating)
-        .FIELD(ShearThinning, flash_heating);
-    record<MeshFriction>(m, "MeshFriction")
-        .FIELD(MeshFriction, drag)
-        .FIELD(MeshFriction, lost)
-        .FIELD(MeshFriction, boundary)
-        .FIELD(MeshFriction, viscous)
-        .FIELD(MeshFriction, film);
+    RECORD(m, Oil, film, asperities, traction_law, traction, shear_thinning, log_schlenk,
+           contact_modulus, face_width, line_length, log_speed_group, log_material, log_load_group,
+           log_area, log_roughness, density, kinematic, prescribed, lambda_ratio, log_lambda,
+           asperity_shear, printed_asperities, sharing, boundary_coefficient, rolling,
+           sliding_threshold, presliding, table);
+    RECORD(m, ToothPairs, count, slowest_rolling, share, rho1, rho2, external, speed1, speed2, load,
+           face, friction, boundary, viscous, log_film, sliding, slope, rolling, rolling_power,
+           has_bristles, bristle, full, bristle_rate, bristle_decay, bristle_gain, lost);
+    RECORD(m, DragOfMeshes, torque, power);
+    RECORD(m, FrictionTable, size, knot, coefficient);
+    RECORD(m, Film, log_coefficient, speed, material, load);
+    RECORD(m, Asperities, area_factor, pressure_factor, shear_stress, pressure_coefficient);
+    RECORD(m, Traction, shear_stress, pressure_viscosity, log_root, least, log_heating);
+    RECORD(m, ShearThinning, shear_stress, pressure_viscosity, log_shear_time, limiting_stress,
+           film_heating, flash_heating);
+    RECORD(m, MeshFriction, drag, lost, boundary, viscous, film);
 }
 
 }  // namespace gearbox

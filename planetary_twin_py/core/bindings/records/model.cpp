@@ -3,8 +3,8 @@
 #include "bindings/record.hpp"
 #include "model/balance.hpp"
 #include "model/evaluation.hpp"
-#include "model/load.hpp"
 #include "model/moving_axes.hpp"
+#include "model/operation.hpp"
 #include "model/rolling_bearing.hpp"
 #include "model/state.hpp"
 #include "model/step_constants.hpp"
@@ -13,202 +13,40 @@
 namespace gearbox {
 
 void bind_model_records(nb::module_& m) {
-    record<State>(m, "State")
-        .FIELD(State, x)
-        .FIELD(State, v)
-        .FIELD(State, side)
-        .FIELD(State, segment)
-        .FIELD(State, seconds)
-        .FIELD(State, time)
-        .FIELD(State, turns)
-        .FIELD(State, fraction)
-        .FIELD(State, speed)
-        .FIELD(State, trim)
-        .FIELD(State, set_speed)
-        .FIELD(State, energy)
-        .FIELD(State, presliding)
-        .FIELD(State, bristle);
-    record<Load>(m, "Load")
-        .FIELD(Load, half_backlash)
-        .FIELD(Load, offset)
-        .FIELD(Load, inner_squared)
-        .FIELD(Load, release)
-        .FIELD(Load, target_speed)
-        .FIELD(Load, slew_rate)
-        .FIELD(Load, torque)
-        .FIELD(Load, ripple)
-        .FIELD(Load, ripple_order)
-        .FIELD(Load, inertia)
-        .FIELD(Load, proportional)
-        .FIELD(Load, trim_gain)
-        .FIELD(Load, load_proportional)
-        .FIELD(Load, port)
-        .FIELD(Load, since_seconds)
-        .FIELD(Load, since)
-        .FIELD(Load, torque_rate)
-        .FIELD(Load, speed)
-        .FIELD(Load, acceleration)
-        .FIELD(Load, reaches_position)
-        .FIELD(Load, speed_after);
-    record<TiltingAxis>(m, "TiltingAxis")
-        .FIELD(TiltingAxis, axial)
-        .FIELD(TiltingAxis, place)
-        .FIELD(TiltingAxis, lever)
-        .FIELD(TiltingAxis, turns)
-        .FIELD(TiltingAxis, axial_stiffness)
-        .FIELD(TiltingAxis, axial_damping)
-        .FIELD(TiltingAxis, tilting_stiffness)
-        .FIELD(TiltingAxis, tilting_damping)
-        .FIELD(TiltingAxis, diametral)
-        .FIELD(TiltingAxis, polar);
-    record<RollingBearing>(m, "RollingBearing")
-        .FIELD(RollingBearing, strength)
-        .FIELD(RollingBearing, exponent)
-        .FIELD(RollingBearing, load_zone)
-        .FIELD(RollingBearing, damping_time);
-    record<MovingAxes>(m, "MovingAxes")
-        .FIELD(MovingAxes, bearings)
-        .FIELD(MovingAxes, frame)
-        .FIELD(MovingAxes, place)
-        .FIELD(MovingAxes, leads)
-        .FIELD(MovingAxes, carrier)
-        .FIELD(MovingAxes, direction)
-        .FIELD(MovingAxes, carried)
-        .FIELD(MovingAxes, mass)
-        .FIELD(MovingAxes, stiffness)
-        .FIELD(MovingAxes, damping)
-        .FIELD(MovingAxes, clearance)
-        .FIELD(MovingAxes, rolling)
-        .FIELD(MovingAxes, centre)
-        .FIELD(MovingAxes, arm)
-        .FIELD(MovingAxes, gravity)
-        .FIELD(MovingAxes, downwards)
-        .FIELD(MovingAxes, turn_numerator)
-        .FIELD(MovingAxes, turn_denominator)
-        .FIELD(MovingAxes, line)
-        .FIELD(MovingAxes, entries)
-        .FIELD(MovingAxes, tilting)
-        .FIELD(MovingAxes, slope_place)
-        .FIELD(MovingAxes, slope)
-        .FIELD(MovingAxes, face_square);
-    record<Train>(m, "Train")
-        .FIELD(Train, bodies)
-        .FIELD(Train, lanes)
-        .FIELD(Train, axes)
-        .FIELD(Train, body_copies)
-        .FIELD(Train, mass)
-        .FIELD(Train, radius)
-        .FIELD(Train, inverse_radius)
-        .COLUMNS(Train, ratio)
-        .FIELD(Train, spin_ratio)
-        .FIELD(Train, machines)
-        .FIELD(Train, coupling)
-        .FIELD(Train, coupling_stiffness)
-        .FIELD(Train, coupling_damping)
-        .FIELD(Train, cycles)
-        .FIELD(Train, cycles_numerator)
-        .FIELD(Train, cycles_denominator)
-        .FIELD(Train, sun)
-        .FIELD(Train, carrier)
-        .FIELD(Train, sun_advance)
-        .FIELD(Train, carrier_advance)
-        .FIELD(Train, lever)
-        .FIELD(Train, friction)
-        .FIELD(Train, printed_torque)
-        .FIELD(Train, meshes)
-        .FIELD(Train, body)
-        .FIELD(Train, sign)
-        .FIELD(Train, copies)
-        .FIELD(Train, kind)
-        .FIELD(Train, phase)
-        .FIELD(Train, coast_lead)
-        .FIELD(Train, stiffness)
-        .FIELD(Train, stiffness_base)
-        .FIELD(Train, stiffness_gain)
-        .FIELD(Train, stiffness_factor)
-        .FIELD(Train, damping_time)
-        .FIELD(Train, damping_cycles)
-        .FIELD(Train, lowest_frequency)
-        .FIELD(Train, base_pitch)
-        .FIELD(Train, rolling_advance)
-        .FIELD(Train, pitch_curvature)
-        .FIELD(Train, external)
-        .FIELD(Train, segments)
-        .FIELD(Train, edge)
-        .FIELD(Train, shift)
-        .FIELD(Train, centre)
-        .FIELD(Train, travel)
-        .FIELD(Train, face)
-        .FIELD(Train, face_growth)
-        .FIELD(Train, present)
-        .FIELD(Train, slots)
-        .FIELD(Train, terms)
-        .FIELD(Train, weight)
-        .FIELD(Train, lines)
-        .FIELD(Train, harmonics)
-        .FIELD(Train, line_tangential)
-        .FIELD(Train, line_radial)
-        .FIELD(Train, line_harmonic)
-        .FIELD(Train, line_period)
-        .FIELD(Train, line_phase)
-        .FIELD(Train, line_of_planet)
-        .FIELD(Train, faults)
-        .FIELD(Train, fault_teeth)
-        .FIELD(Train, fault_pair)
-        .FIELD(Train, fault_gap)
-        .FIELD(Train, fault_factor)
-        .FIELD(Train, joints)
-        .FIELD(Train, joint_body)
-        .FIELD(Train, joint_planet)
-        .FIELD(Train, joint_no_load_factor)
-        .FIELD(Train, joint_load_factor)
-        .FIELD(Train, joint_coulomb)
-        .FIELD(Train, joint_viscous)
-        .FIELD(Train, pin_share)
-        .FIELD(Train, discs)
-        .FIELD(Train, disc_body)
-        .FIELD(Train, disc_radius)
-        .FIELD(Train, disc_gap)
-        .FIELD(Train, disc_fill)
-        .FIELD(Train, moving);
-    record<StepConstants>(m, "StepConstants")
-        .FIELD(StepConstants, start)
-        .FIELD(StepConstants, side)
-        .FIELD(StepConstants, segment)
-        .FIELD(StepConstants, low)
-        .FIELD(StepConstants, high)
-        .FIELD(StepConstants, lead)
-        .FIELD(StepConstants, base)
-        .FIELD(StepConstants, gain)
-        .FIELD(StepConstants, fixed_damping_time)
-        .FIELD(StepConstants, external)
-        .FIELD(StepConstants, weight)
-        .FIELD(StepConstants, rho1)
-        .FIELD(StepConstants, rho2)
-        .FIELD(StepConstants, travel)
-        .FIELD(StepConstants, face)
-        .FIELD(StepConstants, face_growth)
-        .FIELD(StepConstants, tau)
-        .FIELD(StepConstants, cycle_rate)
-        .FIELD(StepConstants, rigid)
-        .FIELD(StepConstants, damping_time)
-        .FIELD(StepConstants, spin)
-        .FIELD(StepConstants, slew)
-        .FIELD(StepConstants, torque)
-        .FIELD(StepConstants, line_angle)
-        .FIELD(StepConstants, faulty);
-    record<Model>(m, "Model").FIELD(Model, train).FIELD(Model, oil).FIELD(Model, load);
-    record<Evaluation>(m, "Evaluation")
-        .FIELD(Evaluation, force)
-        .FIELD(Evaluation, friction_force)
-        .FIELD(Evaluation, power)
-        .FIELD(Evaluation, now)
-        .FIELD(Evaluation, pairs)
-        .FIELD(Evaluation, dragging);
-    record<Balance>(m, "Balance")
-        .FIELD(Balance, stiffness)
-        .FIELD(Balance, force)
-        .FIELD(Balance, evaluation);
+    RECORD(m, State, x, v, side, segment, seconds, time, turns, fraction, speed, trim, set_speed,
+           energy, presliding, bristle);
+    RECORD(m, Backlash, half, offset, inner_squared, release);
+    RECORD(m, Operation, backlash, target_speed, slew_rate, torque, ripple, ripple_order, inertia,
+           proportional, trim_gain, load_proportional, port, since_seconds, since, torque_rate,
+           speed, acceleration, reaches_position, speed_after);
+    RECORD(m, TiltingAxis, axial, place, lever, turns, axial_stiffness, axial_damping,
+           tilting_stiffness, tilting_damping, diametral, polar);
+    RECORD(m, RollingBearing, strength, exponent, load_zone, damping_time);
+    RECORD(m, MovingAxes, bearings, frame, place, leads, carrier, direction, carried, mass,
+           stiffness, damping, clearance, rolling, centre, arm, gravity, downwards, turn_numerator,
+           turn_denominator, line, entries, tilting, slope_place, slope, face_square);
+    RECORD(m, BodyArrays, copies, mass, radius, inverse_radius).COLUMNS(BodyArrays, ratio);
+    RECORD(m, Couplings, ends, stiffness, damping);
+    RECORD(m, MeshCycle, per_turn, numerator, denominator, sun_advance, carrier_advance);
+    RECORD(m, MeshArrays, lever, spin_ratio, body, sign, copies, kind, phase, stiffness_factor);
+    RECORD(m, MeshDamping, time, cycles, lowest_frequency);
+    RECORD(m, ContactPaths, coast_lead, base_pitch, rolling_advance, pitch_curvature, external);
+    RECORD(m, Teeth, stiffness, stiffness_base, stiffness_gain, slots, terms, segments, edge, shift,
+           centre, travel, face, face_growth, present, weight);
+    RECORD(m, FormErrors, lines, harmonics, tangential, radial, harmonic, period, phase, of_planet);
+    RECORD(m, Faults, count, teeth, pair, gap, factor);
+    RECORD(m, Joints, count, body, planet, no_load_factor, load_factor, coulomb, viscous,
+           pin_share);
+    RECORD(m, Discs, count, body, radius, gap, fill);
+    RECORD(m, Train, bodies, meshes, lanes, axes, machines, sun, carrier, friction, printed_torque,
+           body, coupling, cycle, mesh, damping, geometry, teeth, errors, faults, joints, discs,
+           moving);
+    RECORD(m, StepConstants, start, side, segment, low, high, lead, base, gain, fixed_damping_time,
+           external, weight, rho1, rho2, travel, face, face_growth, tau, cycle_rate, rigid,
+           damping_time, spin, slew, torque, line_angle, faulty);
+    RECORD(m, Model, train, oil, operation);
+    RECORD(m, Evaluation, force, friction_force, power, now, pairs, friction);
+    RECORD(m, Balance, stiffness, force, evaluation);
 }
 
 }  // namespace gearbox

@@ -6,27 +6,9 @@
 namespace gearbox {
 
 void bind_quasi_static_records(nb::module_& m) {
-    record<Equilibrium>(m, "Equilibrium")
-        .FIELD(Equilibrium, state)
-        .FIELD(Equilibrium, step)
-        .FIELD(Equilibrium, evaluation)
-        .FIELD(Equilibrium, before)
-        .FIELD(Equilibrium, closing_side)
-        .FIELD(Equilibrium, error)
-        .FIELD(Equilibrium, stiffness)
-        .FIELD(Equilibrium, clearance)
-        .FIELD(Equilibrium, force)
-        .FIELD(Equilibrium, torque)
-        .FIELD(Equilibrium, balance)
-        .FIELD(Equilibrium, external)
-        .FIELD(Equilibrium, springs)
-        .FIELD(Equilibrium, both_flanks);
-    record<Springs>(m, "Springs")
-        .FIELD(Springs, copies)
-        .FIELD(Springs, error)
-        .FIELD(Springs, compliance)
-        .FIELD(Springs, friction)
-        .FIELD(Springs, steps);
+    RECORD(m, Equilibrium, state, step, evaluation, before, closing_side, error, stiffness,
+           clearance, force, torque, balance, external, springs, both_flanks);
+    RECORD(m, Springs, copies, error, compliance, friction, steps);
 }
 
 }  // namespace gearbox

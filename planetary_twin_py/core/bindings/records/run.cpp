@@ -3,7 +3,6 @@
 #include "run/figures.hpp"
 #include "run/limits.hpp"
 #include "run/operating_point.hpp"
-#include "run/problem.hpp"
 #include "run/report.hpp"
 #include "run/window.hpp"
 
@@ -25,56 +24,14 @@ void bind_operating_point_record(nb::module_& m) {
 
 void bind_run_records(nb::module_& m) {
     bind_operating_point_record(m);
-    record<PointLaws>(m, "PointLaws")
-        .FIELD(PointLaws, constant)
-        .FIELD(PointLaws, half_backlash_factor)
-        .FIELD(PointLaws, from_zero)
-        .FIELD(PointLaws, torque)
-        .FIELD(PointLaws, ratio)
-        .FIELD(PointLaws, starts_elsewhere)
-        .FIELD(PointLaws, start_speed)
-        .FIELD(PointLaws, force_share)
-        .FIELD(PointLaws, force_lever)
-        .FIELD(PointLaws, stiffness);
-    record<Problem>(m, "Problem")
-        .FIELD(Problem, model)
-        .FIELD(Problem, start)
-        .FIELD(Problem, state)
-        .FIELD(Problem, step)
-        .FIELD(Problem, evaluation);
-    record<Peaks>(m, "Peaks").FIELD(Peaks, dte).FIELD(Peaks, speed);
-    record<Limits>(m, "Limits")
-        .FIELD(Limits, deflection)
-        .FIELD(Limits, error)
-        .FIELD(Limits, speed)
-        .FIELD(Limits, torque);
-    record<Report>(m, "Report")
-        .FIELD(Report, bodies)
-        .FIELD(Report, body)
-        .FIELD(Report, numerator)
-        .FIELD(Report, denominator)
-        .FIELD(Report, meshes)
-        .FIELD(Report, mesh);
-    record<WindowEnd>(m, "WindowEnd")
-        .FIELD(WindowEnd, ledger)
-        .FIELD(WindowEnd, power)
-        .FIELD(WindowEnd, kinetic)
-        .FIELD(WindowEnd, elastic)
-        .FIELD(WindowEnd, turns)
-        .FIELD(WindowEnd, angle)
-        .FIELD(WindowEnd, sums)
-        .FIELD(WindowEnd, peaks);
-    record<Figures>(m, "Figures")
-        .FIELD(Figures, angle)
-        .FIELD(Figures, mean_speed)
-        .FIELD(Figures, machine_speed)
-        .FIELD(Figures, machine_torque)
-        .FIELD(Figures, machine_power)
-        .FIELD(Figures, power_loss)
-        .FIELD(Figures, stored_power)
-        .FIELD(Figures, stored_energy)
-        .FIELD(Figures, residual_power)
-        .FIELD(Figures, statistics);
+    RECORD(m, PointLaws, constant, half_backlash_factor, from_zero, torque, ratio, starts_elsewhere,
+           start_speed, force_share, force_lever, stiffness);
+    RECORD(m, Peaks, dte, speed);
+    RECORD(m, Limits, deflection, error, speed, torque);
+    RECORD(m, Report, bodies, body, numerator, denominator, meshes, mesh);
+    RECORD(m, WindowEnd, ledger, power, kinetic, elastic, turns, angle, sums, peaks);
+    RECORD(m, Figures, angle, mean_speed, machine_speed, machine_torque, machine_power, power_loss,
+           stored_power, stored_energy, residual_power, statistics);
 }
 
 }  // namespace gearbox

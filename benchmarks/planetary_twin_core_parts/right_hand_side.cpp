@@ -1,4 +1,4 @@
-#include "peers/right_hand_side.hpp"
+#include "right_hand_side.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 // Fill the state of the bodies and the motors at time t.
 void place_bodies(Problem& problem, double t, const double* y) {
     const Train& train = problem.model.train;
-    const Load& load = problem.model.load;
+    const Operation& operation = problem.model.operation;
     const State& start = problem.start;
     State& state = problem.state;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
@@ -35,7 +35,8 @@ void place_bodies(Problem& problem, double t, const double* y) {
         double whole = std::floor(turn);
         state.turns[a] = start.turns[a] + whole;
         state.fraction[a] = turn - whole;
-        double gap = load.target_speed[a] - start.set_speed[a], slewed = load.slew_rate * t;
+        double gap = operation.target_speed[a] - start.set_speed[a],
+               slewed = operation.slew_rate * t;
         state.set_speed[a] = start.set_speed[a] + std::max(-slewed, std::min(gap, slewed));
     }
 }
@@ -88,15 +89,15 @@ void find_contacts(Problem& problem, const StoredTables& stored) {
         double d = deflection(train, step, i, x, v, 0.0, cycle_rate).d;
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
         // As `mesh_cycle`, but the cycles of the frame, which are expensive, are counted once.
-        double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
-        if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
-        cycle -= std::floor(cycle - train.edge[train.kind[i]][0]);
+        double cycle = static_cast<double>(side) * (cycles - train.mesh.phase[i]);
+        if (side == COAST_SIDE) cycle += train.geometry.coast_lead[train.mesh.kind[i]];
+        cycle -= std::floor(cycle - train.teeth.edge[train.mesh.kind[i]][0]);
         state.side[i] = side;
         state.segment[i] =
-            find_segment(train, train.kind[i], cycle, static_cast<double>(side) * cycle_rate);
+            find_segment(train, train.mesh.kind[i], cycle, static_cast<double>(side) * cycle_rate);
         copy_tables(train, state, step, i, stored);
         step.start[i] = cycle;
-        if (train.faults > 0) find_faults(train, state, i, side, cycle, step.faulty);
+        if (train.faults.count > 0) find_faults(train, state, i, side, cycle, step.faulty);
     }
 }
 
@@ -118,11 +119,11 @@ void derivative(Problem& problem, double t, const double* y, double* dy) {
            problem.evaluation);
     for (std::int64_t j = 0; j < n; ++j) {
         dy[j] = state.v[j];
-        dy[n + j] = problem.evaluation.force[j] / train.mass[j];
+        dy[n + j] = problem.evaluation.force[j] / train.body.mass[j];
     }
     for (std::int64_t a = 0; a < train.axes; ++a)
         dy[2 * n + a] =
-            state.set_speed[a] - body_speed(train, state, state.v, train.coupling[2 * a][0]);
+            state.set_speed[a] - body_speed(train, state, state.v, train.coupling.ends[2 * a][0]);
 }
 
 double show_problem(Problem& problem, double t, const double* y, double* dte) {

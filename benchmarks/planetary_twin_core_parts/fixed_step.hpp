@@ -2,7 +2,7 @@
 
 // Baselines with a fixed step that is not aligned with events.
 
-#include "run/problem.hpp"
+#include "problem.hpp"
 
 namespace gearbox {
 

@@ -1,11 +1,11 @@
-#include "peers/fixed_step.hpp"
+#include "fixed_step.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 
 #include "capacities.hpp"
-#include "peers/right_hand_side.hpp"
+#include "right_hand_side.hpp"
 
 namespace gearbox {
 

@@ -1,17 +1,42 @@
-// Parts of a step with fixed axes, for tests of the order of convergence.
+// Parts of a step with fixed axes.
 
-#include "bindings/parts.hpp"
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
+#include "bindings/unlocked.hpp"
 #include "integrators/collocated_step.hpp"
 #include "integrators/collocation.hpp"
+#include "integrators/integrator.hpp"
+#include "integrators/oscillator.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/rosenbrock.hpp"
+#include "parts.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {
 
-using namespace nanobind::literals;
+namespace nb = nanobind;
+using namespace nb::literals;
 
-void bind_parts_of_steps(nanobind::module_& m) {
+void bind_step_parts(nb::module_& m) {
+    m.attr("NO_MESH") = NO_MESH;
+    m.def("accept", &accept, "model"_a, "integrator"_a, "mesh"_a, nb::call_guard<Unlocked>(),
+          "Accept the step; the contact of `mesh` changes at its end (-1: of no mesh).");
+    m.def(
+        "decay_rates",
+        [](double square, double damping) {
+            DecayRates rates = decay_rates(square, damping);
+            return std::make_tuple(rates.rate, rates.slow_rate, rates.fast_rate);
+        },
+        "square"_a, "damping"_a, "Angular frequency and both decay rates [1/s].");
+    m.def(
+        "wave",
+        [](double damping, double rate, double slow, double fast, double t) {
+            Wave at = wave(damping, rate, slow, fast, t);
+            return std::pair(at.cosine, at.sine);
+        },
+        "damping"_a, "rate"_a, "slow"_a, "fast"_a, "t"_a,
+        "Free motions from (1, 0) and (0, 1) after `t` seconds.");
     m.def(
         "enter",
         [](const Model& model, Integrator& integrator) {

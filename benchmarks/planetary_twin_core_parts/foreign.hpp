@@ -2,7 +2,7 @@
 
 // The right-hand side for libraries that take addresses of C functions.
 
-#include "run/problem.hpp"
+#include "problem.hpp"
 
 namespace gearbox {
 

@@ -1,16 +1,24 @@
 #pragma once
 
+// What follows from the operating point and the commands: the backlash, and what acts on the
+// shafts.
+
 #include <cstdint>
 
 #include "capacities.hpp"
 
 namespace gearbox {
 
-struct alignas(64) Load {
-    double half_backlash;        // half the backlash along the line of action [m]
-    double offset;               // transmission error from which the force grows [m]
-    double inner_squared;        // square of the deflection at which flanks come into contact [m^2]
-    double release;              // 1: flanks separate at zero force, 0: at half_backlash
+// Backlash of all meshes along the line of action, by its law.
+struct Backlash {
+    double half;           // [m]
+    double offset;         // transmission error from which the force grows [m]
+    double inner_squared;  // square of the deflection at which flanks come into contact [m^2]
+    double release;        // 1: flanks separate at zero force, 0: at half the backlash
+};
+
+struct alignas(64) Operation {
+    Backlash backlash;
     double target_speed[AXES];   // [rad/s]
     double slew_rate;            // [rad/s^2]
     double torque[MACHINES];     // mean torque of each machine without losses, or given torque

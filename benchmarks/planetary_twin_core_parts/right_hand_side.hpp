@@ -14,7 +14,7 @@
 
 #include <cstdint>
 
-#include "run/problem.hpp"
+#include "problem.hpp"
 
 namespace gearbox {
 

@@ -1,10 +1,8 @@
 #pragma once
 
-// Common constants of the integration methods.
+// Names of the integration methods, and what a step of any of them may come to.
 
 #include <cstdint>
-
-#include "vector/math.hpp"
 
 namespace gearbox {
 
@@ -30,18 +28,6 @@ inline constexpr std::int64_t FALLBACK_STEPS = 20;
 // The same where only this step is too short: up to an event, for example between close edges of
 // helical teeth.
 inline constexpr std::int64_t BRIEF_FALLBACK_STEPS = 1;
-inline constexpr double SAFETY = 0.8, SHRINK = 0.25, GROW = 2.0;  // of steps
-inline constexpr double LARGEST_ERROR = 1e100;                    // in tolerances
-// Error below which steps grow by GROW for every order, up to five: (SAFETY/GROW)^5, rounded down.
-inline constexpr double HARDLY_ANY_ERROR = 0.01;
-
-// Factor for the next step from the error in tolerances and the order of the error, or GROW if it
-// is larger.
-inline double growth_of_step(double error, double order) {
-    if (error < HARDLY_ANY_ERROR) return GROW;
-    if (!(error < LARGEST_ERROR)) return SHRINK;  // also if NaN
-    return SAFETY * power(error, -1.0 / order);
-}
 
 // Exception: no finite state is reached, however short the step.
 struct NoFiniteState {};

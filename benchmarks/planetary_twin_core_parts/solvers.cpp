@@ -3,11 +3,12 @@
 #include <memory>
 
 #include "bindings/arrays.hpp"
-#include "bindings/parts.hpp"
+#include "bindings/record.hpp"
 #include "bindings/unlocked.hpp"
-#include "peers/fixed_step.hpp"
-#include "peers/foreign.hpp"
-#include "peers/right_hand_side.hpp"
+#include "fixed_step.hpp"
+#include "foreign.hpp"
+#include "parts.hpp"
+#include "right_hand_side.hpp"
 
 namespace gearbox {
 
@@ -110,7 +111,8 @@ void bind_foreign(nb::module_& m) {
 
 }  // namespace
 
-void bind_peers(nb::module_& m) {
+void bind_solver_parts(nb::module_& m) {
+    RECORD(m, Problem, model, start, state, step, evaluation);
     m.def("derivative", &py_derivative, nb::arg("problem"), nb::arg("t"), nb::arg("y"),
           nb::arg("dy"), "Fill dy/dt at time t [s].");
     m.def("repeat_derivative", &py_repeat, nb::arg("problem"), nb::arg("step"), nb::arg("y"),

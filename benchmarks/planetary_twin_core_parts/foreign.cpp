@@ -1,8 +1,8 @@
-#include "peers/foreign.hpp"
+#include "foreign.hpp"
 
 #include <algorithm>
 
-#include "peers/right_hand_side.hpp"
+#include "right_hand_side.hpp"
 
 namespace gearbox {
 
