@@ -7,7 +7,7 @@ from power_flows import FLOWS
 
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.turning import turning_warnings
-from planetary_twin_py.model.bodies import rigid_ratios
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.run.axes.load_shares import CycleShares
 from planetary_twin_py.statics.error_turns import fewest_turns
 from planetary_twin_py.studies.axes import Axis
@@ -32,7 +32,7 @@ def turning_scene(kind, **changes):
 def turn(scene, kind):
     """Time of the turn [s]."""
     speed = scene.operating_point.input_speed
-    ratio = rigid_ratios(scene)["carrier"][0]
+    ratio = Layout(scene).ratios["carrier"][0]
     return 2.0 * np.pi / abs(speed * (1.0 if kind == "runout" else float(ratio)))
 
 
