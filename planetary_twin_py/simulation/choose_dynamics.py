@@ -9,11 +9,12 @@ import numpy as np
 from .._core import BEARING, CHURNING, FRICTION
 from ..model.layout import Layout
 from ..model.mesh_sums import in_order
-from ..run.dynamics_choice import BY_COST, FIGURES, Candidate, DynamicsChoice
+from ..run.dynamics_choice import BY_COST, Candidate, DynamicsChoice
 from ..run.start import start
 from ..run.window import mesh_statistics
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
+from ..units.catalogue import FIGURES
 
 TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.1, 2.0  # [s] limits of the measured time, and of the settling before it
