@@ -104,7 +104,7 @@ def shared(depth, force, cycle):
     turned = {"sun": angle, "ring": -3 / 7 * angle, "carrier": 0.0}
     turned |= {f"planet_{i}": -1.5 * angle for i in (1, 2, 3)}
     given = {name: np.array([value]) for name, value in turned.items()}
-    found = pair_loads(PAPER.replace(faults=[wear]), 0, given, np.array([force]))
+    found = pair_loads(Gearbox(PAPER.replace(faults=[wear])), 0, given, np.array([force]))
     return loads_at(np.array([cycle, cycle - 1.0]), found.position[0], found.load[0])
 
 
