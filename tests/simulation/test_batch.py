@@ -9,7 +9,7 @@ import pytest
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py.simulation import batch
+from planetary_twin_py.simulation import threads
 
 # The first takes longest, so that others are done before it.
 SCENES = [
@@ -66,7 +66,7 @@ def test_results_are_kept_only_a_few_ahead_of_the_caller(small_heap):
             yield PAPER.replace(lambda_ratio=1.0 + 0.01 * n)
 
     for outcome in pt.simulate_many(scenes(), 0.001, workers=2):
-        assert len(taken) <= outcome.place + 1 + 2 * batch.AHEAD
+        assert len(taken) <= outcome.place + 1 + 2 * threads.AHEAD
         results.append(weakref.ref(outcome.result))
         del outcome
         gc.collect()

@@ -8,8 +8,8 @@ import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.cli._study import default_speeds
 from planetary_twin_py.model.layout import Layout
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis, read_axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.table import read
 

@@ -8,8 +8,8 @@ from studies.small import PAPER
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.turning import turning_warnings
 from planetary_twin_py.model.layout import Layout
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.sweep import sweep

@@ -9,9 +9,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.explanation.turning import turning_warnings
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.run.axes.load_shares import CycleShares
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.statics.error_turns import fewest_turns
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
 from planetary_twin_py.studies.turning import turning_of_study
