@@ -77,7 +77,7 @@ def explain(
     if loaded.dynamics == "auto":
         console.print(found.dynamics.text, highlight=False)
         loaded = found.dynamics.scene
-    console.print(_table(loaded, found))
+    console.print(_table(found))
     console.print(_dynamics_table(found.dynamics))
     console.print(_limits(loaded))
     for line in found.remarks:
@@ -216,7 +216,7 @@ def _verdict(found: DynamicsChoice) -> str:
     return "\n".join(lines)
 
 
-def _table(scene: Scene, found: Explanation) -> Table:
+def _table(found: Explanation) -> Table:
     from rich.table import Table
 
     from ..units.catalogue import FIGURES, MESH

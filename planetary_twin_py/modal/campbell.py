@@ -112,15 +112,6 @@ def shaft_orders(scene: Scene) -> dict[str, MeshLine]:
     }
 
 
-def mesh_frequency_per_speed(scene: Scene) -> float:
-    """Mesh frequency [Hz] per speed of the first motor [rad/s], with the second motor at rest.
-
-    Args:
-        scene: gives the tooth numbers and the member at rest.
-    """
-    return abs(mesh_line(scene).slope)
-
-
 def _passing(scene: Scene, inputs: tuple[float, float]) -> float:
     """Teeth of the sun that pass the carrier [1/s] at speeds of the motors [rad/s], signed."""
     speeds = Layout(scene).speeds(*inputs)

@@ -16,7 +16,7 @@ from .train import build_train
 
 
 class Gearbox(Layout):
-    """A scene translated to bodies, meshes and laws; each attribute is found once.
+    """A scene translated to bodies, meshes and laws; computed once, when first read.
 
     Args:
         scene: the scene. Its operating point is that at the start of a run.

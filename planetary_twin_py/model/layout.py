@@ -25,7 +25,7 @@ Ratios = tuple[Fraction, ...]  # speed per speed of each input
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """What follows from a scene without elasticity; each attribute is found once.
+    """What follows from a scene without elasticity; computed once, when it is first read.
 
     Args:
         scene: the scene.
@@ -120,18 +120,17 @@ class Layout:
 
     @cached_property
     def planar_radii(self) -> dict[str, float]:
-        """r [m] of each kind of body in `rows` and `scene.supports`: that of the planet centres for
-        the carrier."""
+        """r [m] of each kind of body in `rows`: that of the planet centres for the carrier."""
         return self.radii | {"carrier": self.scene.gearset.geometry.centre_distance}
 
     @cached_property
     def polar_masses(self) -> dict[str, float]:
-        """J/r^2 [kg] of each kind of body with that radius; the carrier without planets."""
+        """J/r^2 [kg] of each kind of body with `planar_radii`; the carrier without planets."""
         return self.masses | {"carrier": self.scene.gearset.rim_masses.carrier}
 
     @cached_property
     def tilting_masses(self) -> dict[str, float]:
-        """I/r^2 [kg] of each kind of body with that radius and the diametral inertia I."""
+        """I/r^2 [kg] of each kind of body with `planar_radii` and the diametral inertia I."""
         return {
             kind: getattr(self.scene.supports, kind).diametral(self.polar_masses[kind])
             for kind in (*CENTRAL, "planet")
