@@ -18,6 +18,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
+from ..model.gearbox import Gearbox
 from ..model.pair_loads import pair_loads
 from ..recording.runs.reader import Recording
 from ..scene import Scene
@@ -64,9 +65,10 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
         recording: recording to draw.
         motion: angles at the times to draw.
     """
-    force = forces(recording, motion.time)
+    gearbox, force = Gearbox(scene), forces(recording, motion.time)
     contacts_of_meshes = [
-        contacts(scene, mesh, motion.angle, force[:, mesh]) for mesh in range(len(recording.meshes))
+        contacts(gearbox, mesh, motion.angle, force[:, mesh])
+        for mesh in range(len(recording.meshes))
     ]
     loads = np.concatenate([mesh.load[mesh.load > 0.0] for mesh in contacts_of_meshes])
     if not len(loads):
@@ -101,11 +103,11 @@ def forces(recording: Recording, time: Array) -> Array:
     return force
 
 
-def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
+def contacts(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
     """Tooth pairs that carry the force of a mesh, by the stiffness and the faults of the model.
 
     Args:
-        scene: gears, stiffness and faults.
+        gearbox: gears, stiffness and faults.
         mesh: index of the mesh in a recording.
         angle: angles of the members [rad] (n,), see `pair_loads`.
         force: force of the mesh [N] (n,), negative on the coast flanks.
@@ -113,11 +115,11 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
     Returns:
         Lines of contact, directions and loads.
     """
-    gearset = scene.gearset
+    gearset = gearbox.scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
     working = gearset.geometry.meshes[ring]
     radius, pitch = working.pitch_radii[ring], working.base_pitch
-    pairs = pair_loads(scene, mesh, angle, force)
+    pairs = pair_loads(gearbox, mesh, angle, force)
     half = 0.5 * pairs.face[..., None] * gearset.face_width * np.array([-1.0, 1.0])
     ends, direction = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
     for flank in (DRIVE, COAST):
