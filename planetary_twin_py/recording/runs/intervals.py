@@ -44,9 +44,10 @@ def in_ticks(number: int, time: float, length: float, before: Interval | None) -
     end, ticks = round(Fraction(time) * TICKS), round(Fraction(length) * TICKS)
     if before is not None and abs(ticks - (before.end - before.begin)) <= blur:
         ticks = before.end - before.begin
-    elif blur > 1:
-        unit = 10 ** math.floor(math.log10(blur))
-        ticks = round(ticks / unit) * unit
+    elif blur > 1:  # a whole number of intervals per second, or a round length
+        of_rate = round(TICKS / max(round(TICKS / ticks), 1))
+        rounded = round(ticks, -math.ceil(math.log10(2 * blur)))
+        ticks = next((n for n in (of_rate, rounded) if abs(n - ticks) <= blur), ticks)
     if before is not None:
         expected = before.end + (number - before.number) * ticks
         end = expected if abs(end - expected) <= blur else end
