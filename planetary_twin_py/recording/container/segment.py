@@ -13,7 +13,7 @@ from mcap.records import Channel, Message, Schema
 from .extent import Extent
 from .framing import DAMAGED
 from .log_order import merged, records_in_log_order
-from .records import chunk_at
+from .records import section_at
 from .summary import ChunkPlace, Summary, read_summary
 
 Warn = Callable[[str], None]
@@ -91,7 +91,7 @@ class _Indexed:
     def _read(self, chunk: ChunkPlace) -> Iterator[Message]:
         """Messages of a chunk; a damaged chunk is skipped with a warning."""
         try:
-            records = chunk_at(self._file, chunk.place)
+            records = section_at(self._file, chunk.place)
         except DAMAGED as reason:
             begin = self.contents.extent.start
             first, last = chunk.start - begin, chunk.end - begin

@@ -5,16 +5,15 @@ A day of a twin has 200 000 chunks.
 
 from __future__ import annotations
 
-from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
 
-from mcap.data_stream import ReadDataStream
-from mcap.opcode import Opcode
 from mcap.records import Channel, ChunkIndex, Metadata, MetadataIndex, Schema, Statistics
+from mcap.stream_reader import StreamReader
 
-from .framing import opened, piece_at
-from .integrity import damaged_summary, start_of_summary
+from .framing import LONGEST_RECORD
+from .integrity import start_of_summary
+from .records import section_at
 
 
 class ChunkPlace(NamedTuple):
@@ -48,31 +47,28 @@ def read_summary(file: Path) -> Summary:
     Raises:
         one of `DAMAGED`: there is none with statistics, or it is damaged.
     """
-    if damaged_summary(file):
+    start = start_of_summary(file)
+    if start is None:
         raise ValueError("checksum error")
     schemas, channels = dict[int, Schema](), dict[int, Channel]()
     statistics: Statistics | None = None
     chunks, metadata = list[ChunkPlace](), list[Metadata]()
     sets: dict[frozenset[int], frozenset[int]] = {}  # so that equal ones are one object
     with file.open("rb") as stream:
-        stream.seek(start_of_summary(file))
-        while (piece := piece_at(stream)).opcode != Opcode.FOOTER:
-            data = ReadDataStream(BytesIO(piece.content))
-            if piece.opcode == Opcode.CHUNK_INDEX:
-                chunks.append(_place(ChunkIndex.read(data), sets))
-            elif piece.opcode == Opcode.STATISTICS:
-                statistics = Statistics.read(data)
-            elif piece.opcode == Opcode.SCHEMA:
-                (schema,) = opened(piece)
-                schemas[schema.id] = schema
-            elif piece.opcode == Opcode.CHANNEL:
-                (channel,) = opened(piece)
-                channels[channel.id] = channel
-            elif piece.opcode == Opcode.METADATA_INDEX:
-                here = stream.tell()
-                stream.seek(MetadataIndex.read(data).offset)
-                metadata += opened(piece_at(stream))
-                stream.seek(here)
+        stream.seek(start)
+        reader = StreamReader(stream, skip_magic=True, record_size_limit=LONGEST_RECORD)
+        for record in reader.records:
+            if isinstance(record, ChunkIndex):
+                chunks.append(_place(record, sets))
+            elif isinstance(record, Statistics):
+                statistics = record
+            elif isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                channels[record.id] = record
+            elif isinstance(record, MetadataIndex):
+                found = section_at(file, record.offset)
+                metadata += [each for each in found if isinstance(each, Metadata)]
     if statistics is None:
         raise ValueError("no statistics")
     chunks.sort(key=lambda chunk: chunk.place)

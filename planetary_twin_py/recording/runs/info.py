@@ -14,8 +14,8 @@ from mcap.records import Channel, Message, Metadata, Schema
 
 from ...text.escaping import one_line
 from ..container.message_index import UNSOUND, Index, LogTimes
-from ..container.progress import may_be_written
 from ..container.records import files_of
+from ..container.walk import may_be_written
 from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
