@@ -5,15 +5,25 @@ A day of a twin has 200 000 chunks.
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from mcap.records import Channel, ChunkIndex, Metadata, MetadataIndex, Schema, Statistics
+from mcap.records import (
+    Channel,
+    ChunkIndex,
+    Message,
+    Metadata,
+    MetadataIndex,
+    Schema,
+    Statistics,
+)
 from mcap.stream_reader import StreamReader
 
+from .extent import Extent
 from .framing import LONGEST_RECORD
 from .integrity import start_of_summary
-from .records import section_at
+from .records import section_at, sections_of
 
 
 class ChunkPlace(NamedTuple):
@@ -36,7 +46,9 @@ class Summary(NamedTuple):
 
     schemas: dict[int, Schema]
     channels: dict[int, Channel]
-    statistics: Statistics
+    counts: Counter[int]
+    """Messages by channel."""
+    extent: Extent
     chunks: list[ChunkPlace]
     metadata: list[Metadata]
 
@@ -45,7 +57,7 @@ def read_summary(file: Path) -> Summary:
     """Read the summary of a file.
 
     Raises:
-        one of `DAMAGED`: there is none with statistics, or it is damaged.
+        one of `DAMAGED`: there is none with statistics, channels and chunks, or it is damaged.
     """
     start = start_of_summary(file)
     if start is None:
@@ -72,7 +84,42 @@ def read_summary(file: Path) -> Summary:
     if statistics is None:
         raise ValueError("no statistics")
     chunks.sort(key=lambda chunk: chunk.place)
-    return Summary(schemas, channels, statistics, chunks, metadata)
+    if len(channels) < statistics.channel_count or (statistics.message_count and not chunks):
+        raise ValueError("channels or chunks are not listed")
+    counts = Counter(statistics.channel_message_counts)
+    extent = Extent(statistics.message_start_time, statistics.message_end_time)
+    return Summary(schemas, channels, counts, extent, chunks, metadata)
+
+
+def summary_of_records(file: Path, remarks: list[str]) -> Summary:
+    """Make a summary of what can be read in a file, with a place for each section of messages.
+
+    Args:
+        file: MCAP file.
+        remarks: a line is appended for each damaged part.
+
+    Raises:
+        RecordingError: nothing can be read.
+    """
+    found = Summary({}, {}, Counter[int](), Extent(), [], [])
+    for place, records in sections_of(file, remarks):
+        for record in records:
+            if isinstance(record, Schema):
+                found.schemas[record.id] = record
+            elif isinstance(record, Channel):
+                found.channels[record.id] = record
+            elif isinstance(record, Metadata):
+                found.metadata.append(record)
+        messages = [record for record in records if isinstance(record, Message)]
+        if messages:
+            times = [message.log_time for message in messages]
+            channels = [message.channel_id for message in messages]
+            found.counts.update(channels)
+            found.extent.include(min(times))
+            found.extent.include(max(times))
+            part = ChunkPlace(min(times), max(times), place, place, 0, frozenset(channels))
+            found.chunks.append(part)
+    return found
 
 
 def _place(index: ChunkIndex, sets: dict[frozenset[int], frozenset[int]]) -> ChunkPlace:
