@@ -36,6 +36,7 @@ _FULL = 0.99  # quantile of the loads at the end of the scale; rare impacts exce
 _OVERHANG = 0.06  # of the face width, so that the end is visible in front of the gears
 _THICKEST, _LONGEST = 0.24, 3.0  # radius and bend at the full load [modules]
 _BARS = 48  # steps of the drawn scale
+_BLOCK = 8192  # times that are sent at once: about 30 MB while they become strips
 _NEAR = 2e-4  # [s], largest time difference between a sample and its use
 
 
@@ -65,19 +66,27 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
         recording: recording to draw.
         motion: angles at the times to draw.
     """
-    gearbox, force = Gearbox(scene), forces(recording, motion.time)
-    contacts_of_meshes = [
-        contacts(gearbox, mesh, motion.angle, force[:, mesh])
-        for mesh in range(len(recording.meshes))
-    ]
-    loads = np.concatenate([mesh.load[mesh.load > 0.0] for mesh in contacts_of_meshes])
-    if not len(loads):
+    gearbox, meshes, force = Gearbox(scene), recording.meshes, forces(recording, motion.time)
+    blocks = [slice(n, n + _BLOCK) for n in range(0, len(motion.time), _BLOCK)]
+
+    def angles(rows: slice) -> dict[str, Array]:
+        return {member: angle[rows] for member, angle in motion.angle.items()}
+
+    loads = []
+    for rows in blocks:
+        for mesh in range(len(meshes)):
+            load = pair_loads(gearbox, mesh, angles(rows), force[rows, mesh]).load
+            loads.append(load[load > 0.0])
+    loaded = np.concatenate(loads)
+    if not len(loaded):
         return
-    full = one_digit(float(np.quantile(loads, _FULL)))
-    index = timeline.columns(motion.time, motion.stamp)
-    for name, mesh in zip(recording.meshes, contacts_of_meshes, strict=True):
-        columns = _strips(scene.gearset, mesh, full)
-        layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
+    full = one_digit(float(np.quantile(loaded, _FULL)))
+    for rows in blocks:
+        index = timeline.columns(motion.time[rows], motion.stamp[rows])
+        for mesh, name in enumerate(meshes):
+            found = contacts(gearbox, mesh, angles(rows), force[rows, mesh])
+            columns = _strips(scene.gearset, found, full)
+            layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
     _log_scale(layer, scene.gearset, full)
 
 
