@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
-import importlib
 import multiprocessing
 import os
+import runpy
 import signal
 import subprocess
 import sys
@@ -86,7 +86,7 @@ _FRUGAL = {"planetary_twin.simulation": ("--ros-args", "-p", "tolerance:=0.001")
 
 
 class Forked:
-    """The `main` of a module in a process forked from a warm one; used as `Executed`.
+    """A module run in a process forked from a warm one; used as `Executed`.
 
     A simulation has a fixed tolerance unless `arguments` give another.
     """
@@ -167,6 +167,5 @@ def _run(
     os.chdir(cwd)
     os.environ.clear()
     os.environ.update(environment)
-    program = importlib.import_module(module)
-    sys.argv = [str(program.__file__), *arguments]
-    sys.exit(program.main())
+    sys.argv = [module, *arguments]
+    runpy.run_module(module, run_name="__main__", alter_sys=True)

@@ -13,9 +13,9 @@ from sensor_msgs.msg import JointState
 
 from planetary_twin_py.recording.ros2.topics import status_name
 
-from ..client import Client
-from ..follower_reports import CONDITION
-from .children import RunError
+from ..clients.client import Client
+from ..follower.diagnostics import CONDITION
+from .node_process import RunError
 
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SETTLED = 0.5  # [s] without a new estimate after which no further one is expected

@@ -1,0 +1,82 @@
+"""Services for events and baselines of an active follower."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Protocol
+
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+import planetary_twin_py as pt
+
+from .live_follower import LiveFollower
+
+
+class Followed(Protocol):
+    """What the services need of the node."""
+
+    def active(self) -> LiveFollower:
+        """Return the live follower; raises `ValueError` if there is none."""
+
+    def acknowledge(self) -> int:
+        """Acknowledge all events; return how many are new to it."""
+
+
+class BaselineServices:
+    """
+    The services `~/learn`, `~/acknowledge`, `~/save_baseline` and `~/load_baseline` of `node`.
+
+    The parameter `baseline` of `node` names the file. The response gives the file, or the reason
+    of a refusal.
+    """
+
+    def __init__(self, node: Node, followed: Followed) -> None:
+        self._node, self._followed = node, followed
+        commands = {
+            "learn": self._learn,
+            "acknowledge": self._acknowledge,
+            "save_baseline": self._save,
+            "load_baseline": self._load,
+        }
+        for name, command in commands.items():
+            node.create_service(Trigger, f"~/{name}", _answering(command))
+
+    def _learn(self) -> str:
+        self._followed.active().ask(pt.Follower.learn)
+        return "baselines of teeth and vibration are learned from now on"
+
+    def _acknowledge(self) -> str:
+        self._followed.active()
+        return f"{self._followed.acknowledge()} events acknowledged"
+
+    def _save(self) -> str:
+        path = self._file()
+        self._followed.active().ask(lambda follower: follower.save_baseline(path))
+        return str(path)
+
+    def _load(self) -> str:
+        path = self._file()
+        self._followed.active().ask(lambda follower: follower.load_baseline(path))
+        return str(path)
+
+    def _file(self) -> Path:
+        name = self._node.get_parameter("baseline").value
+        if not name:
+            raise ValueError("baseline = '': must be the path of a file")
+        return Path(name).expanduser().absolute()
+
+
+def _answering(
+    command: Callable[[], str],
+) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
+    def answer(request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            response.message = command()
+            response.success = True
+        except (ValueError, OSError) as refusal:  # TimeoutError is an OSError
+            response.success, response.message = False, str(refusal)
+        return response
+
+    return answer
