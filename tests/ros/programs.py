@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
+import importlib
 import multiprocessing
 import os
-import runpy
 import signal
 import subprocess
 import sys
@@ -167,5 +167,8 @@ def _run(
     os.chdir(cwd)
     os.environ.clear()
     os.environ.update(environment)
-    sys.argv = [module, *arguments]
-    runpy.run_module(module, run_name="__main__", alter_sys=True)
+    program = importlib.import_module(module)
+    if not hasattr(program, "main"):  # the folder of a node
+        program = importlib.import_module(f"{module}.node")
+    sys.argv = [str(program.__file__), *arguments]
+    sys.exit(program.main())

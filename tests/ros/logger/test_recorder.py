@@ -30,7 +30,7 @@ from ..peer import LATCHED, LONG, TWIN, Peer
 from ..recordings import counts
 from ..reported import recorded
 
-COUNTER = Path(__file__).with_name("counter.py")
+COUNTER = Path(__file__).parents[1] / "counter.py"
 TOPIC = f"{TWIN}/numbers"
 DESCRIPTION = f"{TWIN}/robot_description"
 URDF = "<robot name='gearbox'/>"
