@@ -7,19 +7,22 @@ Stamps are set when a message is sent.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Window
-from planetary_twin_py.recording.ros2.fields import MEMBERS, TURN, mesh_field
+from planetary_twin_py.recording.ros2.fields import (
+    TURN,
+    mesh_fields,
+    state_numbers,
+    state_of_planets,
+)
 from planetary_twin_py.recording.ros2.point import point_fields
 from planetary_twin_py.run.twin import Change
-from planetary_twin_py.units.catalogue import TRAIN, WAVEFORM
 
 from .whole_turns import WholeTurns
 
@@ -28,74 +31,52 @@ class StateMessage:
     """GearboxState of `scene` in `frame`; entries beyond the number of planets stay NaN."""
 
     def __init__(self, scene: Scene, frame: str) -> None:
-        self.message = msg.GearboxState(planets=scene.gearset.planets)
+        planets = scene.gearset.planets
+        self.message = msg.GearboxState(planets=planets)
         self.message.header.frame_id = frame
         names = self.message.get_fields_and_field_types()
         for name, kind in names.items():
             if kind == "double[7]":
                 getattr(self.message, name)[:] = np.nan
-        self._planets = scene.gearset.planets
-        self._mesh = [
-            (getattr(self.message, name)[: self._planets], *shown)
-            for name in names
-            if (shown := mesh_field(name, self._planets))
-        ]
+        self._meshes = mesh_fields(names, planets)
+        self._of_planets = {
+            name: getattr(self.message, name)[:planets]
+            for name in ("planet_angle", "planet_speed", *(field.name for field in self._meshes))
+        }
 
     def fill(self, window: Window) -> msg.GearboxState:
         """Return the message for `window`."""
         message = self.message
         message.sequence += 1
-        message.simulated_time = window.end
-        message.interval = window.end - window.start
         message.tolerance = window.tolerance
         message.sample_rate = window.sample_rate
-        for name in MEMBERS:
-            body = window.bodies.index(name)
-            setattr(message, f"{name}_angle", float(window.angle[body]))
-            setattr(message, f"{name}_speed", float(window.mean_speed[body]))
-        first = window.bodies.index("planet_1")
-        planets = slice(first, first + self._planets)
-        message.planet_angle[: self._planets] = window.angle[planets]
-        message.planet_speed[: self._planets] = window.mean_speed[planets]
-        for name in TRAIN:
-            setattr(message, name, float(getattr(window, name)))
-        for target, name, first in self._mesh:
-            end = first + self._planets
-            target[:] = window.mesh[name][first:end]
+        for name, value in state_numbers(window).items():
+            setattr(message, name, value)
+        for name, values in state_of_planets(window, self._meshes).items():
+            self._of_planets[name][:] = values
         return message
 
 
-class WaveformMessage:
-    """MeshWaveform of `scene` in `frame`."""
+class IntervalMessage:
+    """A message of type `kind` in `frame`, with the fields that `fields` returns for a window."""
 
-    def __init__(self, scene: Scene, frame: str) -> None:
-        planets = scene.gearset.planets
-        self.message = msg.MeshWaveform(planets=planets)
+    def __init__(self, kind: type, frame: str, fields: Callable[[Window], dict[str, Any]]) -> None:
+        self.message = kind()
         self.message.header.frame_id = frame
-        self._meshes = 2 * planets
-        self._views: list[NDArray[np.float32]] = []
+        self._fields = fields
 
-    def fill(self, window: Window) -> msg.MeshWaveform:
-        """Return the message for `window`."""
-        wave, message = window.waveform, self.message
-        if message.samples != len(wave.time):
-            self._allocate(len(wave.time))
-        message.sequence += 1
-        message.start_time = float(wave.time[0])
-        message.sample_period = wave.period
-        for view, name in zip(self._views, WAVEFORM, strict=True):
-            view[:] = getattr(wave, name).T
-        return message
-
-    def _allocate(self, samples: int) -> None:
-        self.message.samples = samples
-        self._views = []
-        for name in WAVEFORM:
-            values = array("f", bytes(4 * self._meshes * samples))
-            setattr(self.message, name, values)
-            # The view shares the memory of the message.
-            view = np.frombuffer(getattr(self.message, name), dtype=np.float32)
-            self._views.append(view.reshape(self._meshes, samples))
+    def fill(self, window: Window) -> Any:
+        """Return the message for `window`; arrays of the same length keep their memory."""
+        self.message.sequence += 1
+        for name, value in self._fields(window).items():
+            before = getattr(self.message, name)
+            if not isinstance(value, np.ndarray):
+                setattr(self.message, name, value)
+            elif len(before) == len(value):
+                np.frombuffer(before, value.dtype)[:] = value
+            else:
+                setattr(self.message, name, array(value.dtype.char, value.tobytes()))
+        return self.message
 
 
 class JointsMessage:

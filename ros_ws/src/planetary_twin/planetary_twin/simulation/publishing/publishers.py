@@ -17,6 +17,8 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py import Scene, Window
+from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields, axes_waveform_fields
+from planetary_twin_py.recording.ros2.fields import waveform_fields
 from planetary_twin_py.recording.ros2.given import fields_of, joint_names
 from planetary_twin_py.recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN
 from planetary_twin_py.recording.runs.origin import Origin, makers_here
@@ -25,8 +27,7 @@ from planetary_twin_py.run.twin import Change
 
 from ...base.clock import StrictClock, set_stamp
 from ..parameters import SimulationParameters
-from .axes_messages import AxesStateMessage, AxesWaveformMessage
-from .messages import JointsMessage, OperatingPointMessage, StateMessage, WaveformMessage
+from .messages import IntervalMessage, JointsMessage, OperatingPointMessage, StateMessage
 from .stamps import Stamps
 from .transforms import TransformsMessage
 
@@ -57,9 +58,13 @@ class Telemetry:
         self._open(given)
         frame = given.frame_prefix + given.frame
         self._state_message = StateMessage(given.scene, frame)
-        self._waveform_message = WaveformMessage(given.scene, frame)
-        self._axes_message = AxesStateMessage(frame)
-        self._axes_waveform_message = AxesWaveformMessage(frame)
+        self._waveform_message = IntervalMessage(msg.MeshWaveform, frame, waveform_fields)
+        self._axes_message = IntervalMessage(
+            msg.AxesState, frame, lambda window: axes_state_fields(window, window.axes)
+        )
+        self._axes_waveform_message = IntervalMessage(
+            msg.AxesWaveform, frame, lambda window: axes_waveform_fields(window, window.axes)
+        )
         self._joints_message: JointsMessage | None = None
         self._continuous = given.continuous_joints
         self._point_message = OperatingPointMessage(frame)
@@ -197,13 +202,12 @@ class Telemetry:
 
     def _prepare_axes(self, window: Window) -> None:
         """Fill the messages about axes that move."""
-        axes = window.axes
-        if self._axes is None or self._axes_waveform is None or axes is None:
+        if self._axes is None or window.axes is None:
             return
-        state = self._axes_message.fill(window, axes)
+        state = self._axes_message.fill(window)
         self._prepared.append((self._axes, state, [state.header.stamp], window.end))
         if len(window.waveform.time):
-            wave = self._axes_waveform_message.fill(window, axes)
+            wave = self._axes_waveform_message.fill(window)
             self._prepared.append(
                 (self._axes_waveform, wave, [wave.header.stamp], wave.start_time)
             )
