@@ -43,7 +43,7 @@ class Source(Protocol):
         """Return the messages that have arrived since the last call, in order."""
 
 
-class Listener(Protocol):
+class FollowerNode(Protocol):
     """Receives the results of the follower, called in its thread."""
 
     def started(self) -> None:
@@ -110,15 +110,15 @@ class Portions:
 
 class LiveFollower:
     """
-    Passes the messages of `source` to a follower and its estimates to `listener`.
+    Passes the messages of `source` to a follower and its estimates to `node`.
 
     The estimates depend on the messages only: not on when the thread runs, and not on how many
     messages it processes at once. On a slow computer the same estimates are published later. Only
     the time without readings is measured by the clock.
     """
 
-    def __init__(self, options: FollowerOptions, source: Source, listener: Listener) -> None:
-        self._options, self._source, self._listener = options, source, listener
+    def __init__(self, options: FollowerOptions, source: Source, node: FollowerNode) -> None:
+        self._options, self._source, self._node = options, source, node
         self._begin()
         self.behind = 0.0
         """Time that the last messages waited for this thread [s]."""
@@ -176,7 +176,7 @@ class LiveFollower:
         return self._refusal
 
     def _begin(self) -> None:
-        self._listener.started()
+        self._node.started()
         self._follower = self._options.follower()
         self.latest: Following = self._follower.estimate()
         """The last reported estimate."""
@@ -194,7 +194,7 @@ class LiveFollower:
         try:
             self._follow()
         except Exception as defect:
-            self._listener.broke(defect)
+            self._node.broke(defect)
 
     def _follow(self) -> None:
         looked = -math.inf
@@ -234,7 +234,7 @@ class LiveFollower:
         for n, one in enumerate(arrived):
             if (back := self._jumps.add(one)) is None:
                 continue
-            self._listener.jumped(back)
+            self._node.jumped(back)
             if self._options.reset_on_time_jump:
                 self._process(arrived[begin:n])
                 self._begin()
@@ -265,7 +265,7 @@ class LiveFollower:
             step()
         except InputError as fault:
             self._refusal = str(fault)
-            self._listener.refused(self._refusal)
+            self._node.refused(self._refusal)
 
     def _report_what_is_new(self, arrival: float) -> None:
         """
@@ -286,4 +286,4 @@ class LiveFollower:
         self._faults = tuple(self._reader.remarks())
         estimate = replace(estimate, remarks=(*estimate.remarks, *self._faults))
         self.latest = estimate
-        self._listener.estimated(estimate)
+        self._node.estimated(estimate)

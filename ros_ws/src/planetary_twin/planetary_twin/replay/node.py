@@ -32,7 +32,7 @@ _SHOW_PERIOD = 0.1  # [s]
 _RATE = "rate_factor"
 
 
-class Listener(Protocol):
+class ReplayDisplay(Protocol):
     """Receives the messages and the position of a replay."""
 
     def say(self, text: str) -> None:
@@ -52,15 +52,15 @@ class Replay(ManagedNode):
     `configure` opens the recording, `activate` plays it, `deactivate` stops it. The node ends with
     the recording.
 
-    `given` contains start values of parameters. `listener` shows messages and the position, by
+    `given` contains start values of parameters. `display` shows messages and the position, by
     default in the node's log.
     """
 
     def __init__(
-        self, given: Mapping[str, Any] | None = None, listener: Listener | None = None
+        self, given: Mapping[str, Any] | None = None, display: ReplayDisplay | None = None
     ) -> None:
         super().__init__("replay", given)
-        self._listener = listener or _Log()
+        self._display = display or _Log()
         self._declare()
         self._playback: Playback | None = None
         self._outlets: Outlets | None = None
@@ -88,7 +88,7 @@ class Replay(ManagedNode):
         if ticking:
             topics[CLOCK.name] = CLOCK
         elif self._clock_rate:
-            self._listener.warn(
+            self._display.warn(
                 f"clock = {self._clock_rate:g}: {self._path} contains /clock, which is played"
             )
         names = (
@@ -107,7 +107,7 @@ class Replay(ManagedNode):
     def activate(self) -> None:
         """Start after the time for discovery, or continue."""
         if not self.ready():
-            self._listener.say(f"waiting {_DISCOVERY:g} s for subscribers")
+            self._display.say(f"waiting {_DISCOVERY:g} s for subscribers")
         self._player.start(self.get_parameter(_RATE).value)
         self._active = True
 
@@ -123,7 +123,7 @@ class Replay(ManagedNode):
             return
         self._active = False
         player.stop()
-        self._listener.say(
+        self._display.say(
             f"replayed {self._played} messages, at most {player.lateness * 1e3:.1f} ms late"
         )
         self._outlets.close()
@@ -137,11 +137,11 @@ class Replay(ManagedNode):
     def begin(self) -> None:
         """Report what is played, and topics that have other publishers."""
         length = (self._end - self._begin) * 1e-9
-        self._listener.say(
+        self._display.say(
             f"replaying {length:.2f} s of {len(self._outlets)} topics from {self._path}"
         )
         if shared := self._outlets.shared():
-            self._listener.warn(
+            self._display.warn(
                 f"other publishers exist, subscribers receive both: {', '.join(shared)}"
             )
 
@@ -156,7 +156,7 @@ class Replay(ManagedNode):
         now = time.monotonic()
         if now - self._shown > _SHOW_PERIOD:
             self._shown = now
-            self._listener.move(message.time * 1e-9, self._end * 1e-9)
+            self._display.move(message.time * 1e-9, self._end * 1e-9)
 
     def ended(self) -> None:
         """End the process once subscribers have acknowledged the last messages."""
@@ -254,7 +254,7 @@ class Replay(ManagedNode):
     def _warn_of_damage(self) -> None:
         remarks, warned = self._playback.remarks, self._warned
         for remark in remarks[warned:]:
-            self._listener.warn(remark)
+            self._display.warn(remark)
         self._warned = len(remarks)
 
 

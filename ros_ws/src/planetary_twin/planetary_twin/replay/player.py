@@ -19,7 +19,7 @@ _YIELD = 2e-3  # [s] for subscribers to acknowledge messages
 _LONGEST_WAIT = 3600.0  # [s] for a command, while there is nothing to play
 
 
-class Listener(Protocol):
+class PlayerNode(Protocol):
     """Callbacks of a player, called in its thread."""
 
     def ready(self) -> bool:
@@ -63,12 +63,12 @@ class Player:
     at an instant, all messages up to and at that instant have been played. Commands are executed
     between two messages; their futures return the recorded instant [s].
 
-    `paused` is the state at the start. `listener` receives the messages.
+    `paused` is the state at the start. `node` receives the messages.
     """
 
-    def __init__(self, excerpt: Excerpt, paused: bool, listener: Listener) -> None:
+    def __init__(self, excerpt: Excerpt, paused: bool, node: PlayerNode) -> None:
         self._excerpt = excerpt
-        self._listener = listener
+        self._node = node
         self._paused = paused
         self._transport = Transport(excerpt.begin)
         self._commands = CommandQueue(self._set)
@@ -80,7 +80,7 @@ class Player:
         """Longest delay of a message [s]."""
 
     def start(self, rate_factor: float) -> None:
-        """Start as soon as the listener is ready, or continue after `stop`."""
+        """Start as soon as the node is ready, or continue after `stop`."""
         self._stop.clear()
         self._transport.set_rate(rate_factor, time.monotonic(), self._upcoming)
         self._thread = threading.Thread(target=self._run, name="playback", daemon=True)
@@ -111,18 +111,18 @@ class Player:
 
     def _run(self) -> None:
         try:
-            while not self._listener.ready():
+            while not self._node.ready():
                 if self._stop.wait(_POLL):
                     return
             if self._messages is None:
-                self._listener.begin()
+                self._node.begin()
                 self._go_to(self._excerpt.begin)
             if not self._paused:
                 self._transport.resume(time.monotonic())
             if self._play():
-                self._listener.ended()
+                self._node.ended()
         except Exception as defect:
-            self._listener.stopped(defect)
+            self._node.stopped(defect)
         finally:
             self._transport.pause(time.monotonic(), self._upcoming)
             self._commands.refuse("the replay has stopped")
@@ -159,10 +159,10 @@ class Player:
         self._next = next(self._messages, None)
 
     def _has_room(self) -> bool:
-        return self._next is None or self._listener.has_room(self._next)
+        return self._next is None or self._node.has_room(self._next)
 
     def _play_next(self) -> None:
-        self._listener.play(self._next)
+        self._node.play(self._next)
         self._next = next(self._messages, None)
 
     def _play_through(self, instant: int) -> None:

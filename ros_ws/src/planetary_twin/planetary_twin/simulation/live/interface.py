@@ -1,4 +1,4 @@
-"""Interface of a live twin: its listener, its progress, and commands at its ports."""
+"""Interface of a live twin: the node, its progress, and commands at its ports."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.run.twin import Change
 
 
-class Listener(Protocol):
+class TwinNode(Protocol):
     """Callbacks of a live twin, in its thread, or in that of a command while it halts."""
 
     def prepare(self, window: Window) -> None:

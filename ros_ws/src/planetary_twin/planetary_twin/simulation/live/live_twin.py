@@ -16,7 +16,7 @@ from planetary_twin_py.scene.live import PORT_FIELDS
 
 from ...base.command_queue import CommandQueue
 from .hold import Hold
-from .interface import Listener, PortCommands, Progress, State
+from .interface import PortCommands, Progress, State, TwinNode
 from .pace import Pace
 from .ramps import Ramps
 from .turns import Turns
@@ -49,7 +49,7 @@ class LiveTwin:
         interval: float,
         rate_factor: float,
         quality: QualityControl,
-        listener: Listener,
+        node: TwinNode,
         port_commands: PortCommands,
     ) -> None:
         self._twin = twin
@@ -57,9 +57,9 @@ class LiveTwin:
         self._interval = interval
         self._stop = threading.Event()
         self._pace = Pace(interval / rate_factor if rate_factor else 0.0, self._stop.wait)
-        self._hold = Hold(lambda: 0.0 < rate_factor <= 1.0 or listener.has_room())
+        self._hold = Hold(lambda: 0.0 < rate_factor <= 1.0 or node.has_room())
         self.quality = quality
-        self._listener = listener
+        self._node = node
         self._commands = CommandQueue(self._set)
         self._turns = Turns(self._serve)
         self._ramps = Ramps()
@@ -141,7 +141,7 @@ class LiveTwin:
                     self._cpu = time.thread_time()
                     self.progress = self._present()
         except Exception as defect:
-            self._listener.stopped(defect)
+            self._node.stopped(defect)
         finally:
             self._commands.refuse(_STOPPED)
 
@@ -158,7 +158,7 @@ class LiveTwin:
         running = not (self._halted or self._hold.active)
         if running:
             self._follow_ramps()
-        if running or self._listener.ready():
+        if running or self._node.ready():
             self._announce()
         if answers:  # the progress that a client reads next includes its command
             self.progress = self._present()
@@ -168,7 +168,7 @@ class LiveTwin:
 
     def _resume(self) -> None:
         """Resume time; at time zero, publish a new origin of the run and all changes after it."""
-        self._listener.resumed(self._twin)
+        self._node.resumed(self._twin)
         if self._twin.time == 0.0:
             self._due = list(self._at_zero)
 
@@ -179,7 +179,7 @@ class LiveTwin:
         if self._halted:
             self._resume()
         for change in self._due:
-            self._listener.changed(change)
+            self._node.changed(change)
         self._due.clear()
 
     def _note(self) -> None:
@@ -205,7 +205,7 @@ class LiveTwin:
             return self._advance(self._interval, self._pace.wait, given, self.quality)
         except ValueError as refusal:
             self._port_commands.refuse(str(refusal))
-            self._listener.refused(f"a command has no effect: {refusal}")
+            self._node.refused(f"a command has no effect: {refusal}")
             return self._advance(self._interval, self._pace.wait, {}, self.quality)
 
     def _advance(
@@ -230,11 +230,11 @@ class LiveTwin:
         except RunawayError as reason:  # nothing of the interval is published
             self._failure = str(reason)
             return False
-        self._listener.prepare(window)
+        self._node.prepare(window)
         prepared = time.monotonic()
         wait()
         waited = time.monotonic() - prepared
-        if self._listener.publish():
+        if self._node.publish():
             self._pace.start()
         work = time.thread_time() - cpu
         quality.observe(time.monotonic() - begin - waited, work, window.repeated)
@@ -247,7 +247,7 @@ class LiveTwin:
         if setting != before:
             twin.set_tolerance(setting.tolerance)
             instant = twin.set_sample_rate(setting.sample_rate)
-            self._listener.retuned(instant, before, quality)
+            self._node.retuned(instant, before, quality)
 
     def _set(self, values: Mapping[str, Any]) -> float:
         self._ramps.leave(values)
@@ -279,7 +279,7 @@ class LiveTwin:
             self._change(values)
         except ValueError as refusal:  # the twin keeps its last good state
             self._ramps.clear()
-            self._listener.refused(f"a ramp ends before its final values: {refusal}")
+            self._node.refused(f"a ramp ends before its final values: {refusal}")
 
     def _refuse_after_failure(self) -> None:
         if self._failure:
@@ -309,9 +309,9 @@ class LiveTwin:
                 f"commands: {len(commands)} steps of {duration:g} s: must be at most "
                 f"{LONGEST_STEP:g} s in total"
             )
-        if not self._listener.has_clock():
+        if not self._node.has_clock():
             raise ValueError(f"{NO_CLOCK}; step the twin then")
-        self._wait_until(self._listener.ready)
+        self._wait_until(self._node.ready)
         self._resume()
         received = self._given(0.0)
         for n, command in enumerate(commands):
@@ -330,7 +330,7 @@ class LiveTwin:
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
-            self._wait_until(self._listener.has_room)  # steps are not paced
+            self._wait_until(self._node.has_room)  # steps are not paced
             commands = given if n == 0 else {}
             self._advance(min(self._interval, left), lambda: None, commands, quality)
             self.progress = self._present()
@@ -356,7 +356,7 @@ class LiveTwin:
         return twin.time
 
     def _must_halt(self) -> bool:
-        return bool(self._failure) or self._paused or not self._listener.ready()
+        return bool(self._failure) or self._paused or not self._node.ready()
 
     def _patience(self) -> float:
         """Return how long to rest [s]."""
