@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from planetary_twin.base.diagnostics import diagnostics
 from planetary_twin.simulation.diagnostics.real_time import RealTimeReport
 from planetary_twin.simulation.live.interface import Progress, State
 from planetary_twin.simulation.publishing.stamps import Skip
@@ -31,7 +32,7 @@ class Reports:
         self.stamps = SimpleNamespace(lag=0.0, skips=deque[Skip]())
         self._now = time.monotonic()
         started = Progress(0.0, self._now - 10.0, 0.0, 0.0, 0.0, 0, False, State.RUNNING)
-        self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, started)
+        self._report = RealTimeReport(1.0, PERIOD, self.log, started)
 
     def __call__(
         self,
@@ -45,7 +46,11 @@ class Reports:
         lasted = 10.0 - ago if state == State.RUNNING else simulated
         wall = self._now - ago
         now = Progress(simulated, wall, simulated, lasted, 0.0, overruns, False, state)
-        return self._report.message(now, AFFORDABLE, {}, self.stamps, last=last)
+        return self.at(now, last=last)
+
+    def at(self, now: Progress, *, last: bool = False) -> DiagnosticArray:
+        row = self._report.row(now, AFFORDABLE, {}, self.stamps, last=last)
+        return diagnostics([row], "/twin")
 
 
 @pytest.mark.parametrize(
@@ -126,8 +131,7 @@ def test_pauses_are_no_part_of_the_mean() -> None:
     """Nine seconds of waiting, or of a pause, and one at half the rate."""
     reports = Reports()
     now = Progress(0.5, time.monotonic(), 0.5, 1.0, 0.0, 0, False, State.RUNNING)
-    message = reports._report.message(now, AFFORDABLE, {}, reports.stamps, last=False)
-    assert figures([message])["real_time_factor_mean"] == "0.5000"
+    assert figures([reports.at(now)])["real_time_factor_mean"] == "0.5000"
 
 
 def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:

@@ -12,8 +12,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
 from domains import private_domain
 from planetary_twin.clients.monitor import Monitor
-from planetary_twin.simulation.diagnostics.accuracy import ACCURACY
-from planetary_twin.simulation.diagnostics.dynamics import DYNAMICS
+from planetary_twin.simulation.diagnostics.intervals import ACCURACY, DYNAMICS
 from planetary_twin_msgs.msg import AxesState, AxesWaveform, GearboxState, RecorderStatus
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String

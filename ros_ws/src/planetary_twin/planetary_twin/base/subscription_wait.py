@@ -8,8 +8,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
-from planetary_twin_py.recording.ros2.topics import status_name
-
+from .diagnostics import Row
 from .topics import UNKNOWN_NODE, is_of_twin
 
 RECORDER = "simulation: recorder"
@@ -69,20 +68,16 @@ class SubscriptionWait:
             )
         return self._present
 
-    def status(self, hardware: str) -> DiagnosticStatus:
+    def row(self) -> Row:
         """
-        Return the report on the node that the twin has waited for; `hardware` is the namespace.
+        Return the report on the node that the twin has waited for.
 
         A node that was killed counts as present until the middleware forgets its process.
         """
         missing = self._present and self._subscriptions() == (0, 0)
         text = "does not subscribe: nothing is recorded by it" if missing else "subscribes"
-        return DiagnosticStatus(
-            level=DiagnosticStatus.ERROR if missing else DiagnosticStatus.OK,
-            name=status_name(RECORDER, hardware),
-            message=f"{self._name} {text}",
-            hardware_id=hardware,
-        )
+        level = DiagnosticStatus.ERROR if missing else DiagnosticStatus.OK
+        return Row(RECORDER, level, f"{self._name} {text}")
 
     def _published(self) -> list[Publisher]:
         """Return the publishers of the twin's own topics."""

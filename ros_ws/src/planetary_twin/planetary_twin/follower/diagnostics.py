@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 from typing import NamedTuple
 
-from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticStatus
 
 from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.follower import Following
-from planetary_twin_py.recording.ros2.topics import status_name
+
+from ..base.diagnostics import Row
 
 CONDITION = "condition"
 REPORTS = "inputs", "clock", "estimator", CONDITION
@@ -50,29 +51,18 @@ def key_of(event: Event) -> tuple[str, float]:
     return event.what, event.since
 
 
-def statuses(
-    state: Following, feed: Feed, limits: Limits, hardware: str, namespace: str
-) -> list[DiagnosticStatus]:
-    """Return the four reports of the follower in `namespace` on a gearbox named `hardware`."""
+def rows(state: Following, feed: Feed, limits: Limits) -> list[Row]:
+    """Return the four reports."""
     parts = (
         _inputs(state, feed),
         _clock(state, feed),
         _estimator(state),
         _condition(state, limits, feed),
     )
-    return [
-        DiagnosticStatus(
-            level=level,
-            name=status_name(f"follower: {report}", namespace),
-            message=message,
-            hardware_id=hardware,
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
-        )
-        for report, (level, message, values) in zip(REPORTS, parts, strict=True)
-    ]
+    return [Row(f"follower: {report}", *part) for report, part in zip(REPORTS, parts, strict=True)]
 
 
-_Part = tuple[bytes, str, Mapping[str, str]]
+_Part = tuple[bytes, str, dict[str, str]]
 
 
 def _inputs(state: Following, feed: Feed) -> _Part:

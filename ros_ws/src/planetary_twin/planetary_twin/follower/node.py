@@ -18,9 +18,10 @@ from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import followed_train
 
 from ..base.clock import STEADY, StrictClock, set_stamp
+from ..base.diagnostics import diagnostics
 from ..base.lifecycle_node import ManagedNode, run_node
 from ..process.memory import return_large_blocks
-from .diagnostics import Feed, Limits, key_of, statuses
+from .diagnostics import Feed, Limits, key_of, rows
 from .live_follower import LiveFollower
 from .messages import (
     baseline_message,
@@ -234,9 +235,8 @@ class Follower(ManagedNode):
             frozenset(self._acknowledged),
         )  # fmt: skip
         limits = Limits(*(self.get_parameter(f"{n}_limit").value for n in ("friction", "tooth")))
-        message = DiagnosticArray()
-        message.status = statuses(
-            live.latest, feed, limits, self._options.hardware, self.get_namespace()
+        message = diagnostics(
+            rows(live.latest, feed, limits), self.get_namespace(), self._options.hardware
         )
         set_stamp(message.header.stamp, self._now.now())
         self._send("diagnostics", message)

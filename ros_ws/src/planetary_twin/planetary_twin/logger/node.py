@@ -12,10 +12,11 @@ from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
 
 from ..base.clock import STEADY, StrictClock, set_stamp
+from ..base.diagnostics import Row, diagnostics
 from ..base.lifecycle_node import ManagedNode, NodeError, run_node
 from ..base.parameters import brief
 from ..process.memory import return_large_blocks
-from .diagnostics import RecordingReport
+from .diagnostics import RecordingReport, failure_row
 from .parameters import declare_options, options_of
 from .recorder import Recorder, RecorderError
 from .services import RecordingServices
@@ -40,7 +41,7 @@ class Logger(ManagedNode):
         self._own: deque[bytes] = deque(maxlen=_OWN)
         self._status = RecorderStatus()
         self._now = StrictClock(self.get_clock())
-        self._report = RecordingReport(self.get_namespace())
+        self._report = RecordingReport()
         self._status_publisher: LifecyclePublisher | None = None
         self._diagnostics: LifecyclePublisher | None = None
         RecordingServices(self, self._active)
@@ -57,7 +58,7 @@ class Logger(ManagedNode):
         except ValueError as refusal:
             raise NodeError(f"name = {refusal}") from None
         self._recorder = recorder
-        self._report = RecordingReport(self.get_namespace())
+        self._report = RecordingReport()
         create = self.create_lifecycle_publisher
         self._status_publisher = create(RecorderStatus, "~/status", 10)
         self._diagnostics = create(DiagnosticArray, "/diagnostics", 10)
@@ -120,7 +121,7 @@ class Logger(ManagedNode):
 
     def _on_failure(self, reason: str) -> None:
         self._stop_ticking()
-        self._diagnose(self._report.failure(reason))
+        self._diagnose(failure_row(reason))
         # A destroyed publisher discards messages that its subscribers have not received yet.
         self._diagnostics.wait_for_all_acked(_LAST_REPORT)
         self.fail(reason)
@@ -128,9 +129,10 @@ class Logger(ManagedNode):
     def _report_status(self) -> None:
         self._publish_status()
         recorder = self._recorder
-        self._diagnose(self._report.message(recorder.file, recorder.size, recorder.matched))
+        self._diagnose(self._report.row(recorder.file, recorder.size, recorder.matched))
 
-    def _diagnose(self, message: DiagnosticArray) -> None:
+    def _diagnose(self, row: Row) -> None:
+        message = diagnostics([row], self.get_namespace())
         set_stamp(message.header.stamp, self._now.now())
         self._own.append(serialize_message(message))
         self._diagnostics.publish(self._own[-1])

@@ -6,7 +6,7 @@ import gc
 import math
 import sys
 import traceback
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Future
 from typing import Any
 
@@ -24,13 +24,12 @@ from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.run.twin import Change
 
 from ..base.clock import CLOCK_AWAITED, STEADY
+from ..base.diagnostics import Row, diagnostics
 from ..base.lifecycle_node import ManagedNode, NodeError, run_node
 from ..base.polled_subscription import PolledSubscription
 from ..base.subscription_wait import SubscriptionWait
 from . import standard_services
-from .diagnostics.accuracy import AccuracyReport
-from .diagnostics.dynamics import dynamics_status
-from .diagnostics.energy_ledger import LedgerReport
+from .diagnostics.intervals import IntervalReports, dynamics_row
 from .diagnostics.real_time import KEEPS_UP, RealTimeReport
 from .live.backlog import Backlog
 from .live.interface import Progress
@@ -59,14 +58,13 @@ class Simulation(ManagedNode):
         self._verdict = KEEPS_UP
         self._other_publishers = 0
         self._given = SimulationParameters(self)
-        self._ledger = LedgerReport(self.get_namespace())
-        self._accuracy = AccuracyReport(self.get_namespace())
+        self._intervals = IntervalReports()
         self._checked: pt.Scene | None = None  # by `_check_held_axes`
         self._telemetry: Telemetry | None = None
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._wait: SubscriptionWait | None = None
         self._commands: ShaftCommands | None = None
-        self._faulty: set[str] = set()  # statuses with a fault in the last report
+        self._faulty: set[str] = set()  # names of reports with a fault
         self._inlet: PolledSubscription | None = None
         self._point = OperatingPointControl(self, self)
         self._backlog: Backlog | None = None
@@ -141,8 +139,7 @@ class Simulation(ManagedNode):
     def prepare(self, window: pt.Window) -> None:
         """Fill the messages for an interval before the wall time of its end."""
         self._telemetry.prepare(window)
-        self._ledger.add(window)
-        self._accuracy.add(window)
+        self._intervals.add(window)
 
     def publish(self) -> bool:
         """Publish these messages at that time; returns whether stamps have skipped a lag."""
@@ -281,36 +278,34 @@ class Simulation(ManagedNode):
 
         def report_now(published: Mapping[str, int]) -> DiagnosticArray:
             stamps = self._telemetry.stamps
-            message = report.message(live.progress, live.quality, published, stamps, last=last)
-            message.status += [self._ledger.status(), self._accuracy.status()]
-            if self._given.choice is not None:
-                point = self._running_twin().operating_point
-                message.status.append(
-                    dynamics_status(self._given.choice, point, self.get_namespace())
-                )
-            if self._running_twin().ports.given:
-                status = self._commands.status(self.get_namespace())
-                message.status.append(self._noted("commands", status))
-            if self._given.wait_for:
-                status = self._wait.status(self.get_namespace())
-                message.status.append(self._noted("recorder", status))
-            return message
+            first = report.row(live.progress, live.quality, published, stamps, last=last)
+            if report.verdict != self._verdict:
+                self._verdict = report.verdict
+                self._log(first)
+            return diagnostics([first, *self._rows()], self.get_namespace())
 
         self._check_held_axes(self._running_twin())
-        message = self._telemetry.diagnose(report_now)
+        self._telemetry.diagnose(report_now)
         self._warn_of_other_publishers()
-        if report.verdict != self._verdict:
-            self._verdict = report.verdict
-            self._log(message.status[0])
 
-    def _noted(self, name: str, status: DiagnosticStatus) -> DiagnosticStatus:
-        """Log a fault of `status` when it begins; returns `status`."""
-        if status.level == DiagnosticStatus.OK:
-            self._faulty.discard(name)
-        elif name not in self._faulty:
-            self._faulty.add(name)
-            self._log(status)
-        return status
+    def _rows(self) -> Iterator[Row]:
+        """Yield the reports beside that on real time."""
+        yield from self._intervals.rows()
+        if self._given.choice is not None:
+            yield dynamics_row(self._given.choice, self._running_twin().operating_point)
+        if self._running_twin().ports.given:
+            yield self._noted(self._commands.row())
+        if self._given.wait_for:
+            yield self._noted(self._wait.row())
+
+    def _noted(self, row: Row) -> Row:
+        """Log a fault of `row` when it begins; returns `row`."""
+        if row.level == DiagnosticStatus.OK:
+            self._faulty.discard(row.report)
+        elif row.report not in self._faulty:
+            self._faulty.add(row.report)
+            self._log(row)
+        return row
 
     def _check_held_axes(self, twin: pt.Twin) -> None:
         """Find out again whether axes may be held, if the load has changed."""
@@ -318,9 +313,9 @@ class Simulation(ManagedNode):
         if checked == self._checked:
             return
         self._checked = checked
-        before, self._accuracy.lasting = self._accuracy.lasting, held_axes_warning(checked)
-        if self._accuracy.lasting and not before:
-            self.get_logger().warning(self._accuracy.lasting)
+        before, self._intervals.lasting = self._intervals.lasting, held_axes_warning(checked)
+        if self._intervals.lasting and not before:
+            self.get_logger().warning(self._intervals.lasting)
 
     def _warn_of_other_publishers(self) -> None:
         """Warn once of each other publisher of the state: subscribers receive both."""
@@ -329,14 +324,14 @@ class Simulation(ManagedNode):
         if self._other_publishers > before:
             self.get_logger().warning("gearbox_state has another publisher: a replay, or a twin")
 
-    def _log(self, status: DiagnosticStatus) -> None:
+    def _log(self, row: Row) -> None:
         # One call for each level: rclpy refuses a call with a varying level.
-        if status.level == DiagnosticStatus.OK:
-            self.get_logger().info(status.message)
-        elif status.level == DiagnosticStatus.WARN:
-            self.get_logger().warning(status.message)
+        if row.level == DiagnosticStatus.OK:
+            self.get_logger().info(row.message)
+        elif row.level == DiagnosticStatus.WARN:
+            self.get_logger().warning(row.message)
         else:
-            self.get_logger().error(status.message)
+            self.get_logger().error(row.message)
 
     def _pick_dynamics(self) -> None:
         try:
@@ -353,9 +348,7 @@ class Simulation(ManagedNode):
             raise ValueError(str(reason)) from None
 
     def _new_report(self, twin: pt.Twin, start: Progress) -> RealTimeReport:
-        return RealTimeReport(
-            self.get_namespace(), self._given.rate_factor, self._given.period, twin.log, start
-        )
+        return RealTimeReport(self._given.rate_factor, self._given.period, twin.log, start)
 
     def _running_twin(self) -> pt.Twin:
         if self._twin is None:

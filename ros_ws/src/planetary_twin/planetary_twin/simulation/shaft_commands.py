@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import NamedTuple, Protocol
 
-from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
@@ -19,6 +18,7 @@ from planetary_twin_py.run.commands import Command
 from planetary_twin_py.scene.drive import Ports
 from planetary_twin_py.text.escaping import one_line
 
+from ..base.diagnostics import Row
 from .diagnostics.commands import CommandReport
 from .input_brake import InputBrake, for_ports
 
@@ -137,8 +137,8 @@ class ShaftCommands:
             return {"repeated or out of order": detail}
         return {}
 
-    def status(self, hardware: str) -> DiagnosticStatus:
-        """Return the report on commands for `/diagnostics`; `hardware` is the namespace."""
+    def row(self) -> Row:
+        """Return the report on commands for `/diagnostics`."""
         with self._lock:
             silent = self._silent()
             without = [joint for side, joint in self._open.items() if side not in self._arrived]
@@ -149,7 +149,7 @@ class ShaftCommands:
             joints = " and ".join(names[side] for side in silent)
             reaction = f"no command for {joints} for {max(silent.values()):.1f} s: {self._silence}"
         braking = bool(silent) and self._silence == "brake"
-        return self._report.status(hardware, reaction, without, received, braking)
+        return self._report.row(reaction, without, received, braking)
 
     def _silent(self) -> dict[str, float]:
         """Return the sides without a command for longer than the timeout, and for how long [s]."""

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py.recording.ros2.given import FIELDS
-from planetary_twin_py.recording.ros2.topics import status_name
 from planetary_twin_py.text.escaping import one_line
+
+from ...base.diagnostics import Row
 
 COMMANDS = "simulation: commands"
 _LONGEST = 40  # characters of a name
@@ -55,20 +56,13 @@ class CommandReport:
             if strangers:
                 self._stranger = strangers[-1]
 
-    def status(
-        self,
-        hardware: str,
-        silence: str,
-        without: Sequence[str],
-        received: bool,
-        braking: bool,
-    ) -> DiagnosticStatus:
+    def row(self, silence: str, without: Sequence[str], received: bool, braking: bool) -> Row:
         """
         Return the report.
 
-        `hardware` is the namespace of the twin, `silence` the reaction to missing commands, and
-        `without` are joints with a given torque or motion that have not had a command. Some joint
-        has `received` one. A twin that is `braking` is an error.
+        `silence` is the reaction to missing commands, and `without` are joints with a given torque
+        or motion that have not had a command. Some joint has `received` one. A twin that is
+        `braking` is an error.
         """
         with self._lock:
             faults = [silence, self._fresh(), *self._excesses.values()]
@@ -83,13 +77,8 @@ class CommandReport:
             self._reported, self._excesses, self._stranger = Counter(self.ignored), {}, ""
         faults = [fault for fault in faults if fault]
         worst = DiagnosticStatus.ERROR if braking else DiagnosticStatus.WARN
-        return DiagnosticStatus(
-            level=worst if faults else DiagnosticStatus.OK,
-            name=status_name(COMMANDS, hardware),
-            message="; ".join(faults) or _in_order(received, without),
-            hardware_id=hardware,
-            values=_values(counts),
-        )
+        level = worst if faults else DiagnosticStatus.OK
+        return Row(COMMANDS, level, "; ".join(faults) or _in_order(received, without), counts)
 
     def _fresh(self) -> str:
         """Return what has been ignored since the last report."""
@@ -106,7 +95,3 @@ def _in_order(received: bool, without: Sequence[str]) -> str:
     if not received:
         return "no command yet"
     return f"received; none yet for {' and '.join(without)}" if without else "received"
-
-
-def _values(counts: Mapping[str, int]) -> list[KeyValue]:
-    return [KeyValue(key=key, value=str(count)) for key, count in counts.items()]

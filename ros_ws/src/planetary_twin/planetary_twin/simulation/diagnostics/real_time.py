@@ -6,12 +6,13 @@ import time
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticStatus
 
 from planetary_twin_py import Change
-from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
+from planetary_twin_py.recording.ros2.topics import REAL_TIME
 from planetary_twin_py.run.quality_control import QualityControl
 
+from ...base.diagnostics import Row
 from ..live.interface import Progress, State
 from ..publishing.stamps import Stamps
 
@@ -47,20 +48,14 @@ class RealTimeReport:
     """
     Compares the progress of a live twin with that at the previous report.
 
-    `hardware` is the namespace of the twin, `rate_factor` the requested simulated seconds per
-    second, `period` [s] the wall time of an interval, `start` the progress at the start. `log` is
-    that of the twin; reported changes are removed from it, because ramps add changes for hours.
+    `rate_factor` is the requested simulated seconds per second, `period` [s] the wall time of an
+    interval, `start` the progress at the start. `log` is that of the twin; reported changes are
+    removed from it, because ramps add changes for hours.
     """
 
     def __init__(
-        self,
-        hardware: str,
-        rate_factor: float,
-        period: float,
-        log: list[Change],
-        start: Progress,
+        self, rate_factor: float, period: float, log: list[Change], start: Progress
     ) -> None:
-        self._hardware = hardware
         self._rate_factor = rate_factor
         self._period = period
         self._log = log
@@ -74,7 +69,7 @@ class RealTimeReport:
         self._wall = time.monotonic()
         self.verdict = KEEPS_UP
 
-    def message(
+    def row(
         self,
         now: Progress,
         quality: QualityControl,
@@ -82,9 +77,9 @@ class RealTimeReport:
         stamps: Stamps,
         *,
         last: bool,
-    ) -> DiagnosticArray:
+    ) -> Row:
         """
-        Return the report, not stamped yet.
+        Return the report.
 
         `now` is the progress, `quality` the quality control, `published` the number of messages by
         topic, `stamps` are those of the intervals. The `last` report is sent when the twin has
@@ -114,12 +109,6 @@ class RealTimeReport:
             STALLED: f"the interval in progress has not ended for {silence:.1f} s",
         }
         parts = [self.verdict.text, details.get(self.verdict, "")]
-        status = DiagnosticStatus(
-            level=self.verdict.level,
-            name=status_name(REAL_TIME, self._hardware),
-            message=": ".join(filter(None, parts)),
-            hardware_id=self._hardware,
-        )
         figures: dict[str, object] = {
             "state": "stopped" if last else now.state,
             "failure": now.failure,
@@ -142,9 +131,8 @@ class RealTimeReport:
             **self._settings(),
             **{f"published.{topic}": count for topic, count in published.items()},
         }
-        status.values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
         self._last, self._lag = now, lag
-        return DiagnosticArray(status=[status])
+        return Row(REAL_TIME, self.verdict.level, ": ".join(filter(None, parts)), figures)
 
     def _judge(
         self,
