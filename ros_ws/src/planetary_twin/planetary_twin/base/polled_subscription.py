@@ -38,6 +38,10 @@ class PolledSubscription:
         """Return the requested reliability."""
         return self._subscription.qos_profile.reliability
 
+    def publishers(self) -> int:
+        """Return the number of matched publishers."""
+        return int(self._subscription.get_publisher_count())
+
     def take(self, most: int | None = None) -> list[tuple[int, Any]]:
         """
         Return time of arrival by the system clock [ns] and contents of the queued messages.

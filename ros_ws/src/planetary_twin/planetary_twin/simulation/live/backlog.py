@@ -6,24 +6,17 @@ import time
 from collections.abc import Callable, Mapping
 
 from planetary_twin_msgs.msg import RecorderStatus
-from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 
+from ...base.polled_subscription import PolledSubscription
 from ...base.subscription_wait import TIMEOUT
 
 _NOW = Duration()
 _SILENCE = 20.0  # [s] without a status, after which the recorder may have been killed
 _UNSEEN = 5  # messages of a topic; the queue of a subscription holds 10 in ROS 2 and in rosbag2
-
-
-class _Polled(CallbackGroup):  # type: ignore[misc]
-    """Excludes a subscription from the executor: `Backlog` polls it."""
-
-    def can_execute(self, entity: object) -> bool:
-        """Return False: the executor may be waiting for a twin that waits for its recorder."""
-        return False
 
 
 class Backlog:
@@ -39,6 +32,9 @@ class Backlog:
 
     `published` returns the number of messages that each publisher has sent, for the publishers
     that send one message per interval.
+
+    Publishers with KEEP_ALL would not do this: Fast DDS of Jazzy blocks each `publish` for 0.1 s
+    once any reliable subscriber has not acknowledged 5000 messages, and then discards the message.
     """
 
     def __init__(
@@ -59,10 +55,9 @@ class Backlog:
         self._since = time.monotonic()  # time of the last acknowledgement
         self._reported = self._since  # time of the last status
         self._given_up = False
+        # Polled: the executor may be waiting for a twin that waits for its recorder.
         self._status = (
-            node.create_subscription(
-                RecorderStatus, f"{name}/status", self._on_status, 1, callback_group=_Polled()
-            )
+            PolledSubscription(node, RecorderStatus, f"{name}/status", QoSProfile(depth=1))
             if name
             else None
         )
@@ -70,19 +65,18 @@ class Backlog:
     def close(self) -> None:
         """Destroy the subscription."""
         if self._status is not None:
-            self._node.destroy_subscription(self._status)
+            self._status.close()
             self._status = None
 
     def has_room(self) -> bool:
         """Return whether another interval may be published; call it from one thread only."""
         if self._status is None:
             return True
-        with self._status.handle:
-            while taken := self._status.handle.take_message(RecorderStatus, False):
-                self._on_status(taken[0])
-                self._reported = time.monotonic()
+        for _, status in self._status.take():
+            self._on_status(status)
+            self._reported = time.monotonic()
         silent = time.monotonic() > self._reported + _SILENCE
-        if self._recorded and self._status.get_publisher_count() and not silent:
+        if self._recorded and self._status.publishers() and not silent:
             return self._is_close()
         return self._is_acknowledged()
 
