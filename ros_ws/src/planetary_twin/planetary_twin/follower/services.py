@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
 from rclpy.node import Node
-from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 
+from ..base.trigger import serve_triggers
 from .live_follower import LiveFollower
 
 
@@ -40,8 +39,7 @@ class BaselineServices:
             "save_baseline": self._save,
             "load_baseline": self._load,
         }
-        for name, command in commands.items():
-            node.create_service(Trigger, f"~/{name}", _answering(command))
+        serve_triggers(node, commands)
 
     def _learn(self) -> str:
         self._followed.active().ask(pt.Follower.learn)
@@ -66,17 +64,3 @@ class BaselineServices:
         if not name:
             raise ValueError("baseline = '': must be the path of a file")
         return Path(name).expanduser().absolute()
-
-
-def _answering(
-    command: Callable[[], str],
-) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
-    def answer(request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        try:
-            response.message = command()
-            response.success = True
-        except (ValueError, OSError) as refusal:  # TimeoutError is an OSError
-            response.success, response.message = False, str(refusal)
-        return response
-
-    return answer

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
+from functools import partial
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import RecorderStatus
@@ -15,11 +17,11 @@ from ..base.clock import STEADY, StrictClock, set_stamp
 from ..base.diagnostics import Row, diagnostics
 from ..base.lifecycle_node import ManagedNode, NodeError, run_node
 from ..base.parameters import brief
+from ..base.trigger import serve_triggers
 from ..process.memory import return_large_blocks
 from .diagnostics import RecordingReport, failure_row
 from .parameters import declare_options, options_of
 from .recorder import Recorder, RecorderError
-from .services import RecordingServices
 
 _DISCOVERY_PERIOD = 0.1  # [s]
 _STATUS_PERIOD = 1.0  # [s]
@@ -44,7 +46,8 @@ class Logger(ManagedNode):
         self._report = RecordingReport()
         self._status_publisher: LifecyclePublisher | None = None
         self._diagnostics: LifecyclePublisher | None = None
-        RecordingServices(self, self._active)
+        commands = (Recorder.start, Recorder.stop, Recorder.split, Recorder.snapshot)
+        serve_triggers(self, {each.__name__: partial(self._command, each) for each in commands})
 
     def configure(self) -> None:
         """Create the folder and file of the recording, and the publishers."""
@@ -90,10 +93,11 @@ class Logger(ManagedNode):
             except RecorderError as refusal:
                 raise NodeError(str(refusal)) from None
 
-    def _active(self) -> Recorder:
+    def _command(self, command: Callable[[Recorder], str]) -> str:
+        """Execute a command while the node is active."""
         if not self._ticking:
             raise RecorderError("the logger is not active")
-        return self._recorder
+        return command(self._recorder)
 
     def _stop_ticking(self) -> None:
         for timer in self._ticking:

@@ -10,7 +10,7 @@ from rclpy.node import Node
 from planetary_twin_py.recording.container.storage import CHUNK_SIZES, COMPRESSIONS, Storage
 
 from ..base.parameter_node import ParameterNode
-from ..base.parameters import declare_bounded, declare_fixed
+from ..base.parameters import declare
 
 _LONGEST = 1e6  # [s]
 _LARGEST = 1e6  # [MB]
@@ -35,41 +35,39 @@ def declare_options(node: ParameterNode) -> None:
 
     Raises `ValueError` if a value given at the start is out of its range.
     """
-    declare_fixed(node, "directory", "recordings", "folder in which recordings are created")
-    declare_fixed(node, "name", "", "folder of the recording; empty: a free name is chosen")
+    declare(node, "directory", "recordings", "folder in which recordings are created")
+    declare(node, "name", "", "folder of the recording; empty: a free name is chosen")
     # rclpy derives the type of a list from its first element.
-    declare_fixed(
+    declare(
         node,
         "topics",
         [""],
         "topics to record; empty: those of the namespace, /diagnostics, /tf, and measured ones, "
         "also if they are remapped",
     )
-    declare_fixed(
+    declare(
         node, "scene", "", "scene to store in the recording, from which viewers draw the gears"
     )
-    declare_bounded(
+    declare(
         node,
         "flush_period",
         0.5,
-        (0.01, 60.0),
         "time between writes to the disk; a killed logger loses at most these messages [s]",
+        (0.01, 60.0),
     )
-    declare_bounded(
+    declare(
         node,
         "snapshot_duration",
         0.0,
-        (0.0, 3600.0),
         "duration kept in memory, written when ~/snapshot is called [s]; 0: record to disk",
+        (0.0, 3600.0),
     )
-    declare_fixed(node, "compression", "zstd", f"of chunks: {', '.join(COMPRESSIONS)}")
-    declare_bounded(node, "chunk_size", 1.0, CHUNK_SIZES, "chunk size before compression [MB]")
-    declare_bounded(
-        node, "split_duration", 0.0, (0.0, _LONGEST), "longest duration of a file [s]; 0: no limit"
+    declare(node, "compression", "zstd", f"of chunks: {', '.join(COMPRESSIONS)}")
+    declare(node, "chunk_size", 1.0, "chunk size before compression [MB]", CHUNK_SIZES)
+    declare(
+        node, "split_duration", 0.0, "longest duration of a file [s]; 0: no limit", (0.0, _LONGEST)
     )
-    declare_bounded(
-        node, "split_size", 0.0, (0.0, _LARGEST), "largest size of a file [MB]; 0: no limit"
-    )
+    declare(node, "split_size", 0.0, "largest size of a file [MB]; 0: no limit", (0.0, _LARGEST))
 
 
 def options_of(node: Node) -> LoggerOptions:

@@ -29,7 +29,7 @@ _SOFTWARE = (
 )
 
 
-class RecorderError(Exception):
+class RecorderError(ValueError):
     """A command cannot be executed; the message gives the reason in one line."""
 
 
