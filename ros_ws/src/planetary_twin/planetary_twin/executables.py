@@ -14,46 +14,12 @@ from types import FrameType
 from .process.environment import use_one_thread
 
 
-def simulation() -> int:
-    """Run the simulation node."""
-    return _run("simulation.node")
-
-
-def logger() -> int:
-    """Run the logger node."""
-    return _run("logger.node")
-
-
-def replay() -> int:
-    """Run the replay node."""
-    return _run("replay.node")
-
-
-def follower() -> int:
-    """Run the follower node."""
-    return _run("follower.node")
-
-
-def plant() -> int:
-    """Run the plant node."""
-    return _run("plant.node")
-
-
-def twin() -> int:
-    """Run the simulation and the logger in one process."""
-    return _run("twin")
-
-
-def recorded_follower() -> int:
-    """Run the follower and the logger in one process."""
-    return _run("recorded_follower")
-
-
-def _run(name: str) -> int:
+def run(module: str) -> int:
+    """Run the `main` of a module of this package, such as `simulation.node`."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _exit)  # until `run_node` installs its handlers
     use_one_thread(os.environ)
-    return int(import_module(f".{name}", __package__).main())
+    return int(import_module(f".{module}", __package__).main())
 
 
 def _exit(number: int, frame: FrameType | None) -> None:
