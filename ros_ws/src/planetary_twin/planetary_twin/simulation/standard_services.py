@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, Protocol
+from typing import Any
 
 from rclpy.node import Node
 
 from .live.interface import State
 from .live.live_twin import LiveTwin
+from .time_services import TimeControl
 
 try:
     from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
@@ -30,16 +31,6 @@ else:
     AVAILABLE = True
 
 _TIMEOUT = 60.0  # [s] longest wait for the execution of a command
-
-
-class TimeControl(Protocol):
-    """The part of a simulation that its services use."""
-
-    def running(self) -> LiveTwin:
-        """Return the live twin; raises `ValueError` if there is none."""
-
-    def reset(self) -> Future[float]:
-        """Start again at simulated time zero; the future returns the instant [s]."""
 
 
 class SimulationServices:
