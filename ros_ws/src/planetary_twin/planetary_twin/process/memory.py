@@ -1,4 +1,9 @@
-"""Returns memory that a process has freed to the system."""
+"""
+Returns memory that a process has freed to the system.
+
+glibc alone does not, see mallopt(3) and malloc_trim(3): tests/ros/process/test_memory.py and
+tests/ros/logger/test_memory.py fail without these functions.
+"""
 
 from __future__ import annotations
 

@@ -22,7 +22,8 @@ class Stop:
     """
     A request to stop that a signal handler may make while it interrupts another one.
 
-    An `Event` would deadlock there, because its lock is not reentrant; `SimpleQueue.put` is.
+    An `Event` would deadlock there, because its lock is not reentrant; `SimpleQueue.put` is
+    (tests/ros/process/test_signals.py).
     """
 
     def __init__(self) -> None:

@@ -20,6 +20,7 @@ def nonblocking_stderr() -> Iterator[None]:
     process. All lines are also published on /rosout. The mode is set on a new file description,
     because the inherited one is shared with the shell. Files and sockets are left as they are: a
     file never blocks and its offset is shared with other writers; a socket cannot be reopened.
+    Without this, tests/ros/process/test_standard_error.py fails.
     """
     if not (os.isatty(_NUMBER) or stat.S_ISFIFO(os.fstat(_NUMBER).st_mode)):
         yield
