@@ -25,7 +25,7 @@ from ..process.standard_error import nonblocking_stderr
 from .clock import STEADY
 from .duplicate_names import Namesakes
 from .parameter_node import ParameterNode
-from .parameters import brief, declare_at_start
+from .parameters import AT_START, brief, declare
 
 NAMESPACE = "planetary_twin"
 _SOON = 1e-3  # [s]
@@ -42,7 +42,8 @@ def shut_down(context: Context | None = None) -> None:
     try:
         rclpy.try_shutdown(context=context)
     except RuntimeError:
-        # rclpy's signal thread may shut down between the check of rclpy and its call of rcl.
+        # rclpy's signal thread may shut down between the check of rclpy and its call of rcl
+        # (ros2/rclpy#1352, open in Jazzy; tests/ros/process/test_shutdown.py).
         if rclpy.ok(context=context):
             raise
 
@@ -70,7 +71,7 @@ class ManagedNode(ParameterNode):
         service = self.service_of(ChangeState)
         self._change_state, service.callback = service.callback, self._change_state_if_possible
         self._autostart = bool(
-            declare_at_start(self, "autostart", True, "configure and activate at the start")
+            declare(self, "autostart", True, "configure and activate at the start", when=AT_START)
         )
         self._namesakes = Namesakes(self)
         self.create_timer(_TRIM_PERIOD, return_freed_memory, clock=STEADY)
@@ -161,7 +162,11 @@ class ManagedNode(ParameterNode):
     def _change_state_if_possible(
         self, request: ChangeState.Request, response: ChangeState.Response
     ) -> ChangeState.Response:
-        """Call rclpy's service, which raises for transitions that the present state lacks."""
+        """
+        Call rclpy's service, which raises for transitions that the present state lacks.
+
+        That would end the node (ros2/rclpy#1209, open in Jazzy; tests/ros/base/test_lifecycle.py).
+        """
         wanted = request.transition.label or request.transition.id
         offered = self.transitions()
         if any(wanted in transition for transition in offered.items()):
@@ -281,7 +286,7 @@ def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
     Wait for a signal, and wake `executors` once ROS is shut down.
 
     rclpy wakes executors before it shuts down ROS: an executor that wakes quickly finds ROS still
-    running, and would wait forever.
+    running, and would wait forever (tests/ros/base/test_waking.py).
     """
     SIGNALS.stop.wait()
     while rclpy.ok():

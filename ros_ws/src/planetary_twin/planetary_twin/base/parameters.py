@@ -23,18 +23,14 @@ from planetary_twin_py.scene.drive import Causality
 from planetary_twin_py.scene.quantity import unit_of, within
 from planetary_twin_py.units.conversion import customary
 
-from .rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
-
-_AT_START = "fixed while the node runs: set it at start, -p {name}:=VALUE"
+AT_START = "fixed while the node runs: set it at start, -p {name}:=VALUE"
 _UNCONFIGURED = (
     "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE "
     "(planetary-twin run: --param {name}=VALUE)"
 )
+AT_ONCE = "a finite number, also written 1 or 2e-7; applies at once"
+_BETWEEN = "takes effect between two published intervals"
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
-_CAUSALITIES = {
-    "input": get_args(Causality),
-    "output": [each for each in get_args(Causality) if each != "brake"],
-}
 _MOST_CHARACTERS = 13  # of a refused value that is shown as it is
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60
@@ -147,74 +143,30 @@ def _in_customary(low: float, high: float, unit: str) -> str:
     return f" ({' to '.join(ends)})" if all(ends) else ""
 
 
-def declare_at_start(node: Declaring, name: str, default: Any, description: str) -> Any:
-    """Declare a read-only parameter and return its value."""
+def declare(
+    node: Declaring,
+    name: str,
+    default: Any,
+    description: str,
+    limits: tuple[float, float] | None = None,
+    when: str = _UNCONFIGURED,
+) -> Any:
+    """
+    Declare a parameter and return its value.
+
+    A float is within `limits`, and may also be given as 1 or 1e3. `when` says when it may be set:
+    `AT_START`, until the node is configured, or `AT_ONCE`.
+    """
     descriptor = ParameterDescriptor(
         description=description,
-        read_only=True,
-        additional_constraints=_AT_START.format(name=name),
+        read_only=when == AT_START,
+        additional_constraints=when.format(name=name),
     )
-    return _declare(node, name, default, descriptor)
-
-
-def declare_fixed(node: Declaring, name: str, default: Any, description: str) -> Any:
-    """
-    Declare a parameter that may change while the node is unconfigured, and return its value.
-
-    A float also accepts 1 and 1e3.
-    """
-    descriptor = ParameterDescriptor(
-        description=description, additional_constraints=_UNCONFIGURED.format(name=name)
-    )
-    if isinstance(default, float):
-        return _declare_number(node, name, default, descriptor)
-    return _declare(node, name, default, descriptor)
-
-
-def declare_bounded(
-    node: Declaring, name: str, default: float, limits: tuple[float, float], description: str
-) -> float:
-    """Declare a number within `limits` as `declare_fixed` does, and return its value."""
-    descriptor = ParameterDescriptor(
-        description=description,
-        additional_constraints=_UNCONFIGURED.format(name=name),
-        floating_point_range=[FloatingPointRange(from_value=limits[0], to_value=limits[1])],
-    )
-    return _declare_number(node, name, default, descriptor)
-
-
-def declare_changing(
-    node: Declaring, name: str, default: float, limits: tuple[float, float], description: str
-) -> float:
-    """Declare a number within `limits` that may change while the node runs; return its value."""
-    descriptor = ParameterDescriptor(
-        description=description,
-        additional_constraints="a finite number, also written 1 or 2e-7; applies at once",
-        floating_point_range=[FloatingPointRange(from_value=limits[0], to_value=limits[1])],
-    )
-    return _declare_number(node, name, default, descriptor)
-
-
-def declare_changing_text(node: Declaring, name: str, default: str, description: str) -> Any:
-    """Declare a text that may change while the node runs, and return its value."""
-    return _declare(node, name, default, ParameterDescriptor(description=description))
-
-
-def declare_rate_factor(node: Declaring) -> float:
-    """
-    Declare `rate_factor`, simulated seconds per second, and return its value.
-
-    Raises `ValueError` for a value between 0 and the slowest.
-    """
-    value = declare_bounded(
-        node,
-        "rate_factor",
-        1.0,
-        (UNLIMITED, FASTEST),
-        f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: as fast as possible [-]",
-    )
-    check_rate_factor(value)
-    return value
+    if limits:
+        low, high = limits
+        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    kind = _declare_number if isinstance(default, float) else _declare
+    return kind(node, name, default, descriptor)
 
 
 def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: str) -> float:
@@ -223,24 +175,24 @@ def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: st
 
     `topic` is the topic that publishes the instant of a change.
     """
-    bounds = FloatingPointRange(from_value=tunable.minimum, to_value=tunable.maximum)
-    descriptor = ParameterDescriptor(
-        description=f"{tunable.description} [{tunable.unit or '-'}]",
-        additional_constraints="a finite number, also written 1 or 2e-7; "
-        f"takes effect between two published intervals; {topic} gives the instant",
-        floating_point_range=[bounds],
+    return float(
+        declare(
+            node,
+            tunable.name,
+            default,
+            f"{tunable.description} [{tunable.unit or '-'}]",
+            (tunable.minimum, tunable.maximum),
+            f"a finite number, also written 1 or 2e-7; {_BETWEEN}; {topic} gives the instant",
+        )
     )
-    return _declare_number(node, tunable.name, default, descriptor)
 
 
 def declare_port(node: Declaring, name: str, side: str, default: str) -> None:
     """Declare what acts on the shaft of `side`, which may change while the twin runs."""
-    descriptor = ParameterDescriptor(
-        description=f"what acts on the {side} shaft: {', '.join(_CAUSALITIES[side])}",
-        additional_constraints="takes effect between two published intervals; operating_point "
-        "gives the instant",
-    )
-    _declare(node, name, default, descriptor)
+    causalities = [each for each in get_args(Causality) if side == "input" or each != "brake"]
+    description = f"what acts on the {side} shaft: {', '.join(causalities)}"
+    when = f"{_BETWEEN}; operating_point gives the instant"
+    declare(node, name, default, description, when=when)
 
 
 def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:

@@ -13,12 +13,7 @@ from planetary_twin_py.following.bins import CHANNELS
 from planetary_twin_py.following.sensors import JointNames, read_sensors
 
 from ..base.parameter_node import ParameterNode
-from ..base.parameters import (
-    declare_bounded,
-    declare_changing,
-    declare_changing_text,
-    declare_fixed,
-)
+from ..base.parameters import AT_ONCE, declare
 
 _LARGEST = 1e6  # factor on readings
 
@@ -50,53 +45,55 @@ def declare_options(node: ParameterNode) -> None:
 
     Raises `ValueError` if a value given at the start is out of its range.
     """
-    declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
-    declare_fixed(
-        node, "sensors", "", "YAML file with the accuracy of the sensors; empty: class 0.1"
-    )
-    declare_fixed(node, "input_joint", "", "joint of the input; empty: as `sensors` states")
-    declare_fixed(node, "output_joint", "", "joint of the output; empty: as `sensors` states")
+    declare(node, "scene", "paper", "packaged scene, or path of a YAML file")
+    declare(node, "sensors", "", "YAML file with the accuracy of the sensors; empty: class 0.1")
+    declare(node, "input_joint", "", "joint of the input; empty: as `sensors` states")
+    declare(node, "output_joint", "", "joint of the output; empty: as `sensors` states")
     for name in CHANNELS:
-        declare_bounded(
+        declare(
             node,
             f"scale.{name}",
             1.0,
-            (-_LARGEST, _LARGEST),
             f"factor on readings of {name}, for other units and signs; 1: as `sensors` states [-]",
+            (-_LARGEST, _LARGEST),
         )
-    declare_bounded(
-        node, "period", PERIOD, (0.01, 60.0), "time over which readings are averaged [s]"
+    declare(node, "period", PERIOD, "time over which readings are averaged [s]", (0.01, 60.0))
+    declare(
+        node, "publish_rate", 10.0, "largest rate of estimate and residuals [Hz]", (0.1, 100.0)
     )
-    declare_bounded(
-        node, "publish_rate", 10.0, (0.1, 100.0), "largest rate of estimate and residuals [Hz]"
+    declare(
+        node, "sensor_timeout", 2.0, "silence after which estimates are stale [s]", (0.1, 3600.0)
     )
-    declare_bounded(
-        node, "sensor_timeout", 2.0, (0.1, 3600.0), "silence after which estimates are stale [s]"
-    )
-    declare_fixed(
+    declare(
         node,
         "reset_on_time_jump",
         False,
         "restart when stamps jump back, as those of a bag in a loop",
     )
-    declare_fixed(node, "frame_id", "gearbox", "base frame of the gearbox")
-    declare_fixed(
+    declare(node, "frame_id", "gearbox", "base frame of the gearbox")
+    declare(
         node, "hardware_id", "", "serial number of the gearbox; empty: the namespace of the node"
     )
-    declare_fixed(
+    declare(
         node, "twin", "", "simulation whose operating point follows the estimates; empty: none"
     )
-    declare_changing_text(
-        node, "baseline", "", "file of the services save_baseline and load_baseline"
-    )
-    declare_changing(
-        node, "friction_limit", 2.0, (1.0, 100.0),
+    declare(node, "baseline", "", "file of the services save_baseline and load_baseline", when="")
+    declare(
+        node,
+        "friction_limit",
+        2.0,
         "friction level above which /diagnostics reports an error [-]",
-    )  # fmt: skip
-    declare_changing(
-        node, "tooth_limit", 0.05, (0.0, 1.0),
+        (1.0, 100.0),
+        when=AT_ONCE,
+    )
+    declare(
+        node,
+        "tooth_limit",
+        0.05,
         "loss of stiffness of a tooth above which /diagnostics reports an error [-]",
-    )  # fmt: skip
+        (0.0, 1.0),
+        when=AT_ONCE,
+    )
 
 
 def options_of(node: Node) -> FollowerOptions:

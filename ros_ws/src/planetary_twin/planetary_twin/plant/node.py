@@ -22,7 +22,7 @@ from planetary_twin_py.plant.timeline import Measured, timeline
 
 from ..base.clock import CLOCK_AWAITED, has_time
 from ..base.lifecycle_node import ManagedNode, run_node, shut_down
-from ..base.parameters import declare_bounded, declare_fixed
+from ..base.parameters import declare
 from ..base.subscription_wait import SubscriptionWait
 from .player import PlantMessages, PlantPlayer
 
@@ -41,16 +41,16 @@ class Plant(ManagedNode):
 
     def __init__(self) -> None:
         super().__init__("plant")
-        declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
-        declare_fixed(
+        declare(self, "scene", "paper", "packaged scene, or path of a YAML file")
+        declare(
             self, "hidden", "", "YAML file with laws, duty, changes and sensor errors; empty: none"
         )
-        declare_bounded(self, "duration", 60.0, (0.1, 86_400.0), "duration of the run [s]")
-        declare_fixed(self, "input_joint", "input_joint", "joint of the input")
-        declare_fixed(self, "output_joint", "output_joint", "joint of the output")
-        declare_fixed(self, "frame_id", "gearbox", "base frame of the gearbox")
+        declare(self, "duration", 60.0, "duration of the run [s]", (0.1, 86_400.0))
+        declare(self, "input_joint", "input_joint", "joint of the input")
+        declare(self, "output_joint", "output_joint", "joint of the output")
+        declare(self, "frame_id", "gearbox", "base frame of the gearbox")
         # rclpy derives the type of a list from its first element.
-        declare_fixed(self, "wait_for", [""], "nodes that must subscribe before the run starts")
+        declare(self, "wait_for", [""], "nodes that must subscribe before the run starts")
         self._measured: Iterator[Measured] = iter(())
         self._messages: PlantMessages | None = None
         self._waits: list[SubscriptionWait] = []

@@ -16,7 +16,7 @@ from planetary_twin_py.recording.ros2.playback import Playback, TimedMessage
 from planetary_twin_py.recording.ros2.renaming import moved
 
 from ..base.lifecycle_node import ManagedNode, NodeError, run_node, shut_down
-from ..base.parameters import declare_bounded, declare_changing, declare_fixed
+from ..base.parameters import AT_ONCE, declare
 from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from .player import Excerpt, Player
 from .publishers import Outlets
@@ -181,27 +181,26 @@ class Replay(ManagedNode):
         return self._playback.start + round(instant * 1e9)
 
     def _declare(self) -> None:
-        declare_fixed(self, "file", "", "recording: an .mcap file or its folder")
+        declare(self, "file", "", "recording: an .mcap file or its folder")
         check_rate_factor(
-            declare_changing(
+            declare(
                 self,
                 _RATE,
                 1.0,
-                (UNLIMITED, FASTEST),
                 f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
+                (UNLIMITED, FASTEST),
+                when=AT_ONCE,
             )
         )
-        declare_bounded(self, "start", 0.0, (0.0, _LONGEST), "recorded time at the start [s]")
-        declare_bounded(
-            self, "duration", 0.0, (0.0, _LONGEST), "recorded time to play [s]; 0: to the end"
+        declare(self, "start", 0.0, "recorded time at the start [s]", (0.0, _LONGEST))
+        declare(self, "duration", 0.0, "recorded time to play [s]; 0: to the end", (0.0, _LONGEST))
+        declare(self, "loop", False, "repeat until stopped")
+        declare(self, "start_paused", False, "start paused")
+        declare(
+            self, "clock", 0.0, "/clock messages per recorded second [Hz]; 0: none", (0.0, 1000.0)
         )
-        declare_fixed(self, "loop", False, "repeat until stopped")
-        declare_fixed(self, "start_paused", False, "start paused")
-        declare_bounded(
-            self, "clock", 0.0, (0.0, 1000.0), "/clock messages per recorded second [Hz]; 0: none"
-        )
-        declare_fixed(self, "namespace", "", "replaces the recorded namespace; empty: as recorded")
-        declare_fixed(self, "topics", [""], "recorded topics to play; empty: all")
+        declare(self, "namespace", "", "replaces the recorded namespace; empty: as recorded")
+        declare(self, "topics", [""], "recorded topics to play; empty: all")
         self._read()
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)

@@ -18,15 +18,13 @@ from planetary_twin_py.scene.unused import without_effect
 from ..base.parameter_node import ParameterNode
 from ..base.parameters import (
     brief,
-    declare_bounded,
-    declare_fixed,
+    declare,
     declare_geometry,
     declare_port,
-    declare_rate_factor,
     declare_tunable,
     number,
 )
-from ..base.rate_factor import check_rate_factor
+from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from ..base.subscription_wait import TIMEOUT
 
 SILENCE = ("hold", "zero", "brake")
@@ -75,7 +73,7 @@ class SimulationParameters:
             name: number(name, given[name]) for name in pt.TUNABLES if name in given
         } | {name: given[name] for name in PORT_FIELDS if name in given}
         """Quantities and ports that have been set; they keep their values if the scene changes."""
-        name = declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
+        name = declare(node, "scene", "paper", "packaged scene, or path of a YAML file")
         self.scene = pt.load_scene(name)
         """The scene as loaded, at the operating point given at the start."""
         # Changeable parameters first: tools such as rqt_reconfigure list them in this order.
@@ -195,50 +193,57 @@ class SimulationParameters:
 
 def _declare_settings(node: ParameterNode) -> None:
     """Declare the parameters that may be set until the node is configured."""
-    declare_fixed(node, "frame_id", "gearbox", "base frame of the gearbox")
-    declare_fixed(node, "frame_prefix", "", "prefix of all frame names, for several twins")
-    declare_fixed(node, "tf", True, "publish /tf; false if robot_state_publisher does")
-    declare_fixed(
+    declare(node, "frame_id", "gearbox", "base frame of the gearbox")
+    declare(node, "frame_prefix", "", "prefix of all frame names, for several twins")
+    declare(node, "tf", True, "publish /tf; false if robot_state_publisher does")
+    declare(
         node,
         "continuous_joints",
         False,
         "joint positions count whole turns instead of wrapping at one turn",
     )
-    declare_bounded(
-        node, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
-    )
-    declare_fixed(
+    declare(node, "publish_rate", 100.0, "messages per simulated second [Hz]", (10.0, 1000.0))
+    declare(
         node,
         "wait_for",
         "",
         f"node that records, such as logger or /rosbag2_recorder: the twin starts when it has "
         f"subscribed, after {TIMEOUT:g} s at most, and waits for it above real time and in steps",
     )
-    declare_fixed(node, "clock", False, "publish simulated time on /clock")
-    declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "sample rate of mesh_waveform [Hz]")
-    declare_rate_factor(node)
-    declare_bounded(
+    declare(node, "clock", False, "publish simulated time on /clock")
+    declare(node, "sample_rate", 50e3, "sample rate of mesh_waveform [Hz]", (1e3, 1e6))
+    check_rate_factor(
+        declare(
+            node,
+            "rate_factor",
+            1.0,
+            f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; "
+            "0: as fast as possible [-]",
+            (UNLIMITED, FASTEST),
+        )
+    )
+    declare(
         node,
         "max_lag",
         0.0,
-        (0.0, 60.0),
         "lag of stamps behind ROS time above which they skip it [s], 0.01 at least; 0: never",
+        (0.0, 60.0),
     )
-    declare_bounded(
+    declare(
         node,
         "compute_share",
         0.4,
-        (0.05, 0.9),
         "share of the time that computing may take if the tolerance is automatic [-]",
+        (0.05, 0.9),
     )
-    declare_bounded(
+    declare(
         node,
         "command_timeout",
         0.0,
-        (0.0, 10.0),
         "time without a command after which command_silence applies [s]; 0: never",
+        (0.0, 10.0),
     )
-    declare_fixed(
+    declare(
         node,
         "command_silence",
         "hold",
