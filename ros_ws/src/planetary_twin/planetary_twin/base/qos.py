@@ -17,6 +17,8 @@ from rclpy.qos import (
 
 from planetary_twin_py.recording.ros2.metadata import Topic
 
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+"""Late subscribers receive up to 100 messages, in order."""
 # Messages that a publisher keeps for retransmission if the recording lacks the depth: most
 # middleware does not report it.
 _DEPTH = 100

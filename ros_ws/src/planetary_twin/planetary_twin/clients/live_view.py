@@ -10,7 +10,7 @@ from functools import partial
 from typing import Any
 
 from mcap.records import Channel, Message, Schema
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.definitions import KINDS
@@ -24,20 +24,20 @@ from planetary_twin_py.recording.ros2.topics import (
     WAVEFORM,
 )
 
+from ..base.qos import LATCHED
 from ..base.topics import message_class
 from .client import Client
 from .loopback import stay_on_this_machine
 
 # A viewer must not delay the twin: lost messages are not sent again.
 _BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
-_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _TOPICS = {
     STATE: _BEST_EFFORT,
     WAVEFORM: _BEST_EFFORT,
     AXES_STATE: _BEST_EFFORT,
     AXES_WAVEFORM: _BEST_EFFORT,
-    POINT: _LATCHED,
-    ORIGIN: _LATCHED,
+    POINT: LATCHED,
+    ORIGIN: LATCHED,
 }
 _BATCH = 0.1  # [s] between two batches
 _MAX_MESSAGES = 2000  # in the next batch, some 100 MB

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import AxesState, FollowerEstimate, FollowerEvent, GearboxState
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from rich.console import Console
 from rich.live import Live
 from rich.table import Table
@@ -19,6 +18,7 @@ from planetary_twin_py.recording.ros2.topics import AXES_STATE
 from planetary_twin_py.terminal.console import make_console
 from planetary_twin_py.units.catalogue import BEARING, MESH, SHARING, TRAIN, Quantity, side_title
 
+from ..base.qos import LATCHED
 from .measured_rows import beside_rows
 from .real_time_figures import real_time_figures
 from .remote import Remote
@@ -28,7 +28,6 @@ _HISTORY = 40  # values that a sparkline shows
 _LEAST_SWING = 0.01  # of the largest value: a smaller swing does not fill the height of the bars
 _LIVE_PERIOD = 0.25  # [s] between two values in a terminal
 _PLAIN_PERIOD = 1.0  # [s] between two tables in a file or a pipe
-_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SILENCE = 10.0  # [s] longest wait for a state
 
 
@@ -119,7 +118,7 @@ class Monitor(Remote):
         self.node.create_subscription(AxesState, AXES_STATE, self._on_axes, 10)
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
         self.node.create_subscription(FollowerEstimate, "follower/estimate", self._on_estimate, 10)
-        self.node.create_subscription(FollowerEvent, "follower/event", self._on_event, _LATCHED)
+        self.node.create_subscription(FollowerEvent, "follower/event", self._on_event, LATCHED)
 
     def table(self, width: int) -> Table:
         """

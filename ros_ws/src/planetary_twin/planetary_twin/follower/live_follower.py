@@ -23,6 +23,7 @@ from planetary_twin_py.following.measured_messages import (
 )
 
 from .parameters import FollowerOptions
+from .subscriptions import Intake
 
 _SHORTEST, _LONGEST = 0.02, 0.1  # [s] between two polls for messages
 _TRANSIT = 0.01  # [s] by which the reading that closes a bin may be later than expected
@@ -31,16 +32,6 @@ _JUMP = 1.0  # [s] smallest step of stamps back in time that is a jump
 _JUMPED = 5  # successive messages that confirm a jump
 _LONGEST_WAIT = 10.0  # [s] longest time in which a request waits for the thread
 _LONGEST_END = 60.0  # [s] longest time to process waiting messages at the end
-
-
-class Source(Protocol):
-    """Source of the messages."""
-
-    def follow_publishers(self) -> None:
-        """Adapt the subscriptions to the QoS that the publishers offer."""
-
-    def take(self) -> list[Arrived]:
-        """Return the messages that have arrived since the last call, in order."""
 
 
 class FollowerNode(Protocol):
@@ -117,7 +108,7 @@ class LiveFollower:
     the time without readings is measured by the clock.
     """
 
-    def __init__(self, options: FollowerOptions, source: Source, node: FollowerNode) -> None:
+    def __init__(self, options: FollowerOptions, source: Intake, node: FollowerNode) -> None:
         self._options, self._source, self._node = options, source, node
         self._begin()
         self.behind = 0.0

@@ -9,7 +9,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import QoSProfile
 from rclpy.timer import Timer
 from std_srvs.srv import Trigger
 
@@ -20,6 +20,7 @@ from planetary_twin_py.following.train import followed_train
 from ..base.clock import STEADY, StrictClock, set_stamp
 from ..base.diagnostics import diagnostics
 from ..base.lifecycle_node import ManagedNode, run_node
+from ..base.qos import LATCHED
 from ..process.memory import return_large_blocks
 from .diagnostics import Feed, Limits, key_of, rows
 from .live_follower import LiveFollower
@@ -36,7 +37,6 @@ from .simulation_client import TwinBeside
 from .subscriptions import Intake
 
 _REPORT_PERIOD = 1.0  # [s]
-_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _QUEUED = QoSProfile(depth=1000)  # an overloaded computer publishes many messages at once
 _LAST = 10.0  # [s] longest wait until the last messages have arrived
 _KINDS = {
@@ -75,7 +75,7 @@ class Follower(ManagedNode):
         self._now = StrictClock(self.get_clock())
         self.create_service(Trigger, "~/reset", self._reset)
         self._acknowledged: set[tuple[str, float]] = set()
-        BaselineServices(self, self)
+        BaselineServices(self, self._active, self._acknowledge)
 
     def configure(self) -> None:
         """Load the scene and the sensors, and create publishers and subscriptions."""
@@ -86,7 +86,7 @@ class Follower(ManagedNode):
         if self._options.twin:
             self._beside = TwinBeside(self, self._options.twin, train)
         for name, kind in _KINDS.items():
-            qos = _LATCHED if name in _KEPT else _QUEUED
+            qos = LATCHED if name in _KEPT else _QUEUED
             self._outlets[name] = self.create_lifecycle_publisher(kind, f"~/{name}", qos)
         self._outlets["diagnostics"] = self.create_lifecycle_publisher(
             DiagnosticArray, "/diagnostics", 10
@@ -124,20 +124,6 @@ class Follower(ManagedNode):
         for publisher in self._outlets.values():
             self.destroy_lifecycle_publisher(publisher)
         self._outlets = {}
-
-    # Called by the services.
-
-    def active(self) -> LiveFollower:
-        """Return the live follower; raises `ValueError` if there is none."""
-        if self._live is None:
-            raise ValueError("the follower is not active")
-        return self._live
-
-    def acknowledge(self) -> int:
-        """Acknowledge all events; return how many are new to it."""
-        before = len(self._acknowledged)
-        self._acknowledged.update(key_of(event) for event in self.active().latest.events)
-        return len(self._acknowledged) - before
 
     # Called by the live follower, in its thread.
 
@@ -182,6 +168,18 @@ class Follower(ManagedNode):
         if not isinstance(defect, (ValueError, ArithmeticError)):
             self.get_logger().error("".join(traceback.format_exception(defect)))
         self.fail(f"following stopped: {defect}")
+
+    def _active(self) -> LiveFollower:
+        """Return the live follower; raises `ValueError` if there is none."""
+        if self._live is None:
+            raise ValueError("the follower is not active")
+        return self._live
+
+    def _acknowledge(self) -> int:
+        """Acknowledge all events; return how many are new to it."""
+        before = len(self._acknowledged)
+        self._acknowledged.update(key_of(event) for event in self._active().latest.events)
+        return len(self._acknowledged) - before
 
     def _announce(self, following: Following) -> None:
         """Publish events that are new or have changed."""

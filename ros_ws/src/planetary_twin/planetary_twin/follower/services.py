@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol
 
 from rclpy.node import Node
 
@@ -13,26 +13,19 @@ from ..base.trigger import serve_triggers
 from .live_follower import LiveFollower
 
 
-class Followed(Protocol):
-    """What the services need of the node."""
-
-    def active(self) -> LiveFollower:
-        """Return the live follower; raises `ValueError` if there is none."""
-
-    def acknowledge(self) -> int:
-        """Acknowledge all events; return how many are new to it."""
-
-
 class BaselineServices:
     """
     The services `~/learn`, `~/acknowledge`, `~/save_baseline` and `~/load_baseline` of `node`.
 
     The parameter `baseline` of `node` names the file. The response gives the file, or the reason
-    of a refusal.
+    of a refusal. `active` returns the live follower, and raises `ValueError` if there is none.
+    `acknowledge` acknowledges all events, and returns how many are new to it.
     """
 
-    def __init__(self, node: Node, followed: Followed) -> None:
-        self._node, self._followed = node, followed
+    def __init__(
+        self, node: Node, active: Callable[[], LiveFollower], acknowledge: Callable[[], int]
+    ) -> None:
+        self._node, self._active, self._acknowledged = node, active, acknowledge
         commands = {
             "learn": self._learn,
             "acknowledge": self._acknowledge,
@@ -42,21 +35,20 @@ class BaselineServices:
         serve_triggers(node, commands)
 
     def _learn(self) -> str:
-        self._followed.active().ask(pt.Follower.learn)
+        self._active().ask(pt.Follower.learn)
         return "baselines of teeth and vibration are learned from now on"
 
     def _acknowledge(self) -> str:
-        self._followed.active()
-        return f"{self._followed.acknowledge()} events acknowledged"
+        return f"{self._acknowledged()} events acknowledged"
 
     def _save(self) -> str:
         path = self._file()
-        self._followed.active().ask(lambda follower: follower.save_baseline(path))
+        self._active().ask(lambda follower: follower.save_baseline(path))
         return str(path)
 
     def _load(self) -> str:
         path = self._file()
-        self._followed.active().ask(lambda follower: follower.load_baseline(path))
+        self._active().ask(lambda follower: follower.load_baseline(path))
         return str(path)
 
     def _file(self) -> Path:

@@ -17,7 +17,7 @@ from planetary_twin_py.recording.ros2.provenance import SOFTWARE_RECORD, host_cl
 from planetary_twin_py.recording.ros2.ring import Ring
 
 from .parameters import LoggerOptions
-from .subscriptions import RecordedTopics
+from .subscriptions import RecordedTopics, Sink
 
 _SOFTWARE = (
     "planetary_twin_py",
@@ -56,7 +56,7 @@ class Recorder:
         self._failed = failed
         self._progressed = progressed
         self._scene = _scene_text(options.scene)
-        self._sink: BagWriter | Ring | None = None
+        self._sink: Sink | None = None
         self._topics: RecordedTopics | None = None
         self._start = time.monotonic()
 
@@ -183,7 +183,7 @@ class Recorder:
         else:
             logger.info(text)
 
-    def _open(self, sink: BagWriter | Ring) -> None:
+    def _open(self, sink: Sink) -> None:
         self._sink = sink
         try:
             if self._scene:

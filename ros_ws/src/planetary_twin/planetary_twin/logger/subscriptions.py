@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
 from rclpy.node import Node
@@ -12,7 +12,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.subscription import Subscription
 
 from planetary_twin_py.recording.ros2.account import TopicAccount
+from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
+from planetary_twin_py.recording.ros2.ring import Ring
 
 from ..base.topics import describe, matching_qos, message_class, wanted_topics
 
@@ -27,21 +29,7 @@ _QUEUE = 5000  # largest number of queued messages of one topic
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
 
-class Sink(Protocol):
-    """Destination of messages; each method raises `OSError` if it cannot write."""
-
-    def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Add an attachment."""
-
-    def add_topic(self, topic: Topic, account: TopicAccount) -> int:
-        """Add a channel for `topic`, whose message counts are in `account`; returns its number."""
-
-    def write(
-        self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
-    ) -> None:
-        """Write one serialised message; times are in ns."""
-
-
+Sink = BagWriter | Ring
 Failed = Callable[[OSError], None]
 
 

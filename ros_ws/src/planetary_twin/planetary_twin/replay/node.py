@@ -71,7 +71,7 @@ class Replay(ManagedNode):
         self._opened = 0.0
         self._played = 0
         self._shown = 0.0
-        PlayingServices(self, self)
+        PlayingServices(self, self._playing, self._stamp)
 
     def configure(self) -> None:
         """Open the recording and create its publishers."""
@@ -168,15 +168,13 @@ class Replay(ManagedNode):
         if self.context.ok():
             self.fail(f"{self._path}: {type(defect).__name__}: {defect}")
 
-    # Called by the services.
-
-    def playing(self) -> Player:
+    def _playing(self) -> Player:
         """Return the player."""
         if self._player is None or not self._active:
             raise ValueError("the replay is not active")
         return self._player
 
-    def stamp(self, instant: float) -> int:
+    def _stamp(self, instant: float) -> int:
         """Return the recorder's time [ns] of a recorded instant [s]."""
         return self._playback.start + round(instant * 1e9)
 

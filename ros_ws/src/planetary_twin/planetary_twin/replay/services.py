@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Protocol
 
 from builtin_interfaces.msg import Time
 from planetary_twin_msgs.srv import Seek, Step
@@ -15,21 +15,18 @@ from ..base.command_queue import answer
 from .player import Player
 
 
-class PlaybackControl(Protocol):
-    """The part of a replay that its services use."""
-
-    def playing(self) -> Player:
-        """Return the player; raises `ValueError` if there is none."""
-
-    def stamp(self, instant: float) -> int:
-        """Return the recorder's time [ns] of a recorded instant [s]."""
-
-
 class PlayingServices:
-    """The services `~/pause`, `~/step` and `~/seek` of `node` for `control`."""
+    """
+    The services `~/pause`, `~/step` and `~/seek` of `node`.
 
-    def __init__(self, node: Node, control: PlaybackControl) -> None:
-        self._control = control
+    `playing` returns the player, and raises `ValueError` if there is none. `stamp` returns the
+    recorder's time [ns] of a recorded instant [s].
+    """
+
+    def __init__(
+        self, node: Node, playing: Callable[[], Player], stamp: Callable[[float], int]
+    ) -> None:
+        self._playing, self._stamp = playing, stamp
         node.create_service(SetBool, "~/pause", self._pause)
         node.create_service(Step, "~/step", self._step)
         node.create_service(Seek, "~/seek", self._seek)
@@ -38,7 +35,7 @@ class PlayingServices:
         word = "paused" if request.data else "runs"
         return answer(
             response,
-            lambda: self._control.playing().pause(request.data),
+            lambda: self._playing().pause(request.data),
             lambda instant: f"{word} from {instant:.9g} s",
         )
 
@@ -50,7 +47,7 @@ class PlayingServices:
         def step() -> Future[float]:
             if request.command.name or request.commands:
                 raise ValueError("command, commands: must be empty: a replay accepts no commands")
-            return self._control.playing().step(request.duration)
+            return self._playing().step(request.duration)
 
         return answer(response, step, describe)
 
@@ -59,8 +56,8 @@ class PlayingServices:
             response.time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._control.playing().seek(request.time), describe)
+        return answer(response, lambda: self._playing().seek(request.time), describe)
 
     def _set(self, stamp: Time, instant: float) -> str:
-        set_stamp(stamp, self._control.stamp(instant))
+        set_stamp(stamp, self._stamp(instant))
         return ""

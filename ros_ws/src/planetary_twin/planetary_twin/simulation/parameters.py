@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -159,14 +160,8 @@ class SimulationParameters:
             changed = scene.replace(**self._chosen | changing(parameters))
             if "scene" in values or any(name in _CONTROLLED for name in values):
                 check_point(changed, changed.operating_point)
-            if TOLERANCE.name in values:
-                ladder_of(values[TOLERANCE.name])
-            if "rate_factor" in values:
-                check_rate_factor(values["rate_factor"])
-            if "max_lag" in values:
-                _check_lag(values["max_lag"])
-            if "command_silence" in values:
-                _check_silence(values["command_silence"])
+            for name in _CHECKS.keys() & values.keys():
+                _CHECKS[name](values[name])
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
         self._wanted = scene
@@ -260,6 +255,15 @@ def _check_lag(value: float) -> None:
 def _check_silence(value: str) -> None:
     if value not in SILENCE:
         raise ValueError(f"command_silence = {brief(value)}: must be one of {', '.join(SILENCE)}")
+
+
+_CHECKS: dict[str, Callable[[Any], object]] = {
+    TOLERANCE.name: ladder_of,
+    "rate_factor": check_rate_factor,
+    "max_lag": _check_lag,
+    "command_silence": _check_silence,
+}
+"""Checks beyond the ranges."""
 
 
 def changing(parameters: list[Parameter]) -> dict[str, Any]:

@@ -7,12 +7,12 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
-from planetary_twin_py import Scene, Twin
+from planetary_twin_py import Twin
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
 from planetary_twin_py.run.commands import Command
 from planetary_twin_py.scene.drive import Ports
@@ -21,6 +21,7 @@ from planetary_twin_py.text.escaping import one_line
 from ..base.diagnostics import Row
 from .diagnostics.commands import CommandReport
 from .input_brake import InputBrake, for_ports
+from .parameters import SimulationParameters
 
 _TURN = 2.0 * math.pi
 _OUT_OF_RANGE = "out of range"
@@ -31,15 +32,6 @@ _AHEAD = 1_000_000_000  # [ns] by which stamps may be ahead: clocks of two compu
 QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
 """QoS of ~/command: it matches reliable and best-effort publishers, and holds what several fast
 clients send within an interval."""
-
-
-class Given(Protocol):
-    """Parameters of the commands."""
-
-    scene: Scene
-    command_timeout: float
-    command_silence: str
-    continuous_joints: bool
 
 
 class _Arrived(NamedTuple):
@@ -63,7 +55,7 @@ class ShaftCommands:
 
     def __init__(
         self,
-        given: Given,
+        given: SimulationParameters,
         now: Callable[[], int],
         take: Callable[[], Iterable[tuple[int, JointState]]],
     ) -> None:
