@@ -9,8 +9,8 @@ from planetary_twin_core_parts import lambda_ratio_of
 
 from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.gearset.geometry import pitch_radius
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.model.oil import build_oil
-from planetary_twin_py.model.static_load import mesh_force
 from planetary_twin_py.scene import Scene
 
 SUN, RING = 0, 1  # kinds of mesh
@@ -43,7 +43,7 @@ def static_load(scene: Scene) -> float:
     Args:
         scene: at its operating point.
     """
-    return abs(mesh_force(scene, scene.operating_point.input_torque))
+    return abs(Layout(scene).mesh_force(scene.operating_point.input_torque))
 
 
 def at_pitch_point(scene: Scene, kind: int) -> Contact:

@@ -10,65 +10,51 @@ A held body is the ground: one additional entry with x = 0.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .._core import AXES, REGISTER, Train, axes
-from ..gearset.kinematics import mesh_cycles_per_turn
-from ..scene import OperatingPoint, Scene
-from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
+from .._core import AXES, REGISTER, Train
+from .bodies import Bodies
 from .drag import build_drag
+from .layout import Layout
+from .library import library
 from .meshes import build_meshes
 from .moving_axes import move_axes
-from .stiffness_laws import stiffness_follows_load
-
-TRAINS_KEPT = 16
 
 
-def held_axes(scene: Scene) -> Scene:
-    """The scene with held axes, for results that do not depend on the motion of the axes."""
-    return scene.model_copy(update={"dynamics": "torsional"}) if scene.moving_axes else scene
-
-
-def build_train(scene: Scene) -> Train:
+def build_train(layout: Layout, bodies: Bodies) -> Train:
     """Translate a scene into arrays, which do not depend on quantities that may change in a run.
 
     Where axes move, the record is that of `_core.axes`, see `moving_axes`.
 
+    Args:
+        layout: of the scene.
+        bodies: of the layout.
+
+    Returns:
+        The record.
+
     Raises:
         ValueError: there is an instant without contact of teeth (see `pair_table`).
     """
-    return _built(unloaded(scene)).copy()
-
-
-def unloaded(scene: Scene) -> Scene:
-    """The scene with only those operating quantities on which the train itself depends."""
-    torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
-    point = OperatingPoint(backlash=0.0, input_speed=0.0, input_torque=torque)
-    return scene.model_copy(update={"operating_point": point})
-
-
-@lru_cache(maxsize=TRAINS_KEPT)
-def _built(scene: Scene) -> Train:
-    bodies = build_bodies(scene)
+    scene = layout.scene
     groups = {
         "body": _body_arrays(bodies),
-        "coupling": _couplings(scene, bodies),
-        "cycle": _cycles(scene),
-        **build_meshes(scene, bodies),
-        **build_drag(scene, bodies),
+        "coupling": _couplings(layout, bodies),
+        "cycle": _cycles(layout),
+        **build_meshes(layout, bodies),
+        **build_drag(layout, bodies),
     }
-    moving = move_axes(scene, bodies, groups) if scene.moving_axes else None
+    moving = move_axes(layout, bodies, groups) if scene.moving_axes else None
     groups["mesh"]["spin_ratio"] = _spin_ratio(groups["body"]["ratio"], groups["mesh"]["body"])
-    count, meshes = len(bodies.mass) - 1, len(groups["mesh"]["kind"])
-    train = (axes.Train if scene.moving_axes else Train)(
-        bodies=count,
+    meshes = len(groups["mesh"]["kind"])
+    train: Train = library(scene).Train(
+        bodies=bodies.ground,
         meshes=meshes,
-        lanes=-(-max(count, meshes) // REGISTER) * REGISTER,
+        lanes=-(-max(bodies.ground, meshes) // REGISTER) * REGISTER,
         axes=len(scene.drive.inputs),
-        machines=len(machines(scene)),
+        machines=len(layout.machines),
         sun=bodies.place["sun"],
         carrier=bodies.place["carrier"],
         friction=scene.lubrication.friction,
@@ -104,20 +90,12 @@ def lightest_body(train: Train) -> float:
     return float((train.body.mass[own] / train.body.copies[own]).min())
 
 
-def _cycles(scene: Scene) -> dict[str, Any]:
+def _cycles(layout: Layout) -> dict[str, Any]:
     """How the meshes go through their cycles.
 
     Cycles per turn of each input are fractions, so that whole turns add no error.
     """
-    ratios, radii = rigid_ratios(scene), base_radii(scene)
-    pitch = scene.gearset.geometry.meshes[0].base_pitch
-    inputs = range(len(ratios["sun"]))
-    cycles = [
-        mesh_cycles_per_turn(
-            scene.gearset.tooth_numbers, {kind: ratio[axis] for kind, ratio in ratios.items()}
-        )
-        for axis in inputs
-    ]
+    cycles, pitch = layout.cycles, layout.scene.gearset.geometry.meshes[0].base_pitch
     denominators = np.ones(AXES, dtype=int)
     denominators[: len(cycles)] = [cycle.denominator for cycle in cycles]
     return {
@@ -125,17 +103,16 @@ def _cycles(scene: Scene) -> dict[str, Any]:
         "numerator": np.array([cycle.numerator for cycle in cycles]),
         "denominator": denominators,
         "sun_advance": 1.0 / pitch,
-        "carrier_advance": -radii["sun"] / radii["carrier"] / pitch,
+        "carrier_advance": -layout.radii["sun"] / layout.radii["carrier"] / pitch,
     }
 
 
-def _couplings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
+def _couplings(layout: Layout, bodies: Bodies) -> dict[str, Any]:
     """Elastic couplings between the machines and their members."""
-    found, radii = machines(scene), base_radii(scene)
-    squares = np.array([radii[machine.member] ** 2 for machine in found.values()])
+    found, place = layout.machines, bodies.place
+    squares = np.array([layout.radii[machine.member] ** 2 for machine in found.values()])
     stiffness = np.array([machine.coupling_stiffness for machine in found.values()])
     damping = np.array([machine.coupling_damping for machine in found.values()])
-    place = bodies.place
     return {
         "ends": np.array([[place[name], place[m.member]] for name, m in found.items()]),
         "stiffness": stiffness / squares,

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
 constexpr double LEAST_CLOSER = 2.0;           // intervals for each one where peaks are sought
+constexpr double LARGEST_LAG = 3.0;            // tolerances by which forces at nodes may lag
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 // Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
 constexpr double EARLIEST = 0.05, LATER = std::numbers::sqrt2;
@@ -221,25 +222,22 @@ NOINLINE void seek_around_vertices(const Model& model, Integrator& integrator, c
     raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, steep_there), step);
 }
 
-// Integrals of a part of a collocation step, and its peaks.
+// Peaks of the run so far. A recorded step is repeated in later windows.
+const MeshSums& peaks_so_far(const Integrator& integrator) {
+    static constexpr MeshSums NOTHING{};
+    const StepSums& sums = integrator.sums;
+    return integrator.periodic.recording || sums.total.time == 0.0 ? NOTHING : sums.total;
+}
+
+// Peaks of a part of a collocation step.
 //
 // Nodes are too far apart for the vertices of parabolas that may be the largest ones yet, and for
 // waves that decay before the first of them.
 template <int L, class Values>
-void add_collocated_values(const Model& model, Integrator& integrator, const Values& values,
-                           MeshSums& step) {
+void find_largest(const Model& model, Integrator& integrator, const Values& values,
+                  MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
-    const StepSums& sums = integrator.sums;
-    add_integrals<M>(integrator.constants, values, step);
-    // A recorded step is repeated in later windows.
-    static constexpr MeshSums NOTHING{};
-    const bool first = integrator.periodic.recording || sums.total.time == 0.0;
-    const MeshSums& yet = first ? NOTHING : sums.total;
-    if (!first && peaks_stay<L>(model, integrator, values, yet)) {
-        Row<M>(0.0).store(step.dte_peak);
-        Row<M>(0.0).store(step.force_peak);
-        return;
-    }
+    const MeshSums& yet = peaks_so_far(integrator);
     const double begin = values.time(0), end = values.time(1);
     const auto [steep, brief] = brief_motion<L>(model, integrator, values, yet);
     const MeshPeaks<M> peaks = find_peaks<M>(values, steep);
@@ -249,6 +247,49 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     if (!brief) return;
     fill_at_early_times<L>(model, integrator, begin, end);
     raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, nowhere<M>()), step);
+}
+
+// The same, or zeros if those of the run so far stay the largest.
+template <int L, class Values>
+void find_larger(const Model& model, Integrator& integrator, const Values& values, MeshSums& step) {
+    if (!peaks_stay<L>(model, integrator, values, peaks_so_far(integrator)))
+        return find_largest<L>(model, integrator, values, step);
+    const Row<MESH_LANES<L>> none_larger(0.0);
+    none_larger.store(step.dte_peak);
+    none_larger.store(step.force_peak);
+}
+
+// By how much the last sweep has changed the forces at the last node, which are those before it.
+template <int L>
+Row<L> lag_of_forces(const Model& model, const Integrator& integrator) {
+    using V = Row<L>;
+    const Propagation& run = integrator.run;
+    const Node& node = run.node[run.nodes.count - 1];
+    V d = V(node.d) - V(run.before_d), rate = V(node.rate) - V(run.before_rate);
+    V stiffness = V(contacts_of(run).stiffness) / V(model.train.mesh.copies);
+    return stiffness * (absolute(d) + V(integrator.constants.damping_time) * absolute(rate));
+}
+
+// Integrals and peaks of a collocation step that ends at its last node. Where its forces lag behind
+// one that may be the largest one yet, they are evaluated again.
+template <int L>
+void add_nodes(const Model& model, Integrator& integrator) {
+    constexpr int M = MESH_LANES<L>;
+    using V = Row<M>;
+    const Propagation& run = integrator.run;
+    const AtNodes nodes{run};
+    StepSums& sums = integrator.sums;
+    const double allowed = LARGEST_LAG * integrator.control.tolerance;
+    add_integrals<M>(integrator.constants, nodes, sums.step);
+    const V lag = lag_of_forces<M>(model, integrator);
+    const V last = larger(V(0.0), V(run.node[run.nodes.count - 1].meshes.normal_force));
+    if (none(lag > allowed * (last + lag)))
+        return find_larger<L>(model, integrator, nodes, sums.step);
+    find_largest<L>(model, integrator, nodes, sums.step);
+    const V most = V(sums.step.force_peak) + lag;
+    if (none((lag > allowed * most) & (most > V(peaks_so_far(integrator).force_peak)))) return;
+    fill_at_even_times<L>(model, integrator, 0.0, integrator.control.step, 2 * FEWEST);
+    find_larger<L>(model, integrator, AtEvenTimes{sums.series}, sums.step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
@@ -278,8 +319,7 @@ void add_collocated(const Model& model, Integrator& integrator) {
     const bool cut = std::fabs(h - run.motion.step) > NEAR * run.motion.step;
     add_contacts_of_nodes<L>(model, integrator, cut);
     std::int64_t intervals = even_intervals(integrator, model.train, h);
-    if (intervals == 0 && !cut)
-        return add_collocated_values<L>(model, integrator, AtNodes{run}, sums.step);
+    if (intervals == 0 && !cut) return add_nodes<L>(model, integrator);
     fill_at_even_times<L>(model, integrator, 0.0, h, std::max(intervals, FEWEST));
     add_series(model, integrator, sums.step);
 }
@@ -336,9 +376,8 @@ void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
     const Series& series = integrator.sums.series;
     with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         const AtEvenTimes values{series};
-        if (integrator.control.collocated)
-            return add_collocated_values<L>(model, integrator, values, step);
         add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
+        if (integrator.control.collocated) return find_larger<L>(model, integrator, values, step);
         put_vertices(find_peaks<MESH_LANES<L>>(values, nowhere<MESH_LANES<L>>()), step);
     });
 }
