@@ -98,6 +98,22 @@ struct Brief {
     bool may_exceed;  // whether a force may exceed both values and the largest one yet
 };
 
+// Bound on what decays before the second value in the motion of any mesh, with tau times its rate;
+// without divisions.
+template <int L>
+ALWAYS_INLINE double bound_of_decaying(const Integrator& integrator, double width) {
+    using V = Row<L>;
+    const ModalMotion& motion = integrator.run.motion;
+    const ContactState& contacts = contacts_of(integrator.run);
+    const double tau = std::max(contacts.tau[0], contacts.tau[1]);
+    const V slow(motion.slow_rate), fast(motion.fast_rate), q(motion.free[0]), p(motion.free[1]);
+    // 1 - 1/u is less than the smaller of 1 and u - 1.
+    auto share = [&](const V& rate) { return smaller(larger(rate * width - 1.0, V(0.0)), V(1.0)); };
+    const V lasting = absolute(q) * (1.0 + tau * slow), added = absolute(p + slow * q);
+    const V amplitude = share(slow) * lasting + share(fast) * added * (2.0 * (width + tau));
+    return total(amplitude * V(contacts.bounds.motion));
+}
+
 // Force is stiffness times the sum of the transmission error and tau times its rate. An overdamped
 // wave q decays as q(0) exp(-slow t), to which q'(0) + slow q(0) adds less than this over `fast`:
 // something that rises, and then decays. Of all that decays, what has one sign exceeds what has the
@@ -115,17 +131,20 @@ Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrat
     const V slow(motion.slow_rate), fast(motion.fast_rate);
     if (none(fast * width > 1.0)) return {nowhere<M>(), false};
     const ContactState& contacts = contacts_of(integrator.run);
+    const OfMeshes first(values.normal_force(0)), second(values.normal_force(1));
+    const OfMeshes value = larger(first, second), copies(model.train.mesh.copies);
+    const double allowed = integrator.control.tolerance;
+    const double most = bound_of_decaying<L>(integrator, width);
+    if (none(most * OfMeshes(contacts.stiffness) > allowed * copies * value))
+        return {nowhere<M>(), false};
     const double tau = std::max(contacts.tau[0], contacts.tau[1]);
     const V q(motion.free[0]), p(motion.free[1]), per_fast = 1.0 / fast;
     const V lasting = absolute(q) * (1.0 + tau * slow), added = absolute(p + slow * q);
     const V hidden = larger(V(0.0), 1.0 - 1.0 / (width * slow)) * lasting;
     const V hidden_added = larger(V(0.0), 1.0 - per_fast / width) * added * (per_fast + tau);
     const V amplitude = select(fast * width > 1.0, hidden + 2.0 * hidden_added, 0.0);
-    const OfMeshes decaying = OfMeshes(contacts.stiffness) / OfMeshes(model.train.mesh.copies) *
+    const OfMeshes decaying = OfMeshes(contacts.stiffness) / copies *
                               sum_rows<M>(contacts.matrices.motion_magnitude(), amplitude);
-    const OfMeshes first(values.normal_force(0)), second(values.normal_force(1));
-    const OfMeshes value = larger(first, second);
-    const double allowed = integrator.control.tolerance;
     const Mask<M> steep = decaying > allowed * value;
     OfMeshes rise = 0.5 * (decaying - absolute(first - second));
     if (values.count() > 2) {
@@ -136,22 +155,6 @@ Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrat
     return {steep, !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)))};
 }
 
-// Bound on what decays before the second value in the motion of any mesh, with tau times its rate:
-// that of `brief_motion` without divisions.
-template <int L>
-ALWAYS_INLINE double bound_of_decaying(const Integrator& integrator, double width) {
-    using V = Row<L>;
-    const ModalMotion& motion = integrator.run.motion;
-    const ContactState& contacts = contacts_of(integrator.run);
-    const double tau = std::max(contacts.tau[0], contacts.tau[1]);
-    const V slow(motion.slow_rate), fast(motion.fast_rate), q(motion.free[0]), p(motion.free[1]);
-    // 1 - 1/u is less than the smaller of 1 and u - 1.
-    auto share = [&](const V& rate) { return smaller(larger(rate * width - 1.0, V(0.0)), V(1.0)); };
-    const V lasting = absolute(q) * (1.0 + tau * slow), added = absolute(p + slow * q);
-    const V amplitude = share(slow) * lasting + share(fast) * added * (2.0 * (width + tau));
-    return total(amplitude * V(contacts.bounds.motion));
-}
-
 // Whether the largest values so far, `yet`, stay the largest: true for most steps, at little cost.
 template <int L, class Values>
 ALWAYS_INLINE bool peaks_stay(const Model& model, const Integrator& integrator,
@@ -160,11 +163,7 @@ ALWAYS_INLINE bool peaks_stay(const Model& model, const Integrator& integrator,
     constexpr double TIMES = 1.0 + VERTEX_ERROR;
     const V yet_d(yet.dte_peak), yet_force(yet.force_peak);
     const std::int64_t last = values.count() - 1;
-    const V first(values.normal_force(0)), second(values.normal_force(1));
-    const double decaying = bound_of_decaying<L>(integrator, values.time(1) - values.time(0));
-    const V rise = 0.5 * decaying * V(contacts_of(integrator.run).stiffness);
-    Mask<MESH_LANES<L>> raised =
-        rise > (yet_force - larger(first, second)) * V(model.train.mesh.copies);
+    Mask<MESH_LANES<L>> raised = nowhere<MESH_LANES<L>>();
     for (std::int64_t n : {std::int64_t{0}, last})
         raised =
             raised | (absolute(V(values.d(n))) > yet_d) | (V(values.normal_force(n)) > yet_force);
@@ -175,7 +174,11 @@ ALWAYS_INLINE bool peaks_stay(const Model& model, const Integrator& integrator,
                  exceeds(at, V(values.normal_force(n - 1)), V(values.normal_force(n)),
                          V(values.normal_force(n + 1)), TIMES, yet_force);
     }
-    return none(raised);
+    if (!none(raised)) return false;
+    const V first(values.normal_force(0)), second(values.normal_force(1));
+    const double decaying = bound_of_decaying<L>(integrator, values.time(1) - values.time(0));
+    const V rise = 0.5 * decaying * V(contacts_of(integrator.run).stiffness);
+    return none(rise > (yet_force - larger(first, second)) * V(model.train.mesh.copies));
 }
 
 }  // namespace gearbox
