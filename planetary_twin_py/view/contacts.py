@@ -18,6 +18,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
+from ..model.gearbox import Gearbox
 from ..model.pair_loads import pair_loads
 from ..recording.runs.reader import Recording
 from ..scene import Scene
@@ -65,7 +66,7 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
         recording: recording to draw.
         motion: angles at the times to draw.
     """
-    meshes, force = recording.meshes, forces(recording, motion.time)
+    gearbox, meshes, force = Gearbox(scene), recording.meshes, forces(recording, motion.time)
     blocks = [slice(n, n + _BLOCK) for n in range(0, len(motion.time), _BLOCK)]
 
     def angles(rows: slice) -> dict[str, Array]:
@@ -74,7 +75,7 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
     loads = []
     for rows in blocks:
         for mesh in range(len(meshes)):
-            load = pair_loads(scene, mesh, angles(rows), force[rows, mesh]).load
+            load = pair_loads(gearbox, mesh, angles(rows), force[rows, mesh]).load
             loads.append(load[load > 0.0])
     loaded = np.concatenate(loads)
     if not len(loaded):
@@ -83,7 +84,7 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
     for rows in blocks:
         index = timeline.columns(motion.time[rows], motion.stamp[rows])
         for mesh, name in enumerate(meshes):
-            found = contacts(scene, mesh, angles(rows), force[rows, mesh])
+            found = contacts(gearbox, mesh, angles(rows), force[rows, mesh])
             columns = _strips(scene.gearset, found, full)
             layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
     _log_scale(layer, scene.gearset, full)
@@ -111,11 +112,11 @@ def forces(recording: Recording, time: Array) -> Array:
     return force
 
 
-def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
+def contacts(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
     """Tooth pairs that carry the force of a mesh, by the stiffness and the faults of the model.
 
     Args:
-        scene: gears, stiffness and faults.
+        gearbox: gears, stiffness and faults.
         mesh: index of the mesh in a recording.
         angle: angles of the members [rad] (n,), see `pair_loads`.
         force: force of the mesh [N] (n,), negative on the coast flanks.
@@ -123,11 +124,11 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
     Returns:
         Lines of contact, directions and loads.
     """
-    gearset = scene.gearset
+    gearset = gearbox.scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
     working = gearset.geometry.meshes[ring]
     radius, pitch = working.pitch_radii[ring], working.base_pitch
-    pairs = pair_loads(scene, mesh, angle, force)
+    pairs = pair_loads(gearbox, mesh, angle, force)
     half = 0.5 * pairs.face[..., None] * gearset.face_width * np.array([-1.0, 1.0])
     ends, direction = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
     for flank in (DRIVE, COAST):
