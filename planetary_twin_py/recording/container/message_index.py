@@ -48,7 +48,7 @@ class LogTimes:
             return
         if not self.recorded:
             self.first = self.last = int(times[0])
-        self.first = min(self.first, int(min(times)))
+        self.first = min(self.first, int(np.min(times)))
         newest = np.maximum.accumulate(np.concatenate(([self.last], times)))
         self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
         self.last = int(newest[-1])
