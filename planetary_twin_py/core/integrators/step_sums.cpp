@@ -446,8 +446,7 @@ void add_collocated(const Model& model, Integrator& integrator) {
     const bool cut = std::fabs(h - run.motion.step) > NEAR * run.motion.step;
     add_contacts_of_nodes<L>(model, integrator, cut);
     std::int64_t intervals = even_intervals(integrator, model.train, h);
-    if (intervals == 0 && !cut)
-        return add_nodes<L>(model, integrator);
+    if (intervals == 0 && !cut) return add_nodes<L>(model, integrator);
     fill_at_even_times<L>(model, integrator, 0.0, h, std::max(intervals, FEWEST));
     add_series(model, integrator, sums.step);
 }
@@ -505,8 +504,7 @@ void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
     with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         const AtEvenTimes values{series};
         add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
-        if (integrator.control.collocated)
-            return find_largest<L>(model, integrator, values, step);
+        if (integrator.control.collocated) return find_largest<L>(model, integrator, values, step);
         put_vertices(find_peaks<MESH_LANES<L>>(values, nowhere<MESH_LANES<L>>()), step);
     });
 }
