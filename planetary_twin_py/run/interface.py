@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from .._core import Control, Report, Train, WindowEnd
+from ..model.gearbox import Gearbox
 from ..model.mesh_sums import MeshSums
 from ..scene import OperatingPoint
 from .energy import EnergyBooks
@@ -18,6 +19,8 @@ from .window_jobs import WindowJobs
 class Run(Protocol):
     """A model that is advanced in time."""
 
+    gearbox: Gearbox
+    """Of the scene; its operating point and ports may have changed since."""
     train: Train
     start_warning: str
     """Why the start is no equilibrium, "" if it is one."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..model.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..text.object_repr import brief
 from .axes.motion import AxesMotion
 

@@ -6,9 +6,8 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .._core import PortStates
-from ..model.bodies import LOAD_MACHINE, MOTOR, body_names, build_report, mesh_names
 from ..model.clock import TICKS
-from ..model.library import library
+from ..model.layout import LOAD_MACHINE, MOTOR
 from ..scene import OperatingPoint, Scene, SceneError
 from ..scene.drive import Causality, Ports
 from ..scene.given import check_scene
@@ -79,11 +78,11 @@ class Twin:
         """Scene at the start of the run."""
         self.scene = scene
         """Scene with the present ports."""
-        self._names, self._mesh_names = body_names(scene), mesh_names(scene)
-        self._core = library(scene)
-        self._report = build_report(self._core, self._names, self._mesh_names)
         self._engine = start(scene, tolerance)
-        self._results = WindowResults(scene, self._core, self._engine.train, self._report)
+        gearbox = self._engine.gearbox
+        self._names, self._mesh_names = gearbox.body_names, gearbox.mesh_names
+        self._core, self._report = gearbox.core, gearbox.report
+        self._results = WindowResults(gearbox)
         self._ticks = 0
         first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
         self.log = [first]
@@ -93,7 +92,7 @@ class Twin:
             self._core.WindowEnd(),
         )  # of the last window, and of the next one
         self._begin_window()
-        self._forgetting, self._settled = Settling(scene), 0.0
+        self._forgetting, self._settled = Settling(gearbox), 0.0
         self._settling = self._forgetting.rate(scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
         linear = scene.drive.interpolation == "linear"

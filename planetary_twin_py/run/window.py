@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _core
 from .._core import MESH_STATISTICS
-from ..model.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..model.mesh_sums import MeshSums
 from ..text.object_repr import brief, brief_record
 from .axes.motion import AxesMotion

@@ -7,15 +7,14 @@ import time
 import numpy as np
 
 from .._core import BEARING, CHURNING, FRICTION
-from ..model.bodies import mesh_names
-from ..model.mesh_frequency import wanted_mesh_frequency
+from ..model.layout import Layout
 from ..model.mesh_sums import in_order
-from ..model.static_load import mesh_force
-from ..run.dynamics_choice import BY_COST, FIGURES, Candidate, DynamicsChoice
+from ..run.dynamics_choice import BY_COST, Candidate, DynamicsChoice
 from ..run.start import start
 from ..run.window import mesh_statistics
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
+from ..units.catalogue import FIGURES
 
 TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.1, 2.0  # [s] limits of the measured time, and of the settling before it
@@ -80,7 +79,7 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
     ledger = run.books(2.0 * duration).since(before).ledger
     sums = run.pop_mesh_sums(2.0 * duration)
     spent = time.perf_counter() - begin
-    found = mesh_statistics(in_order(sums, mesh_names(scene).place))
+    found = mesh_statistics(in_order(sums, run.gearbox.mesh_names.place))
     lost = sum(ledger[item] for item in (FRICTION, BEARING, CHURNING))
     found["power_loss"] = np.array([lost / duration])
     return {name: found[name] for name in FIGURES}, spent / (2.0 * duration)
@@ -88,7 +87,7 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
 
 def _duration(scene: Scene) -> float:
     """Measured time [s]."""
-    frequency = wanted_mesh_frequency(scene)
+    frequency = Layout(scene).mesh_frequency
     return min(max(SHORTEST, CYCLES / frequency if frequency > 0.0 else SHORTEST), LONGEST)
 
 
@@ -117,4 +116,4 @@ def _nothing(scene: Scene) -> tuple[float, float]:
     point, drive = scene.operating_point, scene.drive
     torque = abs(point.input_torque) + abs(point.torque_ripple) or drive.torque_limit
     speeds = (abs(point.input_speed), abs(point.second_input_speed), NOTHING * drive.speed_limit)
-    return abs(mesh_force(scene, NOTHING * torque)), NOTHING * torque * max(speeds)
+    return abs(Layout(scene).mesh_force(NOTHING * torque)), NOTHING * torque * max(speeds)

@@ -30,7 +30,6 @@ from .._core import (
 )
 from ..checks.accuracy import accuracy_warnings
 from ..checks.ledger import balance_of_run, ledger_warning
-from ..model.bodies import body_names, mesh_names
 from ..model.clock import samples_until
 from ..model.mesh_sums import MeshSums, in_order
 from ..run.axes.motion import axes_motion, joined_flanks
@@ -194,7 +193,7 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
 
 
 def _result(scene: Scene, engine: Run, found: _Found) -> Result:
-    names, meshes = body_names(scene), mesh_names(scene)
+    names, meshes = engine.gearbox.body_names, engine.gearbox.mesh_names
     samples, sums = found.samples, in_order(found.sums, meshes.place)
     joined = joined_flanks if scene.moving_axes else _of_places
     mesh, count = joined(samples.mesh, meshes.place), engine.control

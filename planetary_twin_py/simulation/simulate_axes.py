@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..model.bodies import CENTRAL
 from ..model.clock import samples_until
+from ..model.planar_rows import CENTRAL
 from ..run.axes.run_statistics import AxesSums
 from ..run.axes.statistics import AxesStatistics
 from ..run.commanded_run import DrivenRun

@@ -9,8 +9,8 @@ from types import ModuleType
 import numpy as np
 
 from ..._core import BOUNDARY, FILM, LAMBDA, MESH_FORCE, MESH_POWER, POWER_LOSS, VISCOUS
-from ...model.bodies import CENTRAL
 from ...model.library import library
+from ...model.planar_rows import CENTRAL
 from ...scene import Scene
 from ..samples import Samples, Waves
 from .load_shares import CycleShares

@@ -10,7 +10,8 @@ import math
 
 import numpy as np
 
-from ...model.bodies import BodyNames, body_names, mesh_names
+from ...model.bodies import BodyNames
+from ...model.gearbox import Gearbox
 from ...scene import Scene
 from ..samples import Samples
 from .load_shares import CycleShares
@@ -28,8 +29,9 @@ class AxesSums:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self._teeth, self._bodies = scene.gearset.tooth_numbers.sun, body_names(scene)
-        self._place = mesh_names(scene).place
+        gearbox = Gearbox(scene)
+        self._teeth, self._bodies = scene.gearset.tooth_numbers.sun, gearbox.body_names
+        self._place = gearbox.mesh_names.place
         self._shares = CycleShares(scene.gearset.planets)
         self._count = 0
         self._moved, self._tilting = np.zeros(()), np.zeros(())

@@ -12,8 +12,8 @@ from types import ModuleType
 import numpy as np
 
 from ..._core import COAST_SIDE, DRIVE_SIDE, DTE, MESH_FORCE, Model, State
-from ...model.bodies import MOTOR
 from ...model.clock import Instant, delay
+from ...model.layout import MOTOR
 from ...model.mesh_sums import MeshSums
 from .totals import ENERGY, MEAN, mesh_sums
 
