@@ -10,10 +10,13 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
+from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.run.start import start
 from planetary_twin_py.scene import Scene
 from planetary_twin_py.simulation.simulate import simulate
 from planetary_twin_py.text.warning_types import AccuracyWarning
+
+from .samples import samples_until
 
 METHOD = "march"  # every mesh cycle is computed
 SAMPLE_RATE = 50_000.0
@@ -46,11 +49,12 @@ def run(scene: Scene, duration: float, method: str, tolerance: float, *, sampled
     """Run a scene from its start for `duration` [s], with samples of all meshes or without."""
     begin = time.perf_counter()
     engine = start(scene, tolerance, method)
+    assert isinstance(engine, Engine)
     setup = time.perf_counter() - begin
     room = round(duration * SAMPLE_RATE) if sampled else 0
     # Not of the process: threads of the linear algebra wait actively for a while after their work.
     begin = time.thread_time()
-    samples = engine.advance(duration, 1, SAMPLE_RATE, room)
+    samples = samples_until(engine, duration, 1, SAMPLE_RATE, room)
     return Run(samples.mesh, time.thread_time() - begin, setup)
 
 

@@ -104,7 +104,7 @@ MESH = {
         over_meshes=np.sum,
     ),
 }  # fmt: skip
-"""Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `mesh_statistics`."""
+"""Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `by_name`."""
 
 TRAIN_PLOTS = {
     "speed": (Quantity("Speed", "rad/s"), ("sun_speed", "ring_speed", "carrier_speed")),
