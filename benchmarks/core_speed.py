@@ -133,7 +133,7 @@ class Build:
 
     def __init__(self, checkout: Path) -> None:
         self.name = checkout.resolve().name
-        paths = [str(checkout.resolve()), str(HERE)]
+        paths = [str(checkout.resolve()), str(checkout.resolve() / "benchmarks")]  # its own calls
         code = f"import sys; sys.path[:0] = {paths}; import core_speed; core_speed.serve()"
         self._process = subprocess.Popen(
             [sys.executable, "-c", code],
