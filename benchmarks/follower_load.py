@@ -14,9 +14,9 @@ import time
 from pathlib import Path
 
 import numpy as np
-from planetary_twin.client import Client
-from planetary_twin.network import stay_on_this_machine
-from planetary_twin.running.children import Child
+from planetary_twin.clients.client import Client
+from planetary_twin.clients.loopback import stay_on_this_machine
+from planetary_twin.running.node_process import Child
 from planetary_twin_msgs.msg import FollowerEstimate, FollowerTeeth
 from sensor_msgs.msg import JointState
 

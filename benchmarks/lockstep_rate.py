@@ -15,9 +15,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Self
 
-from planetary_twin.benchmark.process import processor_time
-from planetary_twin.network import stay_on_this_machine
-from planetary_twin.running.children import Child
+from planetary_twin.clients.loopback import stay_on_this_machine
+from planetary_twin.running.node_process import Child
+from planetary_twin_live.process import processor_time
 from planetary_twin_msgs.srv import Step
 from rcl_interfaces.srv import GetParameters
 from rclpy import create_node, init, shutdown

@@ -13,9 +13,9 @@ import time
 import numpy as np
 
 import planetary_twin_py as pt
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.statics.load_sharing import load_sharing
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
 

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from planetary_twin_py.model.speed_loop import bandwidth
+from planetary_twin_py.model.gearbox import Gearbox
 
 DRIVE, OPEN, COAST = 1, 0, -1
 PAIRS = np.arange(-2, 3)  # tooth pairs considered, by their distance in base pitches
@@ -82,7 +82,7 @@ class Reference:
         ratio /= ratio[self.shafts[0]]
         self.ratio = np.append(ratio, ratio[self.shafts])
         self.total = self.inertia @ self.ratio**2
-        self.bandwidth = 2 * math.pi * bandwidth(self.scene)
+        self.bandwidth = 2 * math.pi * Gearbox(self.scene).bandwidth
         self.point, self.half = point, 0.5 * point.backlash
 
     def damping_time(self, motor_speed):

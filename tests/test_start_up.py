@@ -32,4 +32,4 @@ def test_a_scene_in_frequent_units_loads_neither_scipy_nor_pint(scene):
 
 @pytest.mark.parametrize("node", ["simulation", "logger"])
 def test_a_node_starts_without_loading_scipy_or_pint(node):
-    assert not {"scipy", "pint"} & loaded_by(f"import planetary_twin.{node}")
+    assert not {"scipy", "pint"} & loaded_by(f"import planetary_twin.{node}.node")

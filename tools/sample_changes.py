@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from lifecycle_msgs.srv import ChangeState
-from planetary_twin.client import Client
+from planetary_twin.clients.client import Client
 from planetary_twin_msgs.msg import GearboxState
 from planetary_twin_msgs.srv import SetOperatingPoint
 

@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from planetary_twin_py._core import damping_time
-from planetary_twin_py.model.start import build_load
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.plots.style import BLUE, GREY, ORANGE, drawing, panels
 from planetary_twin_py.scene import Scene
 from planetary_twin_py.simulation.simulate import simulate
@@ -59,8 +58,8 @@ def spring(scene: Scene) -> Spring:
     Args:
         scene: the scene.
     """
-    train = build_train(scene)
-    load = build_load(scene, scene.operating_point, train)
+    gearbox = Gearbox(scene)
+    train, load = gearbox.train, gearbox.load(scene.operating_point)
     cycle_rate = abs(train.cycles[0]) * scene.operating_point.input_speed / (2.0 * np.pi)
     tau = damping_time(train, 0, cycle_rate)
     single = float(train.stiffness[0])

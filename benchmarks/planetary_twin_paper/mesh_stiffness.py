@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from planetary_twin_py._core import find_segment, mesh_stiffness
 from planetary_twin_py.gearset.geometry import planet_ring_path, sun_planet_path
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.plots.style import panels
 from planetary_twin_py.scene import Scene
 
@@ -67,7 +67,7 @@ def meshing_cycle(evidence: Evidence) -> Entry:
 
 def _curves(scene: Scene) -> list[np.ndarray]:
     """Stiffness [N/m] of both kinds of mesh over one cycle."""
-    train = build_train(scene)
+    train = Gearbox(scene).train
     first = {SUN: 0, RING: train.meshes // 2}  # mesh of each kind
     return [
         np.array(

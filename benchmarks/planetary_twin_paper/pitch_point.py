@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from planetary_twin_py._core import lambda_ratio_of, tooth_contact
 from planetary_twin_py.gearset.geometry import pitch_radius
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.model.oil import build_oil
-from planetary_twin_py.model.static_load import mesh_force
 from planetary_twin_py.scene import Scene
 
 SUN, RING = 0, 1  # kinds of mesh
@@ -41,7 +41,7 @@ def static_load(scene: Scene) -> float:
     Args:
         scene: at its operating point.
     """
-    return abs(mesh_force(scene, scene.operating_point.input_torque))
+    return abs(Layout(scene).mesh_force(scene.operating_point.input_torque))
 
 
 def at_pitch_point(scene: Scene, kind: int) -> Contact:

@@ -11,8 +11,8 @@ from matplotlib.patches import Circle
 
 from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.gearset.phasing import check_assembly
-from planetary_twin_py.model.bodies import body_names
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.plots.style import BLUE, GREEN, GREY, ORANGE, PINK, drawing, panels
 from planetary_twin_py.scene import Scene, load_scene
 
@@ -48,7 +48,8 @@ def bodies(evidence: Evidence) -> Entry:
 
 def _free_and_held(scene: Scene) -> tuple[list[str], list[str]]:
     """Names of the bodies that rotate in the equations of motion, and of those at rest."""
-    names, ground = body_names(scene), int(build_train(scene).bodies)
+    gearbox = Gearbox(scene)
+    names, ground = gearbox.body_names, gearbox.bodies.ground
     free = [n for n, place in zip(names.names, names.place, strict=True) if place < ground]
     return free, [n for n in names.names if n not in free]
 
@@ -93,7 +94,7 @@ def assembly(evidence: Evidence) -> Entry:
 
 def _meshing_frequency(scene: Scene) -> float:
     """Mesh frequency at the input speed of the scene [Hz]."""
-    return abs(float(build_train(scene).cycles[0])) * scene.operating_point.input_speed / math.tau
+    return abs(float(Layout(scene).cycles[0])) * scene.operating_point.input_speed / math.tau
 
 
 def _with_held_ring(scene: Scene) -> Scene:

@@ -9,12 +9,12 @@ from textwrap import fill
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "OFF"
 
 import rclpy
-from planetary_twin.follower import Follower
-from planetary_twin.logger import Logger
-from planetary_twin.parameters import changes
-from planetary_twin.plant import Plant
-from planetary_twin.replay import Replay
-from planetary_twin.simulation import Simulation
+from planetary_twin.base.parameters import changes
+from planetary_twin.follower.node import Follower
+from planetary_twin.logger.node import Logger
+from planetary_twin.plant.node import Plant
+from planetary_twin.replay.node import Replay
+from planetary_twin.simulation.node import Simulation
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.node import Node

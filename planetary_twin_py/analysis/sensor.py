@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from ..model.bodies import rigid_ratios
+from ..model.layout import Layout
 from ..recording.tables.sensor import Sensor
 from ..scene import Scene
 from .even_steps import at_equal_steps, drift_remark, drifts, resampled
@@ -52,7 +52,7 @@ def _relative_sun_speed(scene: Scene, input_speed: Array) -> Array:
         scene: gears, and the speed of a second input.
         input_speed: of the input shaft [rad/s], (n,).
     """
-    ratios, second = rigid_ratios(scene), scene.operating_point.second_input_speed
+    ratios, second = Layout(scene).ratios, scene.operating_point.second_input_speed
     pairs = zip(ratios["sun"], ratios["carrier"], strict=True)
     of_input, *of_second = (float(sun - carrier) for sun, carrier in pairs)
     return of_input * input_speed + sum(of_second) * second

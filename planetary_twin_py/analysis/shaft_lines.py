@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
-from ..model.bodies import rigid_ratios
+from ..model.layout import Layout
 from ..scene import Scene
 
 MULTIPLES = 3  # of the speeds that are named
@@ -42,7 +42,7 @@ class ShaftLines:
         Args:
             scene: scene of the gearbox.
         """
-        ratios = rigid_ratios(scene)
+        ratios = Layout(scene).ratios
         (sun, *second), carrier = ratios["sun"], ratios["carrier"][0]
         if second:
             return cls({})

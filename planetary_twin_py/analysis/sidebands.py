@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import NamedTuple, Self
 
-from ..model.bodies import rigid_ratios
+from ..model.layout import Layout
 from ..scene import Scene
 
 MOST = 3  # sidebands on each side of a harmonic that are named, or one for each planet if more
@@ -52,7 +52,7 @@ class Sidebands:
         """
         teeth = scene.gearset.tooth_numbers
         found = {name: 1.0 / count for name, count in teeth._asdict().items()}
-        ratios = rigid_ratios(scene)
+        ratios = Layout(scene).ratios
         (sun, *second), carrier = ratios["sun"], ratios["carrier"][0]
         if carrier and not second:
             found["carrier"] = abs(float(carrier / (teeth.sun * (sun - carrier))))

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..run.counters import SETTLED, Course, settling_rate, unsettled
+from ..model.layout import Layout
+from ..run.counters import SETTLED, Course, Settling, unsettled
 from ..scene import Scene
 from .face_contact import face_warning
 from .fixed_axes import held_axes_warning
@@ -33,7 +34,7 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
         yield line
     if line := face_warning(scene, run):
         yield line
-    stats, rate = run.stats, settling_rate(scene, scene.operating_point)
+    stats, rate = run.stats, Settling(Layout(scene)).rate(scene.operating_point)
     elapsed = max(run.duration, float(run.time[-1]))  # the time of settling counts, too
     missing = unsettled(elapsed * rate, rate)
     yield from course_warnings(

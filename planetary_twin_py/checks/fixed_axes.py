@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..gearset.kinematics import mesh_cycles_per_turn
-from ..model.bodies import rigid_ratios
+from ..model.layout import Layout
 from ..scene import Scene
 
 UNEQUAL = 0.05  # of a share: smallest difference that is reported
@@ -50,8 +49,7 @@ def static_shares(scene: Scene) -> Shares:
     """
     from ..statics.load_sharing import POSITIONS, load_sharing  # most runs do without
 
-    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
-    cycle = 1.0 / abs(float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios)))
+    cycle = 1.0 / abs(float(Layout(scene).cycles[0]))
     turns = (np.arange(POSITIONS) + 0.5) / POSITIONS * cycle
     held, moving = (
         load_sharing(given, turns).share.mean(axis=0)

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 
 from ..modal.whirl import whirl_warning
+from ..model.gearbox import Gearbox
 from ..scene import Scene
 from ..statics.load_sharing import LoadSharing
 from ..statics.load_sharing import load_sharing as static_load_sharing
@@ -28,6 +29,6 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
         ValueError: as there.
     """
     found = static_load_sharing(scene, turns)
-    if warning := whirl_warning(scene, scene.operating_point):
+    if warning := whirl_warning(Gearbox(scene), scene.operating_point):
         warnings.warn(warning, AccuracyWarning, stacklevel=2)
     return found

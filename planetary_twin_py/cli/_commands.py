@@ -18,8 +18,8 @@ from ._help import PLAIN, Command
 GROUP = "planetary_twin.commands"
 _SENTENCE = 300  # characters at most
 # Commands of the other packages, which a wheel of this package does not contain.
-OF_NODES = ("bench-live", "bench-recorder", "monitor", "op", "param", "replay", "run")
-OF_BENCHMARKS = ("bench", "paper")
+OF_NODES = ("monitor", "op", "param", "replay", "run")
+OF_BENCHMARKS = ("bench", "bench-live", "bench-recorder", "paper")
 
 
 class Group(TyperGroup):

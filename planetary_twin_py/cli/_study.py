@@ -143,7 +143,7 @@ def _executor(scheduler: str | None) -> Iterator[Executor]:
     if scheduler is None or scheduler.isdecimal():
         if scheduler is not None and int(scheduler) < 1:
             raise ValueError(f"--scheduler = {scheduler!r}: must be at least 1 thread")
-        from ..studies.local import Threads
+        from ..simulation.threads import Threads
 
         yield Threads(None if scheduler is None else int(scheduler))
         return

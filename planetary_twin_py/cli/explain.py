@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from ..explanation.meshes import Meshes
     from ..run.dynamics_choice import DynamicsChoice
     from ..scene import Scene
-    from ..studies.measures import RunSummary
 
 
 def explain(
@@ -78,7 +77,7 @@ def explain(
     if loaded.dynamics == "auto":
         console.print(found.dynamics.text, highlight=False)
         loaded = found.dynamics.scene
-    console.print(_table(loaded, found))
+    console.print(_table(found))
     console.print(_dynamics_table(found.dynamics))
     console.print(_limits(loaded))
     for line in found.remarks:
@@ -180,7 +179,7 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     """Errors and computing time of each dynamics."""
     from rich.table import Table
 
-    from ..run.dynamics_choice import FIGURES
+    from ..units.catalogue import FIGURES
 
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
@@ -190,7 +189,7 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     )
     table.add_column("dynamics")
     for name in (*FIGURES, "run time \\[s]"):
-        table.add_column(name.replace("_", " ").replace("dte", "DTE"), justify="right")
+        table.add_column(_heading(name), justify="right")
     for each in found.candidates:
         if each.refused:  # the caption has the reason
             continue
@@ -217,42 +216,35 @@ def _verdict(found: DynamicsChoice) -> str:
     return "\n".join(lines)
 
 
-def _table(scene: Scene, found: Explanation) -> Table:
+def _table(found: Explanation) -> Table:
     from rich.table import Table
 
-    figures = found.figures
-    values = (
-        f"{name} {figure(getattr(figures, field), unit)}" for field, (name, unit) in _JUDGED.items()
-    )
+    from ..units.catalogue import FIGURES, MESH
+
+    whole = found.figures
+    values = (f"{_heading(name)} {figure(whole[name], MESH[name].si)}" for name in FIGURES)
     table = Table(
         title="Modelled terms, and the change of results without each [%]",
         caption="\n".join(("results of the complete scene", *values)),
     )
     table.add_column("term: law")
-    for heading in (*(name for name, _ in _JUDGED.values()), "run time"):
+    for heading in (*map(_heading, FIGURES), "run time"):
         table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
     for effect in found.effects:
         table.add_row(
             f"{effect.term.name}: {effect.term.law}",
-            *(_change(figures, effect.without, name) for name in _JUDGED),
+            *(_change(whole[name], effect.without[name]) for name in FIGURES),
             f"{-100 * effect.cost:+.0f}",
         )
     return table
 
 
-# Fields of a summary: name and SI unit. Means and rms are over all meshes, peaks are the largest of
-# any mesh.
-_JUDGED = {
-    "dte_mean": ("DTE mean", "m"),
-    "dte_rms": ("DTE rms", "m"),
-    "dte_peak": ("DTE peak", "m"),
-    "mesh_force_peak": ("force peak", "N"),
-    "power_loss": ("power loss", "W"),
-}
+def _heading(name: str) -> str:
+    """Short title of one of `FIGURES`."""
+    return name.replace("_", " ").replace("dte", "DTE")
 
 
-def _change(with_: RunSummary, without: RunSummary, name: str) -> str:
-    before, after = getattr(with_, name), getattr(without, name)
+def _change(before: float, after: float) -> str:
     return f"{100 * (after / before - 1.0):+.2f}" if before != 0.0 else "-"
 
 
@@ -269,12 +261,12 @@ def _limits(scene: Scene) -> Table:
 
 def _as_figures(found: Explanation) -> dict[str, Any]:
     return {
-        "scene": found.figures._asdict(),
+        "scene": found.figures,
         "terms": [
             {
                 "name": effect.term.name,
                 "law": effect.term.law,
-                "without": effect.without._asdict(),
+                "without": effect.without,
                 "cost": effect.cost,
             }
             for effect in found.effects

@@ -20,7 +20,8 @@ from ._study import progress
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..fleet.groups import Executor, GearboxResult
+    from ..fleet.groups import GearboxResult
+    from ..studies.work import Executor
 
 SHOWN = 20  # gearboxes with events
 STEP = 0.1  # of the loss torque, which users look for
@@ -104,7 +105,7 @@ def fleet(
 @contextmanager
 def _executor(scheduler: str | None) -> Iterator[Executor]:
     if scheduler is None:
-        from ..studies.local import Threads
+        from ..simulation.threads import Threads
 
         yield Threads(1)  # array operations share the processor already
         return

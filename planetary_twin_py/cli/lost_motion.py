@@ -141,12 +141,13 @@ def _figures(found: LostMotion) -> dict[str, object]:
 
 def _torque(scene: Scene, text: str | None) -> float:
     """Largest torque on the output [N m]."""
-    from ..model.bodies import LOAD_MACHINE
-    from ..model.static_load import static_torques
+    from ..model.layout import LOAD_MACHINE, Layout
     from ..units.conversion import to_si
 
     if text is None:
-        torque = abs(scene.operating_point.input_torque * static_torques(scene)[LOAD_MACHINE])
+        torque = abs(
+            scene.operating_point.input_torque * Layout(scene).machine_torques[LOAD_MACHINE]
+        )
         if not torque > 0.0:
             raise ValueError("--torque: required, as input_torque = 0")
         return float(torque)

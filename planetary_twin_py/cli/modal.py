@@ -128,9 +128,10 @@ def _speed(text: str | None, model: str) -> float | None:
 def _whirl(scene: Scene, speed: float | None) -> str:
     """A remark on whirl that damping makes grow at a speed of the first motor [rad/s]."""
     from ..modal.whirl import whirl_warning
+    from ..model.gearbox import Gearbox
 
     point = scene.operating_point.model_copy(update={"input_speed": speed})
-    return whirl_warning(scene, point)
+    return whirl_warning(Gearbox(scene), point)
 
 
 def _bearings_of_load(scene: Scene, model: str) -> str | None:

@@ -96,14 +96,14 @@ def simulate(
     if result.choice is not None:
         console.print(result.choice.text, highlight=False)
         chosen = {"dynamics": result.choice.figures()}
-    train = {"settling_s": settling} | _train(loaded, result)
+    lines = _train(loaded, result, settling)
+    train = {name: value for name, (value, _, _) in lines.items()}
     meshes = _meshes(result)
     print_list(console, "gears: ", gears(loaded))
     print_list(console, "operating point: ", operating_point(loaded))
-    for name, value in train.items():
+    for name, (value, label, unit) in lines.items():
         if name in _SOURCES and not _has_several(train):
             continue
-        label, unit = _TRAIN[name]
         shown_value = figure(value, unit, digits=6)
         if name == "efficiency":
             shown_value = _efficiency(value, losses_in_words(loaded))
@@ -148,23 +148,6 @@ def _record(console: Console, out: Path, scene: Scene, *how: float) -> Result:
     return replace(result, choice=choice)
 
 
-# Label and SI unit of the results of the whole train, by JSON name.
-_TRAIN = {
-    "settling_s": ("excluded at the start", "s"),
-    "efficiency": ("efficiency", "-"),
-    "mean_power_loss_W": ("power loss, mean", "W"),
-    "tooth_friction_W": ("- of tooth friction", "W"),
-    "bearing_loss_W": ("- of bearings, seals and grease", "W"),
-    "churning_loss_W": ("- of churning", "W"),
-    "mean_dte_m": ("DTE of all meshes, mean", "m"),
-    "dte_vibration_rms_m": ("DTE of all meshes, rms about the mean", "m"),
-    "dte_peak_m": ("DTE of any mesh, peak", "m"),
-    "mean_mesh_force_N": ("force of all meshes, mean", "N"),
-    "mesh_force_peak_N": ("force of any mesh, peak", "N"),
-    "mesh_frequency_Hz": ("mesh frequency, mean", "Hz"),
-    "energy_residual": ("energy residual/input energy", "-"),
-    "real_time_factor": ("real-time factor", "-"),
-}
 _SOURCES = ("tooth_friction_W", "bearing_loss_W", "churning_loss_W")  # of the power loss
 
 
@@ -179,29 +162,30 @@ def _has_several(train: dict[str, float]) -> bool:
     return sum(train[name] != 0.0 for name in _SOURCES) > 1
 
 
-def _train(scene: Scene, result: Result) -> dict[str, float]:
-    """Results of the whole train, and means over all its meshes, by JSON name."""
+def _train(scene: Scene, result: Result, settling: float) -> dict[str, tuple[float, str, str]]:
+    """Results of the whole train: value, label and SI unit by JSON name."""
     from ..gearset.kinematics import mesh_frequency
     from ..studies.measures import summary_of
+    from ..units.catalogue import SUMMARY
 
     energy, seen = result.energy, summary_of(result)
     sun, carrier = (
         float(result.mean_speed[result.bodies.index(member)]) for member in ("sun", "carrier")
     )
+    frequency = mesh_frequency(scene.gearset.tooth_numbers, sun, carrier)
+    residual = energy.residual / energy.driving_work if energy.driven else 0.0
+    bearings, churning = (lost / result.duration for lost in (energy.bearing, energy.churning))
     return {
-        "efficiency": result.efficiency,
-        "mean_power_loss_W": seen.power_loss,
-        "tooth_friction_W": energy.friction / result.duration,
-        "bearing_loss_W": energy.bearing / result.duration,
-        "churning_loss_W": energy.churning / result.duration,
-        "mean_dte_m": seen.dte_mean,
-        "dte_vibration_rms_m": seen.dte_rms,
-        "dte_peak_m": seen.dte_peak,
-        "mean_mesh_force_N": seen.mesh_force_mean,
-        "mesh_force_peak_N": seen.mesh_force_peak,
-        "mesh_frequency_Hz": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
-        "energy_residual": energy.residual / energy.driving_work if energy.driven else 0.0,
-        "real_time_factor": result.stats.real_time_factor,
+        "settling_s": (settling, "excluded at the start", "s"),
+        "efficiency": (result.efficiency, "efficiency", "-"),
+        "mean_power_loss_W": (seen["power_loss"], "power loss, mean", "W"),
+        "tooth_friction_W": (energy.friction / result.duration, "- of tooth friction", "W"),
+        "bearing_loss_W": (bearings, "- of bearings, seals and grease", "W"),
+        "churning_loss_W": (churning, "- of churning", "W"),
+        **{f"{key}_{q.si}": (seen[name], q.title, q.si) for name, (key, q) in SUMMARY.items()},
+        "mesh_frequency_Hz": (frequency, "mesh frequency, mean", "Hz"),
+        "energy_residual": (residual, "energy residual/input energy", "-"),
+        "real_time_factor": (result.stats.real_time_factor, "real-time factor", "-"),
     }
 
 
@@ -325,10 +309,12 @@ def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
 
 def _columns(result: Result) -> dict[str, Any]:
     """Every time series of a result, by column name."""
+    from ..units.catalogue import SAMPLED
+
     columns: dict[str, Any] = {"time": result.time}
     for names, quantities in (
         (result.bodies, ("angle", "speed")),
-        (result.meshes, _MESH_QUANTITIES),
+        (result.meshes, SAMPLED),
     ):
         for quantity in quantities:
             values = getattr(result, quantity)
@@ -367,24 +353,15 @@ def _tilting_columns(
     return columns
 
 
-_MESH_QUANTITIES = (
-    "dte",
-    "mesh_force",
-    "film_thickness",
-    "lambda_ratio",
-    "boundary_friction",
-    "viscous_friction",
-    "power_loss",
-)
-
-
 def _write_npz(result: Result, scene: Scene, path: Path) -> None:
     import numpy as np
     import yaml
 
+    from ..units.catalogue import SAMPLED
+
     text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
     arrays: dict[str, Any] = {
-        name: getattr(result, name) for name in ("time", "angle", "speed", *_MESH_QUANTITIES)
+        name: getattr(result, name) for name in ("time", "angle", "speed", *SAMPLED)
     }
     if result.axes is not None:
         names = ("displacement", "bearing_force", "orbit", "flank_force", "load_share")

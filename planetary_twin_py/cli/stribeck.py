@@ -35,8 +35,8 @@ def stribeck(
     Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
     """
     check_suffix(out, TABLES + PICTURES)
+    from ..simulation.threads import Threads
     from ..studies.axes import Axis
-    from ..studies.local import Threads
     from ..studies.stribeck import stribeck as run
     from ..studies.stribeck import stribeck_scene
     from ..studies.work import Failure

@@ -13,6 +13,7 @@ import numpy as np
 
 from .._core import Oil, tooth_contact
 from ..lubrication.ohlendorf import slip_per_position
+from ..model.gearbox import Gearbox
 from ..model.oil import build_oil
 from ..model.pair_loads import pair_loads
 from ..scene import Scene
@@ -82,7 +83,7 @@ def contacts_of(scene: Scene, kind: int, force: float, frequency: float) -> Cont
     turn = 2.0 * math.pi * (np.arange(POSITIONS) + 0.5) / (POSITIONS * gearset.tooth_numbers.sun)
     members = ("sun", "ring", "carrier", *(f"planet_{i + 1}" for i in range(gearset.planets)))
     angles = {name: turn if name == "sun" else np.zeros(POSITIONS) for name in members}
-    healthy = scene.replace(faults=())
+    healthy = Gearbox(scene.replace(faults=()))
     pairs = pair_loads(healthy, kind * gearset.planets, angles, np.full(POSITIONS, force))
     loaded = pairs.load > 0.0
     position, face, load = pairs.position[loaded], pairs.face[loaded], pairs.load[loaded]

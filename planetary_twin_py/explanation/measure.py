@@ -11,7 +11,7 @@ from ..run.result import Result
 from ..scene import Scene
 from ..simulation.choose_dynamics import choose_dynamics
 from ..simulation.simulate import TOLERANCE, simulate
-from ..studies.measures import RunSummary, summary_of
+from ..studies.measures import Row, summary_of
 from .remarks import remarks
 from .terms import Term, terms
 
@@ -22,14 +22,14 @@ class Effect(NamedTuple):
     """A term, and the results of the scene without it."""
 
     term: Term
-    without: RunSummary
+    without: Row  # see `summary_of`
     cost: float  # fraction of the computing time due to the term, median of paired runs
 
 
 class Explanation(NamedTuple):
     """Results of a scene, and the effect of each of its terms."""
 
-    figures: RunSummary
+    figures: Row  # see `summary_of`
     effects: tuple[Effect, ...]
     dynamics: DynamicsChoice  # every dynamics that the scene can have, against one another
     remarks: tuple[str, ...]  # warnings about the results

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..model.static_load import mesh_force
+from ..model.layout import Layout
 from ..run.result import Result
 from ..scene import Scene
 from ..units.catalogue import SIDES
@@ -24,4 +24,4 @@ def loads_of_scene(scene: Scene) -> list[float]:
     Args:
         scene: the scene.
     """
-    return [abs(mesh_force(scene, scene.operating_point.input_torque))] * len(SIDES)
+    return [abs(Layout(scene).mesh_force(scene.operating_point.input_torque))] * len(SIDES)

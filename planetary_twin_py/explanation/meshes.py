@@ -9,12 +9,10 @@ from .._core import damping_time
 from ..gearset.working import WorkingMesh
 from ..lubrication.ohlendorf import tooth_loss_factor
 from ..mesh.overlap import overlap_ratio
+from ..model.gearbox import Gearbox
 from ..model.mean_stiffness import mean_stiffness
 from ..model.mesh_damping import natural_frequencies
-from ..model.start import build_load
-from ..model.static_load import mesh_force
 from ..model.stiffness_laws import GEARS, loaded_force
-from ..model.train import build_train, held_axes
 from ..scene import Scene
 from ..tooth.iso import iso_pair
 from ..tooth.material import Material
@@ -77,14 +75,13 @@ def describe_meshes(scene: Scene) -> Meshes:
     Raises:
         ValueError: the tooth geometry is impossible, or the contact ratio is below 1.
     """
-    scene = held_axes(scene)
-    point = scene.operating_point
-    train = build_train(scene)
-    load = build_load(scene, point, train)
+    gearbox = Gearbox(scene).held
+    scene, train, point = gearbox.scene, gearbox.train, scene.operating_point
+    load = gearbox.load(point)
     passing = float(train.cycles @ load.target_speed)
     frequency = abs(passing) / (2.0 * math.pi)
-    natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
-    sun_force = mesh_force(scene, point.input_torque)
+    natural, mean = natural_frequencies(gearbox, train.stiffness), mean_stiffness(train)
+    sun_force = gearbox.mesh_force(point.input_torque)
     force, from_sun = abs(sun_force), sun_force * passing
     pressure = [pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()

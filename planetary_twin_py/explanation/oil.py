@@ -7,10 +7,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from ..lubrication.viscosity import viscosity_at
+from ..model.gearbox import Gearbox
 from ..model.oil import build_oil
-from ..model.start import build_load
-from ..model.static_load import mesh_force
-from ..model.train import build_train, held_axes
 from ..scene import Scene
 from ..scene.oil_grade import DEFINED
 from ..units.engineering import figure
@@ -111,12 +109,11 @@ def oil_figures(scene: Scene) -> OilFigures | None:
     Args:
         scene: the scene.
     """
-    scene = held_axes(scene)
-    point, data = scene.operating_point, scene.lubrication
-    train = build_train(scene)
-    load = build_load(scene, point, train)
-    frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
-    force = mesh_force(scene, point.input_torque)
+    gearbox = Gearbox(scene).held
+    scene, point, data = gearbox.scene, scene.operating_point, scene.lubrication
+    passing = float(gearbox.train.cycles @ gearbox.load(point).target_speed)
+    frequency = abs(passing) / (2.0 * math.pi)
+    force = gearbox.mesh_force(point.input_torque)
     if not data.friction or force == 0.0 or frequency == 0.0:
         return None
     powers = [

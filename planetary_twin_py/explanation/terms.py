@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from ..model.layout import Layout
 from ..model.moving_axes import linear_bearing
 from ..model.stiffness_laws import stiffness_laws
 from ..scene import Scene
@@ -264,10 +265,11 @@ def _rolling_elements(scene: Scene) -> Term | None:
     if not names:
         return None
     without: dict[str, Any] = {}
+    layout, torque = Layout(scene), scene.operating_point.input_torque
     for kind, rolling in rolling_of.items():
         if rolling:
             without[f"supports.{kind}.rolling"] = None
-            without[f"supports.{kind}.bearing"], _ = linear_bearing(scene, kind)
+            without[f"supports.{kind}.bearing"], _ = linear_bearing(layout, kind, torque)
     return Term("rolling elements", f"Palmgren, {', '.join(names)}", without)
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ..gearset.kinematics import mesh_frequency
-from ..model.mesh_frequency import wanted_mesh_frequency
+from ..model.layout import Layout
 from ..run.result import Result
 from ..scene import Scene
 from ..statics.error_turns import WHOLE_TURN, fewest_turns
@@ -38,7 +38,7 @@ def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
         of the turn of an error that changes load shares. Nothing where the gears are to stand
         still.
     """
-    wanted = wanted_mesh_frequency(scene)
+    wanted = Layout(scene).mesh_frequency
     if not wanted > STANDSTILL:
         return
     speeds = dict(zip(run.bodies, run.mean_speed.tolist(), strict=True))
@@ -90,7 +90,7 @@ def duration_for_means(scene: Scene) -> float:
     Args:
         scene: the scene.
     """
-    frequency = wanted_mesh_frequency(scene)
+    frequency = Layout(scene).mesh_frequency
     cycles = frequency * SHORT
     if frequency < 1.0 / LONG or not part_counts(cycles):
         return SHORT

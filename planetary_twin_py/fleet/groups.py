@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
 from ..following.sensors import Sensors
 from ..scene import Scene
-from ..studies.work import Failure
+from ..studies.work import Executor, Failure
 from .balances import PARAMETERS
 from .fleet import Fleet, FleetEvent
 from .tables import read_fleet
@@ -103,17 +102,6 @@ class FollowGroup:
             )
             for n, name in enumerate(group)
         )
-
-
-class Executor(Protocol):
-    """Runs groups: `studies.local.Threads` or `studies.cluster.Cluster`."""
-
-    def run(
-        self,
-        work: Callable[[Group], tuple[GearboxResult, ...] | Failure],
-        points: Iterable[Group],
-    ) -> Iterator[tuple[Group, tuple[GearboxResult, ...] | Failure]]:
-        """Yield every group with its result, in order of completion."""
 
 
 def follow_groups(

@@ -6,7 +6,6 @@ from fractions import Fraction
 
 from .. import _core
 from .._core import DIGEST, SOURCES, VARIABLE_KINDS, Exported
-from ..model.bodies import body_names, build_report, mesh_names
 from ..model.cycle import common_cycles, turns_per_cycle
 from ..model.error_scale import POINTS, new_integrator
 from ..model.point_laws import record_of
@@ -44,9 +43,9 @@ def build_records(scene: Scene, tolerance: float) -> Exported:
         model=engine.model,
         control=control,
         pause=integrator.periodic.pause,
-        limits=Limits(scene, engine.train).record,
+        limits=Limits(engine.gearbox).record,
         ranges=engine.port_ranges,
-        report=build_report(_core, body_names(scene), mesh_names(scene)),
+        report=engine.gearbox.report,
         laws=engine.laws,
         point=record_of(scene.operating_point),
         linear=scene.drive.interpolation == "linear",

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from .._core import POINT_FIELDS, Exported
-from ..model.bodies import LOAD_MACHINE, MOTOR, mesh_names
-from ..model.speed_loop import SpeedLoopCheck
-from ..model.train import build_train
+from ..model.gearbox import Gearbox
+from ..model.layout import LOAD_MACHINE, MOTOR
+from ..model.speed_loop_check import SpeedLoopCheck
 from ..scene import OperatingPoint, Scene
 from ..scene.drive import Causality
 from ..units.catalogue import WAVEFORM
@@ -94,7 +94,7 @@ def _of_ports(scene: Scene, exported: Exported) -> Iterator[Variable]:
 
 
 def _of_meshes(scene: Scene) -> Iterator[Variable]:
-    meshes = mesh_names(scene).names
+    meshes = Gearbox(scene).mesh_names.names
     for place, mesh in enumerate(meshes):
         for row, (name, quantity) in enumerate(WAVEFORM.items()):
             yield Variable(
@@ -155,7 +155,7 @@ def _holds_any_speed(scene: Scene) -> bool:
     Speed-dependent mesh damping is lowest at the highest speed, where the loop is least stable;
     lower speeds are checked, too.
     """
-    loop = SpeedLoopCheck(scene, build_train(scene))
+    loop = SpeedLoopCheck(Gearbox(scene))
     try:
         for speed in np.linspace(0.0, scene.drive.speed_limit, SPEEDS):
             loop.check(scene.operating_point.model_copy(update={"input_speed": float(speed)}))

@@ -6,8 +6,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..gearset.kinematics import mesh_cycles_per_turn
-from ..model.bodies import CENTRAL, base_radii, machines, rigid_ratios, rim_masses
+from ..model.layout import Layout
 from ..scene import Scene, SceneError
 
 
@@ -59,33 +58,33 @@ def followed_train(scene: Scene) -> FollowedTrain:
     """
     if scene.drive.second_input is not None:
         raise SceneError("drive.second_input: a differential cannot be followed")
-    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    layout = Layout(scene)
+    ratios = {name: ratio[0] for name, ratio in layout.ratios.items()}
     members = (scene.drive.input.member, scene.drive.output.member)
     gear = "ring" if scene.gearset.held == "sun" else "sun"
     point, numbers = scene.operating_point, scene.gearset.tooth_numbers
     planets = {f"planet_{n + 1}": numbers.planet for n in range(scene.gearset.planets)}
     return FollowedTrain(
         ratio=float(ratios[members[1]]),
-        inertia=_inertia(scene, ratios),
+        inertia=_inertia(layout),
         torque=abs(point.input_torque) or 0.1 * scene.drive.torque_limit,
         speed=abs(point.input_speed) or 0.1 * scene.drive.speed_limit,
         speed_limit=scene.drive.speed_limit,
         torque_limit=scene.drive.torque_limit,
         oil_temperature=point.oil_temperature,
         members=members,
-        cycles=mesh_cycles_per_turn(numbers, {name: ratios[name] for name in (*CENTRAL, "planet")}),
+        cycles=layout.cycles[0],
         twist=(ratios[gear], ratios[gear] / ratios[members[1]]),
-        lever=base_radii(scene)[gear],
+        lever=layout.radii[gear],
         teeth={"sun": numbers.sun, **planets, "ring": numbers.ring},
     )
 
 
-def _inertia(scene: Scene, ratios: dict[str, Fraction]) -> float:
+def _inertia(layout: Layout) -> float:
     """Moment of inertia of all bodies, referred to the input [kg m^2]."""
-    radii = base_radii(scene)
-    copies = {"planet": scene.gearset.planets}
+    copies = {"planet": len(layout.planets)}
     parts = {
-        kind: mass * radii[kind] ** 2 * copies.get(kind, 1)
-        for kind, mass in rim_masses(scene).items()
-    } | {name: machine.inertia for name, machine in machines(scene).items()}
-    return sum(inertia * float(ratios[name]) ** 2 for name, inertia in parts.items())
+        kind: mass * layout.radii[kind] ** 2 * copies.get(kind, 1)
+        for kind, mass in layout.masses.items()
+    } | {name: machine.inertia for name, machine in layout.machines.items()}
+    return sum(inertia * float(layout.ratios[name][0]) ** 2 for name, inertia in parts.items())

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.bodies import rigid_speeds
+from ..model.layout import Layout
 from ..scene import Scene
 from .excitation import EXCITED, excitation
 from .forcing import forcing
@@ -99,7 +99,7 @@ def shaft_orders(scene: Scene) -> dict[str, MeshLine]:
         scene: gives the members of motor and load, the number of planets, and the second motor.
     """
     second = scene.operating_point.second_input_speed
-    ends = [rigid_speeds(scene, inputs) for inputs in ((1.0, 0.0), (0.0, second))]
+    ends = [Layout(scene).speeds(*inputs) for inputs in ((1.0, 0.0), (0.0, second))]
     turns = {
         "turn of the input shaft": (scene.drive.input.member, 1),
         "turn of the output shaft": (scene.drive.output.member, 1),
@@ -112,18 +112,9 @@ def shaft_orders(scene: Scene) -> dict[str, MeshLine]:
     }
 
 
-def mesh_frequency_per_speed(scene: Scene) -> float:
-    """Mesh frequency [Hz] per speed of the first motor [rad/s], with the second motor at rest.
-
-    Args:
-        scene: gives the tooth numbers and the member at rest.
-    """
-    return abs(mesh_line(scene).slope)
-
-
 def _passing(scene: Scene, inputs: tuple[float, float]) -> float:
     """Teeth of the sun that pass the carrier [1/s] at speeds of the motors [rad/s], signed."""
-    speeds = rigid_speeds(scene, inputs)
+    speeds = Layout(scene).speeds(*inputs)
     return scene.gearset.teeth.sun * (speeds["sun"] - speeds["carrier"]) / (2.0 * np.pi)
 
 

@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..model.layout import Layout
 from ..model.mean_stiffness import mean_stiffness
-from ..model.planet_groups import scene_phases
-from ..model.static_load import mesh_force
 from ..model.teeth import build_teeth, stiffness_at
 from ..scene import Scene
 from .springs import Spring, SpringModel
@@ -73,7 +72,7 @@ def forcing(scene: Scene, springs: SpringModel, harmonics: int) -> Forcing:
     meshes = [[s for s in springs.springs if s.kind == kind] for kind in KINDS]
     order = np.arange(1, harmonics + 1)[:, None]
     pulls = []
-    for kind, (found, phases) in enumerate(zip(meshes, scene_phases(scene), strict=True)):
+    for kind, (found, phases) in enumerate(zip(meshes, Layout(scene).phases, strict=True)):
         error = equivalent_error(scene, kind, found, harmonics)[:, None]
         delay = np.array([float(phase % 1) for phase in phases])
         stiffness = np.array([spring.stiffness for spring in found])
@@ -94,7 +93,8 @@ def equivalent_error(scene: Scene, kind: int, meshes: list[Spring], harmonics: i
     Returns:
         Amplitudes e_h of the real part of e_h exp(2 pi i h u) over the mesh cycle u [m], (H,).
     """
-    force, teeth = mesh_force(scene, scene.operating_point.input_torque), build_teeth(scene)
+    force = Layout(scene).mesh_force(scene.operating_point.input_torque)
+    teeth = build_teeth(scene)
     total = sum(spring.stiffness for spring in meshes)
     deflection = force * len(meshes) / total if total else 0.0
     cycle = (np.arange(POINTS) + 0.5) / POINTS

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
-from ..model.bodies import rigid_speeds
+from ..model.layout import Layout
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
 from ..scene.supports import Support, Supports
@@ -75,7 +73,7 @@ def natural_modes(
     springs = spring_model(scene, model, stiffness)
     if input_speed is None or model not in MOVING_AXES:
         return modes_of(springs)
-    speeds = rigid_speeds(scene, (input_speed, scene.operating_point.second_input_speed))
+    speeds = Layout(scene).speeds(input_speed, scene.operating_point.second_input_speed)
     if not any(speeds.values()):
         return modes_of(springs)
     angles = scene.gearset.planet_angles
@@ -157,17 +155,6 @@ def _supports(scene: Scene) -> Supports:
     return scene.supports
 
 
-def _rim_masses(scene: Scene) -> dict[str, float]:
-    """J/r^2 [kg]; r is the base radius, for the carrier the radius of the planet centres."""
-    mass, slant = scene.gearset.rim_masses, math.cos(scene.gearset.transverse.pressure_angle) ** -2
-    return {
-        "sun": mass.sun * slant,
-        "planet": mass.planet * slant,
-        "ring": mass.ring * slant,
-        "carrier": mass.carrier,
-    }
-
-
 def loaded_planar_model(scene: Scene) -> SpringModel:
     """Masses and springs in the plane at mean mesh stiffness, with load on every planet.
 
@@ -183,7 +170,7 @@ def loaded_planar_model(scene: Scene) -> SpringModel:
 
 
 def _planar_set(scene: Scene, mesh: MeshStiffness, factors: tuple[float, ...]) -> PlanarSet:
-    supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
+    supports, rim, gearset = _supports(scene), Layout(scene).polar_masses, scene.gearset
     sun_planet, planet_ring = gearset.geometry.meshes
 
     def body(name: str) -> PlanarBody:
@@ -212,15 +199,9 @@ def _pin_factors(scene: Scene) -> tuple[float, ...]:
 
 
 def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
-    supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
-    gears = gearset.geometry
-    sun_planet, planet_ring = gears.meshes
-    radius = {
-        "sun": gears.sun.base_radius,
-        "planet": gears.planet.base_radius,
-        "ring": gears.ring.base_radius,
-        "carrier": gears.centre_distance,
-    }
+    layout, supports, gearset = Layout(scene), _supports(scene), scene.gearset
+    rim, radius = layout.polar_masses, layout.planar_radii
+    sun_planet, planet_ring = gearset.geometry.meshes
 
     def body(name: str) -> SpatialBody:
         support: Support = getattr(supports, name)

@@ -10,8 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..model.bodies import base_radii, build_bodies, machines
-from ..model.train import held_axes
+from ..model.gearbox import Gearbox
 from ..scene import Scene
 from ..scene.drive import MOVED
 from .mesh_stiffness import MeshStiffness
@@ -33,26 +32,25 @@ def torsional_model(
     Returns:
         Masses and springs.
     """
-    scene = held_axes(scene)
-    bodies, machine_data = build_bodies(scene), machines(scene)
-    ground = len(bodies.mass) - 1
-    moving = [name for name, machine in machine_data.items() if machine.port not in MOVED]
-    still = set(machine_data) - set(moving if with_machines else ())
-    names = [name for name, place in bodies.place.items() if place != ground and name not in still]
+    gearbox = Gearbox(scene).held
+    bodies, machines = gearbox.bodies, gearbox.machines
+    moving = [name for name, machine in machines.items() if machine.port not in MOVED]
+    still = set(machines) - set(moving if with_machines else ())
+    free = (name for name, place in bodies.place.items() if place != bodies.ground)
+    names = [name for name in free if name not in still]
     coordinates = tuple(f"{name}.u" for name in names)
     row, springs = Rows(coordinates), []
     carried = scene.gearset.geometry.carrier_ratio
-    for i, factor in enumerate(factors):
-        planet = f"planet_{i + 1}.u"
+    for name, factor in zip(gearbox.planets, factors, strict=True):
+        planet = f"{name}.u"
         sun_row = row({"sun.u": 1.0, planet: 1.0, "carrier.u": -1.0})
         ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -carried})
         springs += [Spring("sun_planet", factor * mesh.sun_planet, sun_row, factor)]
         springs += [Spring("planet_ring", factor * mesh.planet_ring, ring_row, factor)]
     if with_machines:
-        radii = base_radii(scene)
-        for name, machine in machine_data.items():
+        for name, machine in machines.items():
             shaft = row({f"{name}.u": 1.0, f"{machine.member}.u": -1.0})
-            stiffness = machine.coupling_stiffness / radii[machine.member] ** 2
+            stiffness = machine.coupling_stiffness / gearbox.radii[machine.member] ** 2
             springs.append(Spring(f"{name}_coupling", stiffness, shaft))
     mass = np.array([bodies.mass[bodies.place[name]] for name in names])
     return SpringModel(coordinates, mass, tuple(springs))

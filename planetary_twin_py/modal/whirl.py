@@ -20,11 +20,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._core import AXES, damping_time
-from ..model.bodies import rigid_speeds
-from ..model.moving_axes import bearing_names, linear_bearing
+from ..model.gearbox import Gearbox
+from ..model.moving_axes import linear_bearing
 from ..model.planar_rows import CENTRAL
-from ..model.train import build_train, held_axes
-from ..scene import OperatingPoint, Scene
+from ..scene import OperatingPoint
 from ..statics.small_motion import depends_on_load
 
 if TYPE_CHECKING:
@@ -34,22 +33,22 @@ if TYPE_CHECKING:
 MESHES = ("sun_planet", "planet_ring")  # kinds of springs, in the order of the core
 
 
-def whirl_warning(scene: Scene, point: OperatingPoint) -> str:
+def whirl_warning(gearbox: Gearbox, point: OperatingPoint) -> str:
     """Judge whether small motion about the centred axes grows, where meshes stay in contact.
 
     Only carriers that turn faster than an axis whirls are judged, on linear bearings.
 
     Args:
-        scene: the scene.
+        gearbox: of the scene.
         point: operating point, whose speeds are used.
 
     Returns:
         A warning with the growth rate; "" if nothing grows.
     """
-    supports = scene.supports
+    scene, supports = gearbox.scene, gearbox.scene.supports
     if not scene.moving_axes or supports is None:
         return ""
-    speeds = rigid_speeds(scene, (point.input_speed, point.second_input_speed))
+    speeds = gearbox.speeds_at(point)
     loaded = any(depends_on_load(getattr(supports, name)) for name in (*CENTRAL, "planet"))
     if speeds["carrier"] == 0.0 or loaded:
         return ""
@@ -62,7 +61,7 @@ def whirl_warning(scene: Scene, point: OperatingPoint) -> str:
     squares = np.linalg.eigvalsh(model.stiffness - terms.centripetal)
     if squares.min() > -ROUNDING * squares.max():
         return ""
-    found = growing(model, terms, *_damping(scene, point, model, speeds["carrier"]))
+    found = growing(model, terms, *_damping(gearbox, point, model, speeds["carrier"]))
     if found is None:
         return ""
     return (
@@ -75,16 +74,17 @@ def whirl_warning(scene: Scene, point: OperatingPoint) -> str:
 
 
 def _damping(
-    scene: Scene, point: OperatingPoint, model: SpringModel, carrier: float
+    gearbox: Gearbox, point: OperatingPoint, model: SpringModel, carrier: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """D [N s/m] and N [N/m], (n, n) each."""
-    train = build_train(held_axes(scene))
+    train = gearbox.held.train
     speeds = np.zeros(AXES)
     speeds[:] = point.input_speed, point.second_input_speed
     rate = abs(float(train.cycles @ speeds)) / (2.0 * math.pi)
     tau = {kind: damping_time(train, k, rate) for k, kind in enumerate(MESHES)}
-    dampers = {name: linear_bearing(scene, name)[1] for name in bearing_names(scene)}
-    pins = iter([dampers[f"planet_{i + 1}"] for i in range(scene.gearset.planets) for _ in "xy"])
+    torque = gearbox.scene.operating_point.input_torque
+    dampers = {name: linear_bearing(gearbox, name, torque)[1] for name in gearbox.bearings}
+    pins = iter([dampers[planet] for planet in gearbox.planets for _ in "xy"])
     damping, turned = np.zeros((2, len(model.coordinates), len(model.coordinates)))
     for spring in model.springs:
         body, _, part = spring.kind.partition("_")

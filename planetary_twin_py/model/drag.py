@@ -9,12 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import NO_PLANET
-from ..scene import Scene
 from ..scene.losses import Bearing
 from .bodies import Bodies
-from .planet_groups import planet_groups
-
-MEMBERS = ("sun", "ring", "carrier")
+from .layout import Layout
+from .planar_rows import CENTRAL
 
 
 class _Joint(NamedTuple):
@@ -28,10 +26,11 @@ class _Joint(NamedTuple):
     viscous: float = 0.0  # [N m s/rad]
 
 
-def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
+def build_drag(layout: Layout, bodies: Bodies) -> dict[str, Any]:
     """Fields of `Train`."""
-    joints, place, churning = list(_joints(scene, bodies)), bodies.place, scene.losses.churning
-    discs = {m: getattr(churning, m) for m in MEMBERS if churning and getattr(churning, m)}
+    joints, place = list(_joints(layout, bodies)), bodies.place
+    churning = layout.scene.losses.churning
+    discs = {m: getattr(churning, m) for m in CENTRAL if churning and getattr(churning, m)}
     return {
         "joints": len(joints),
         "joint_body": np.array([joint.body for joint in joints], dtype=int).reshape(-1, 2),
@@ -40,7 +39,7 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "joint_load_factor": np.array([joint.load_factor for joint in joints]),
         "joint_coulomb": np.array([joint.coulomb for joint in joints]),
         "joint_viscous": np.array([joint.viscous for joint in joints]),
-        "pin_share": _pin_share(scene),
+        "pin_share": _pin_share(layout),
         "discs": len(discs),
         "disc_body": np.array([place[member] for member in discs], dtype=int),
         "disc_radius": np.array(list(discs.values()), dtype=float),
@@ -49,22 +48,22 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     }
 
 
-def _pin_share(scene: Scene) -> float:
+def _pin_share(layout: Layout) -> float:
     """cos((a_s + a_r)/2) with the working pressure angles of both meshes of a planet.
 
     Equal forces F along their lines of action add up to 2 F cos((a_s + a_r)/2).
     """
-    sun, ring = (mesh.pressure_angle for mesh in scene.gearset.geometry.meshes)
+    sun, ring = (mesh.pressure_angle for mesh in layout.scene.gearset.geometry.meshes)
     return math.cos(0.5 * (sun + ring))
 
 
-def _joints(scene: Scene, bodies: Bodies) -> Iterator[_Joint]:
-    losses, place, ground = scene.losses, bodies.place, len(bodies.mass) - 1
+def _joints(layout: Layout, bodies: Bodies) -> Iterator[_Joint]:
+    losses, place, ground = layout.scene.losses, bodies.place, bodies.ground
     if losses.planet_bearing is not None:
-        for i, leader in enumerate(planet_groups(scene).leaders):
-            pair = (place[f"planet_{leader + 1}"], place["carrier"])
+        for i, leader in enumerate(layout.leaders):
+            pair = (place[leader], place["carrier"])
             yield _Joint(pair, i, *_palmgren(losses.planet_bearing))
-    for member in MEMBERS:
+    for member in CENTRAL:
         bearing, drag = getattr(losses, f"{member}_bearing"), getattr(losses, f"{member}_drag")
         if bearing is not None:
             yield _Joint((place[member], ground), NO_PLANET, *_palmgren(bearing))

@@ -7,10 +7,10 @@ from types import ModuleType
 
 import numpy as np
 
-from .._core import METHODS, Integrator, Load, PointLaws, Train, deflection_at, elastic_deflection
-from ..scene import OperatingPoint, Scene
+from .._core import METHODS, Integrator, Load, deflection_at, elastic_deflection
+from ..scene import OperatingPoint
+from .gearbox import Gearbox
 from .point_laws import record_of
-from .static_load import mesh_force, static_torques
 from .train import lightest_body
 
 # Lowest tolerance for each number of collocation points. Three points save nothing: a step costs
@@ -24,16 +24,14 @@ class StepScale:
     """Deflections to which the tolerance of a step is relative.
 
     Args:
-        scene: the scene.
-        train: its gear train.
-        laws: dependence of the loads on the operating point.
+        gearbox: of the scene.
     """
 
-    def __init__(self, scene: Scene, train: Train, laws: PointLaws) -> None:
-        self._laws = laws
-        self._per_torque = abs(mesh_force(scene, 1.0))
+    def __init__(self, gearbox: Gearbox) -> None:
+        train, self._laws = gearbox.train, gearbox.laws
+        self._per_torque = abs(gearbox.mesh_force(1.0))
         self._stiffness = float(train.stiffness.min())
-        self._shares = np.abs(static_torques(scene)[::2])
+        self._shares = np.abs(gearbox.machine_torques[::2])
         motors = train.coupling[: 2 * len(self._shares) : 2, 0]
         self._own = train.mass[motors] * train.radius[motors] ** 2
         self.speed_per_deflection = math.sqrt(2.0 * self._stiffness / lightest_body(train))

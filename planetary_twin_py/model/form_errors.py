@@ -14,17 +14,13 @@ is at rest in the housing.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .._core import LINES, MESHES
-from ..gearset.kinematics import mesh_cycles_per_turn
-from ..scene import Scene
 from ..scene.mesh import TransmissionError
-from .bodies import rigid_ratios
-from .planet_groups import scene_phases
+from .layout import Layout
 
 CONSTANT = 0.25 * math.pi  # angle of a line that does not turn: it has both parts
 
@@ -46,11 +42,11 @@ class _Line(NamedTuple):
     """Whether the cycles are those of the sun mesh of the planet."""
 
 
-def build_form_errors(scene: Scene, leaders: Sequence[int]) -> dict[str, Any]:
-    """Fields of `Train`; `leaders` are the planets that are integrated, counted from 0."""
-    mesh, count = scene.mesh, len(leaders)
+def build_form_errors(layout: Layout) -> dict[str, Any]:
+    """Fields of `Train`."""
+    mesh, count = layout.scene.mesh, len(layout.leaders)
     kinds = [
-        _harmonics(error, count) + _runout(scene, kind, leaders) + _positions(scene, kind, leaders)
+        _harmonics(error, count) + _runout(layout, kind) + _positions(layout, kind)
         for kind, error in enumerate((mesh.sun_planet_error, mesh.planet_ring_error))
     ]
     for lines in kinds:
@@ -87,7 +83,7 @@ def _harmonics(error: TransmissionError, count: int) -> list[_Line]:
     ]
 
 
-def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
+def _runout(layout: Layout, kind: int) -> list[_Line]:
     """Lines a sin(turn + side sign phi) of the gears of a mesh with working pressure angle phi.
 
     If the toothing is displaced from the axis by a, in the direction phi_g from the radius of the
@@ -95,6 +91,7 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     the same e_T and the opposite e_R; the planet has the opposite of both, in both meshes (first
     order in a). The sun turns in the opposite direction to the others.
     """
+    scene, leaders = layout.scene, layout.groups.leaders
     teeth, runout, errors = scene.gearset.tooth_numbers, scene.mesh.runout, scene.errors
     angle = scene.gearset.geometry.meshes[kind].pressure_angle
     one = np.ones(len(leaders))
@@ -112,8 +109,9 @@ def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     return found
 
 
-def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
+def _positions(layout: Layout, kind: int) -> list[_Line]:
     """Lines of displaced pins and axes, and of thicker teeth."""
+    scene, leaders = layout.scene, layout.groups.leaders
     errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
     outwards, across, thicker = np.array([errors.of_planet(i)[:3] for i in leaders]).T
     if scene.moving_axes:
@@ -137,23 +135,22 @@ def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     if kind:
         moved -= offset.size * np.exp(1j * offset.angle)
     if moved:
-        found.append(_offset(scene, kind, leaders, moved))
+        found.append(_offset(layout, kind, moved))
     return found
 
 
-def _offset(scene: Scene, kind: int, leaders: Sequence[int], moved: complex) -> _Line:
+def _offset(layout: Layout, kind: int, moved: complex) -> _Line:
     """Line of all planets displaced by `moved` [m], x + i y in the housing, against sun or ring.
 
     Against the radius of a planet it points by phi_g = its direction - planet angle - angle of the
     carrier, which the mesh cycles give: e_T = size cos(phi) sin(phi_g) and
     e_R = +-size sin(phi) cos(phi_g).
     """
-    gearset = scene.gearset
-    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
-    turns = ratios["carrier"] / mesh_cycles_per_turn(gearset.tooth_numbers, ratios)
+    gearset, leaders = layout.scene.gearset, layout.groups.leaders
+    turns = layout.ratios["carrier"][0] / layout.cycles[0]
     angle = gearset.geometry.meshes[kind].pressure_angle
     planets = np.array([gearset.planet_angles[i] for i in leaders])
-    phases = np.array([float(scene_phases(scene)[kind][i]) for i in leaders])
+    phases = np.array([float(layout.phases[kind][i]) for i in leaders])
     start = planets + 2.0 * np.pi * float(turns) * phases - float(np.angle(moved))
     size, one = abs(moved), np.ones(len(leaders))
     across, along = -size * math.cos(angle), size * math.sin(angle) * (-1.0 if kind else 1.0)

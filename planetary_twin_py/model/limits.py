@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..scene import Scene
-from .moving_axes import bearing_names
+from .layout import Layout
 
 
 class Limit(NamedTuple):
@@ -47,13 +46,13 @@ class Limit(NamedTuple):
         )
 
 
-def displacement_limit(scene: Scene) -> Limit:
+def displacement_limit(layout: Layout) -> Limit:
     """Limit of the displacements of axes in the plane.
 
     Args:
-        scene: scene with supports.
+        layout: of a scene with supports.
     """
-    names, module = bearing_names(scene), scene.gearset.transverse.module
+    names, module = layout.bearings, layout.scene.gearset.transverse.module
     return Limit(
         "displacement",
         "m",

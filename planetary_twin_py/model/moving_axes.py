@@ -14,22 +14,12 @@ import numpy as np
 
 from .._core import AXES, MovingAxes, axes
 from .._core.axes import RollingBearing
-from ..scene import Scene
 from ..scene.supports import Rolling, Support
-from .bodies import (
-    CENTRAL,
-    Bodies,
-    in_plane,
-    polar_masses,
-    rigid_ratios,
-    tilting_masses,
-    tilting_radii,
-    tilts_of,
-)
-from .planar_rows import COAST, DRIVE, PlanarRows, planar_rows
-from .planet_groups import planet_groups
+from .bodies import Bodies, in_plane, tilts_of
+from .layout import Layout
+from .planar_rows import CENTRAL, COAST, DRIVE, PlanarRows
 from .rolling_bearings import eccentricity, press, rolling_bearing
-from .static_load import mesh_force
+from .stiffness_laws import stiffness_follows_load
 from .tilting_rows import row_of_scene
 
 SIDES = (DRIVE, COAST)
@@ -39,18 +29,20 @@ BEARING_DAMPING = 1.25e-5
 0.25e-5 to 2.5e-5 s of Friswell, Penny, Garvey and Lees 2010, Dynamics of Rotating Machines."""
 
 
-def linear_bearing(scene: Scene, name: str) -> tuple[float, float]:
+def linear_bearing(layout: Layout, name: str, torque: float) -> tuple[float, float]:
     """Linear bearing of a body.
 
     Args:
-        scene: with supports.
+        layout: of a scene with supports.
         name: "sun", "ring", "carrier" or that of a planet, "planet_1".
+        torque: of the first motor [N m].
 
     Returns:
         Radial stiffness [N/m] and damping [N s/m]: of a rolling bearing those along a nominal load,
         for a planet that of its pin, for the others a mesh force, which is of the size of what
         errors leave to them. They decide how fast the equations are solved, not the solution.
     """
+    scene = layout.scene
     kind, _, number = name.partition("_")
     support: Support = getattr(scene.supports, kind)
     if support.rolling is None:
@@ -58,7 +50,7 @@ def linear_bearing(scene: Scene, name: str) -> tuple[float, float]:
         stiffness = factor * (support.bearing or 0.0)
         return stiffness, default_damping(support.damping, stiffness)
     law, clearance = rolling_bearing(support.rolling), support.clearance
-    load = max(abs(mesh_force(scene, scene.operating_point.input_torque)), LEAST_LOAD)
+    load = max(abs(layout.mesh_force(torque)), LEAST_LOAD)
     if kind == "planet":
         load *= 2.0 * math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
     size = np.array([eccentricity(law, clearance, load)])
@@ -79,11 +71,11 @@ def default_damping(damping: float | None, stiffness: float) -> float:
     return BEARING_DAMPING * stiffness if damping is None else damping
 
 
-def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[str, Any]:
+def moving_fields(layout: Layout, bodies: Bodies, fields: dict[str, Any]) -> dict[str, Any]:
     """Extend a train by the motion of its axes.
 
     Args:
-        scene: with supports.
+        layout: of a scene with supports.
         bodies: with their displacements.
         fields: of the train with one entry for each mesh.
 
@@ -91,23 +83,23 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         The fields of `_core.axes.Train`, with an entry for the drive flanks of each mesh and then
         for the coast flanks of each.
     """
-    meshes, frame = int(fields["meshes"]), len(bodies.mass)
-    body, sign, line = _entries(scene, bodies, frame)
+    scene, meshes, frame = layout.scene, int(fields["meshes"]), bodies.ground + 1
+    body, sign, line = _entries(layout, bodies, frame)
     moving = axes.MovingAxes(
         frame=frame,
         carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
         arm=scene.gearset.geometry.centre_distance,
         line=line,
         entries=body.shape[1],
-        **_gravity(scene),
-        **_bearings(scene, bodies),
+        **_gravity(layout),
+        **_bearings(layout, bodies),
     )
-    for name, law in zip(bearing_names(scene), moving.rolling, strict=False):
+    for name, law in zip(layout.bearings, moving.rolling, strict=False):
         _fill_rolling(getattr(scene.supports, name.split("_")[0]).rolling, law)
     if scene.tilting_axes:
-        moving.slope_place, moving.slope = _slopes(scene, bodies)
+        moving.slope_place, moving.slope = _slopes(layout, bodies)
         moving.face_square = scene.gearset.face_width**2 / 12.0
-        _fill_tilting(scene, bodies, moving)
+        _fill_tilting(layout, bodies, moving)
     doubled = {
         name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
         for name in (
@@ -125,7 +117,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
             "mass": np.append(bodies.copies * bodies.mass, 0.0),
             "radius": np.append(bodies.radius, 1.0),
             "inverse_radius": np.append(1.0 / bodies.radius, 1.0),
-            "ratio": np.vstack([bodies.ratio, _turning(scene)]),
+            "ratio": np.vstack([bodies.ratio, _turning(layout)]),
             "lever": lever,
             "meshes": 2 * meshes,
             "body": body,
@@ -136,74 +128,74 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
     )
 
 
-def _turning(scene: Scene) -> np.ndarray:
+def _turning(layout: Layout) -> np.ndarray:
     """Speed of the carrier and of the frame per speed of each input, (AXES,)."""
-    ratios = rigid_ratios(scene)["carrier"]
+    ratios = layout.ratios["carrier"]
     return np.array([float(ratio) for ratio in ratios] + [0.0] * (AXES - len(ratios)))
 
 
-def _entries(scene: Scene, bodies: Bodies, frame: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _entries(
+    layout: Layout, bodies: Bodies, frame: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Coordinates, row, and turn of the line of action of each entry, (entries, n) each."""
-    angles = [mesh.pressure_angle for mesh in scene.gearset.geometry.meshes]
-    rows = planar_rows(scene.gearset.planet_angles, *angles)
-    count = scene.gearset.planets
+    gears, rows, count = layout.scene.gearset.geometry, layout.rows, len(layout.planets)
+    angles = [mesh.pressure_angle for mesh in gears.meshes]
     body, sign, line = [], [], []
-    for side, name, number in _meshes(scene):
-        i, planet = number + count * (name == "ring"), f"planet_{number + 1}"
+    for side, name, number in _meshes(layout):
+        i, planet = number + count * (name == "ring"), layout.planets[number]
         first, second = (planet, name) if name == "ring" else (name, planet)
         turns = [f"{first}.u", f"{second}.u"]
         moves = [f"{gear}.{motion}" for gear in (first, second) for motion in in_plane(gear)]
         places = [rows.place(coordinate) for coordinate in (*turns, *moves)]
         row = rows.tangential[i, places] + side * rows.radial[i, places]
-        beyond, factors = _beyond_plane(scene, side, name, number)
+        beyond, factors = _beyond_plane(layout, side, name, number)
         body.append(
             [bodies.place[first], bodies.place[second], frame]
             + [bodies.place[coordinate] for coordinate in (*moves, *beyond)]
         )
         sign.append([*row[:2], 0.0, *row[2:], *factors])
         turn = _turn_of_line(rows, i, side, angles[i // count], moves)
-        line.append([0.0, 0.0, 0.0, *(turn / scene.gearset.geometry.centre_distance)])
+        line.append([0.0, 0.0, 0.0, *(turn / gears.centre_distance)])
     return np.array(body), np.array(sign), np.array(line)
 
 
-def _meshes(scene: Scene) -> Iterator[tuple[float, str, int]]:
+def _meshes(layout: Layout) -> Iterator[tuple[float, str, int]]:
     """Side, central gear and planet (counted from 0) of each entry, in the order of the core."""
-    leaders = planet_groups(scene).leaders
     for side in SIDES:
         for name in ("sun", "ring"):
-            for number in leaders:
+            for number in layout.groups.leaders:
                 yield side, name, number
 
 
 def _beyond_plane(
-    scene: Scene, side: float, name: str, number: int
+    layout: Layout, side: float, name: str, number: int
 ) -> tuple[list[str], list[float]]:
     """Axial displacements and tilts of both gears of an entry, and their factors in its row."""
-    if not scene.tilting_axes:
+    if not layout.scene.tilting_axes:
         return [], []
-    row, radii = row_of_scene(scene, side, name, number), tilting_radii(scene)
+    row, radii = row_of_scene(layout.scene, side, name, number), layout.planar_radii
     coordinates, factors = [], []
-    for k, (gear, kind) in enumerate(((name, name), (f"planet_{number + 1}", "planet"))):
+    for k, (gear, kind) in enumerate(((name, name), (layout.planets[number], "planet"))):
         coordinates += [f"{gear}.{motion}" for motion in ("z", *tilts_of(gear))]
         factors += [float(row.axial[k]), *(row.tilt[k] / radii[kind]).tolist()]
     return coordinates, factors
 
 
-def _slopes(scene: Scene, bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
+def _slopes(layout: Layout, bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
     """Tilts of both gears of each entry, and the slope of its deflection per tilt, (entries, 4)."""
-    radii, places, slopes = tilting_radii(scene), [], []
-    for side, name, number in _meshes(scene):
-        row, planet = row_of_scene(scene, side, name, number), f"planet_{number + 1}"
+    radii, places, slopes = layout.planar_radii, [], []
+    for side, name, number in _meshes(layout):
+        row, planet = row_of_scene(layout.scene, side, name, number), layout.planets[number]
         places.append([bodies.place[f"{g}.{m}"] for g in (name, planet) for m in tilts_of(g)])
         slopes.append([*(row.slope[0] / radii[name]), *(row.slope[1] / radii["planet"])])
     return np.array(places), np.array(slopes)
 
 
-def _fill_tilting(scene: Scene, bodies: Bodies, moving: MovingAxes) -> None:
+def _fill_tilting(layout: Layout, bodies: Bodies, moving: MovingAxes) -> None:
     """Fill axial and tilting motion of all bearings, in their order."""
-    supports, radii = scene.supports, tilting_radii(scene)
-    polar, diametral = polar_masses(scene), tilting_masses(scene)
-    for name, axis in zip(bearing_names(scene), moving.tilting, strict=False):
+    supports, radii = layout.scene.supports, layout.planar_radii
+    polar, diametral = layout.polar_masses, layout.tilting_masses
+    for name, axis in zip(layout.bearings, moving.tilting, strict=False):
         kind = name.split("_")[0]
         support, r = getattr(supports, kind), radii[kind]
         axis.axial = bodies.place[f"{name}.z"]
@@ -232,21 +224,22 @@ def _turn_of_line(
     return side * outwards / math.tan(angle) - across
 
 
-def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
+def _bearings(layout: Layout, bodies: Bodies) -> dict[str, Any]:
     """Fields of `MovingAxes` over the bearings of sun, ring, carrier and planets.
 
     Every planet has its own bearing, also where planets of the same motion share displacements.
     """
+    scene, names = layout.scene, layout.bearings
     supports, planets = scene.supports, scene.gearset.planets
     assert supports is not None  # the scene has been checked
     held = [getattr(supports, kind) for kind in CENTRAL] + [supports.planet] * planets
-    names = bearing_names(scene)
-    linear = [linear_bearing(scene, name) for name in names]
+    torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
+    linear = [linear_bearing(layout, name, torque) for name in names]
     angles, errors = scene.gearset.planet_angles, scene.errors
     pin = 1.0 / math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
     return {
         "bearings": len(names),
-        "leads": [True] * 3 + [i in planet_groups(scene).leaders for i in range(planets)],
+        "leads": [True] * 3 + [planet in layout.leaders for planet in layout.planets],
         "place": [[bodies.place[f"{name}.{m}"] for m in in_plane(name)] for name in names],
         "direction": [[0.0, 0.0]] * 3 + [[math.cos(a), math.sin(a)] for a in angles],
         "carried": [0.0] * 3 + [pin] * planets,
@@ -258,11 +251,6 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     }
 
 
-def bearing_names(scene: Scene) -> list[str]:
-    """Bodies on bearings, in the order of the core."""
-    return [*CENTRAL, *(f"planet_{i + 1}" for i in range(scene.gearset.planets))]
-
-
 def _fill_rolling(rolling: Rolling | None, law: RollingBearing) -> None:
     if rolling is None:
         return
@@ -271,9 +259,9 @@ def _fill_rolling(rolling: Rolling | None, law: RollingBearing) -> None:
         setattr(law, name, getattr(given, name))
 
 
-def _gravity(scene: Scene) -> dict[str, Any]:
+def _gravity(layout: Layout) -> dict[str, Any]:
     """Fields of `MovingAxes` for the weight of the bodies."""
-    supports, ratios = scene.supports, rigid_ratios(scene)["carrier"]
+    supports, ratios = layout.scene.supports, layout.ratios["carrier"]
     assert supports is not None  # the scene has been checked
     per_turn = [*ratios, *[Fraction(0)] * (AXES - len(ratios))]
     return {

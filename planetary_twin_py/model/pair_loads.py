@@ -16,10 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import PAIRS, StepConstants, share_force
-from ..scene import Scene
-from .bodies import mesh_names
 from .faults import FAULTS
-from .train import build_train, held_axes
+from .gearbox import Gearbox
 
 Array = NDArray[np.float64]
 
@@ -41,11 +39,11 @@ class PairLoads(NamedTuple):
     """[N], 0 if there is no pair or if it does not touch."""
 
 
-def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> PairLoads:
+def pair_loads(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Array) -> PairLoads:
     """Positions and loads of the tooth pairs of a mesh, faulty teeth included.
 
     Args:
-        scene: gears, stiffness and faults.
+        gearbox: gears, stiffness and faults.
         mesh: number of the mesh in the order of `Result.meshes`.
         angle: angles [rad] (n,) of "sun", "planet_1" and so on, "ring" and "carrier" since the
             start of the run, modulo a turn or not.
@@ -54,21 +52,21 @@ def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array
     Returns:
         The contacts of the pairs.
     """
-    scene = held_axes(scene)
-    train, count = build_train(scene), len(force)
+    held, count = gearbox.held, len(force)
     counted = np.zeros((count, FAULTS))
-    for f, fault in enumerate(scene.faults):
+    for f, fault in enumerate(held.scene.faults):
         member = f"planet_{fault.planet}" if fault.gear == "planet" else fault.gear
-        counted[:, f] = _cycles(scene, member, angle)
+        counted[:, f] = _cycles(held, member, angle)
     found = PairLoads(*(np.zeros((count, PAIRS)) for _ in PairLoads._fields))
-    place = int(mesh_names(scene).place[mesh])
-    cycle = _cycles(scene, "sun", angle)
-    share_force(train, StepConstants(), place, cycle, counted, np.asarray(force, float), *found)
+    place = int(held.mesh_names.place[mesh])
+    cycle = _cycles(held, "sun", angle)
+    train, forces = held.train, np.asarray(force, float)
+    share_force(train, StepConstants(), place, cycle, counted, forces, *found)
     return found
 
 
-def _cycles(scene: Scene, member: str, angle: Mapping[str, Array]) -> Array:
+def _cycles(gearbox: Gearbox, member: str, angle: Mapping[str, Array]) -> Array:
     """Mesh cycles since the start, from the angle of a gear relative to the carrier."""
-    teeth = scene.gearset.tooth_numbers._asdict()[member.partition("_")[0]]
+    teeth = gearbox.scene.gearset.tooth_numbers._asdict()[member.partition("_")[0]]
     forwards = 1.0 if member == "sun" else -1.0
     return forwards * teeth * (angle[member] - angle["carrier"]) / (2.0 * math.pi)

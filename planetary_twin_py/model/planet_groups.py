@@ -15,17 +15,17 @@ from __future__ import annotations
 import cmath
 import math
 from collections import defaultdict
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..gearset.phasing import mesh_phases
 from ..scene import Scene
 
 ROUNDING = 1e-9
 
 # What determines the motion of a planet: phases of both meshes, its number if faults, errors of
 # axes or weight distinguish it, and its own errors.
-_Signature = tuple[Fraction, Fraction, int | None, tuple[float, ...]]
+Signature = tuple[Fraction, Fraction, int | None, tuple[float, ...]]
 
 
 class PlanetGroups(NamedTuple):
@@ -36,10 +36,17 @@ class PlanetGroups(NamedTuple):
     group: tuple[int, ...]  # the group of each planet
 
 
-def planet_groups(scene: Scene) -> PlanetGroups:
-    """Groups of a scene, in the order of their first planets."""
-    signatures = _signatures(scene)
-    if scene.moving_axes and not _cancel(scene, signatures):
+def planet_groups(signatures: Sequence[Signature], apart: bool) -> PlanetGroups:
+    """Groups of planets.
+
+    Args:
+        signatures: of each planet, see `signatures`.
+        apart: whether every planet has a motion of its own.
+
+    Returns:
+        Groups of planets with equal signatures, in the order of their first planets.
+    """
+    if apart:
         each = tuple(range(len(signatures)))
         return PlanetGroups(each, (1,) * len(each), each)
     distinct = list(dict.fromkeys(signatures))
@@ -50,29 +57,30 @@ def planet_groups(scene: Scene) -> PlanetGroups:
     )
 
 
-def axes_stand(scene: Scene) -> bool:
-    """Whether sun, ring and carrier cannot be displaced, as the forces on them cancel."""
-    return _cancel(scene, _signatures(scene))
+def directions_cancel(signatures: Sequence[Signature], angles: Sequence[float]) -> bool:
+    """Whether the directions of the planets with each signature have no resultant.
 
-
-def scene_phases(scene: Scene) -> tuple[list[Fraction], list[Fraction]]:
-    """Phases of sun and ring meshes [cycles], (planets,) each, see `mesh_phases`."""
-    gearset = scene.gearset
-    first, second = (mesh.coast_lead for mesh in gearset.geometry.meshes)
-    return mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (first, second))
-
-
-def _cancel(scene: Scene, signatures: list[_Signature]) -> bool:
-    """Whether the directions of the planets with each signature have no resultant."""
-    resultant: dict[_Signature, complex] = defaultdict(complex)
-    for signature, angle in zip(signatures, scene.gearset.planet_angles, strict=True):
+    Args:
+        signatures: of each planet.
+        angles: positions of the planets [rad], (planets,).
+    """
+    resultant: dict[Signature, complex] = defaultdict(complex)
+    for signature, angle in zip(signatures, angles, strict=True):
         resultant[signature] += cmath.rect(1.0, angle)
     return all(abs(sum_) < ROUNDING for sum_ in resultant.values())
 
 
-def _signatures(scene: Scene) -> list[_Signature]:
-    gearset = scene.gearset
-    sun, ring = scene_phases(scene)
+def signatures(scene: Scene, phases: tuple[list[Fraction], list[Fraction]]) -> list[Signature]:
+    """What determines the motion of each planet.
+
+    Args:
+        scene: the scene.
+        phases: of sun and ring meshes [cycles], (planets,) each.
+
+    Returns:
+        Signatures, which are equal for planets with the same motion.
+    """
+    sun, ring = phases
     heavy = scene.moving_axes and scene.supports is not None and scene.supports.gravity != 0.0
     apart = scene.errors.of_axes or heavy
     faulty = {fault.planet - 1 for fault in scene.faults if fault.gear == "planet"}
@@ -84,7 +92,7 @@ def _signatures(scene: Scene) -> list[_Signature]:
             i if i in faulty or apart else None,
             scene.errors.of_planet(i),
         )
-        for i in range(gearset.planets)
+        for i in range(scene.gearset.planets)
     ]
 
 

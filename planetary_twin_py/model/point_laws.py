@@ -5,28 +5,34 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _core
-from .._core import POINT_FIELDS, Load, PointLaws, Train
-from ..scene import OperatingPoint, Scene
-from .bodies import base_radii
-from .speed_loop import bandwidth, speed_loop_gains
-from .static_load import parts, static_torques
+from .._core import BY_MACHINE, BY_MOTION, BY_TORQUE, POINT_FIELDS, Load, PointLaws, Train
+from ..scene import OperatingPoint
+from .layout import Layout
+from .speed_loop import Gains
+
+_CAUSALITIES = {
+    "machine": BY_MACHINE,
+    "torque": BY_TORQUE,
+    "motion": BY_MOTION,
+    "brake": BY_MOTION,
+}
 
 
-def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
+def point_laws(layout: Layout, train: Train, gains: Gains) -> PointLaws:
     """Collect what depends on the operating point, and what does not.
 
     Args:
-        scene: scene of the drive.
-        train: of `build_train`.
-        port: what acts on the shafts of motor and load.
+        layout: of the scene.
+        train: of the layout.
+        gains: of its speed loop.
 
     Returns:
         The laws, see core/run/operating_point.hpp.
     """
+    scene, torques = layout.scene, layout.torques
     control, mesh = scene.drive.speed_control, scene.mesh
-    gains = speed_loop_gains(scene, train, bandwidth(scene))
     half_backlash_factor, least = mesh.flanks(1.0, scene.gearset.transverse.pressure_angle)
-    started, torques = control.start_speed, parts(scene)
+    started = control.start_speed
     return PointLaws(
         constant=Load(
             release=1.0 if mesh.backlash == "dead_zone" else 0.0,
@@ -36,16 +42,16 @@ def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
             proportional=gains.proportional,
             trim_gain=gains.trim,
             load_proportional=gains.load_proportional,
-            port=port,
+            port=[_CAUSALITIES[port] for port in scene.drive.ports],
         ),
         half_backlash_factor=half_backlash_factor,
         from_zero=least == 0.0,
-        torque=static_torques(scene),
+        torque=layout.machine_torques,
         ratio=train.ratio[train.coupling[: len(scene.drive.ports), 0]],
         starts_elsewhere=started is not None,
         start_speed=0.0 if started is None else started,
         force_share=[torques["sun"], torques[scene.drive.input.member]],
-        force_lever=base_radii(scene)["sun"] * scene.gearset.planets,
+        force_lever=layout.radii["sun"] * scene.gearset.planets,
         stiffness=float(np.min(train.stiffness)),
     )
 

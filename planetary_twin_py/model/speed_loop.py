@@ -20,20 +20,16 @@ The meshes have their mean stiffness and stay in contact; drag and tooth frictio
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from .._core import AXES, MACHINES, Train, damping_time
-from ..scene import OperatingPoint, Scene, SceneError
+from ..scene import Scene
 from ..scene.drive import MOVED
-from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from .layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR, Layout
 from .mean_stiffness import mean_stiffness
-from .static_load import static_torques
-from .train import TRAINS_KEPT, build_train, held_axes, unloaded
 
-FIELD = "drive.speed_control.bandwidth"
 FASTEST_DEFAULT = 3.0  # [Hz]
 # Bandwidth up to which a loop must be stable, relative to its own. A factor of sqrt(2) in the
 # bandwidth is a factor of 2 in the integrator: the usual gain margin of 6 dB (Astrom and Murray
@@ -43,7 +39,6 @@ LEAST_MARGIN = math.sqrt(2.0)
 DEFAULT_MARGIN = 4.0
 SLOWEST = 1e-9  # [Hz] lower limit of the search for a stable bandwidth
 BISECTIONS = 40
-FREQUENCIES_KEPT = 64
 IMMOVABLE = 1e6  # mass of a shaft whose motion is given, over that of the train
 ROUNDING = 1e-12  # growth rates below it, over the largest eigenvalue, are rounding
 
@@ -96,49 +91,50 @@ class Loop(NamedTuple):
         return math.exp(low)
 
 
-def bandwidth(scene: Scene) -> float:
-    """Bandwidth of the speed loop [Hz]: given by the scene, or derived from its train.
+def default_bandwidth(layout: Layout, train: Train) -> float:
+    """Bandwidth of the speed loop where a scene gives none.
 
-    The default is 3 Hz, or a quarter of the largest stable bandwidth if that is lower, rounded
-    down to two digits. Mesh damping that depends on speed is taken at the highest speed that the
-    drive allows, where it is lowest.
+    It is 3 Hz, or a quarter of the largest stable bandwidth if that is lower, rounded down to two
+    digits. Mesh damping that depends on speed is taken at the highest speed that the drive allows,
+    where it is lowest.
 
     Args:
-        scene: the train and its drive. Of its operating point only the torque is used, and only if
-            the stiffness of the teeth depends on it.
+        layout: of the scene. Of its operating point only the torque has an effect, and only if the
+            stiffness of the teeth depends on it.
+        train: of the scene, with held axes.
 
-    Raises:
-        ValueError: there is an instant without contact of teeth.
+    Returns:
+        The bandwidth [Hz].
     """
-    given = scene.drive.speed_control.bandwidth
-    if given is None and not _holds_a_speed(scene):
+    if not holds_a_speed(layout.scene):
         return FASTEST_DEFAULT  # of no effect
-    return _default(unloaded(scene)) if given is None else given
+    fastest = layout.scene.drive.speed_limit
+    loop = LinearTrain(layout, train).loop(
+        float(np.abs(train.cycles).sum()) * fastest / (2.0 * math.pi)
+    )
+    # Growth at a high bandwidth may be less than the rounding of its fast decay.
+    tried = [margin * FASTEST_DEFAULT for margin in (DEFAULT_MARGIN, LEAST_MARGIN, 1.0)]
+    limit = min([found for high in tried if (found := loop.limit(high)) < high] or tried[:1])
+    return rounded_down(max(limit / DEFAULT_MARGIN, SLOWEST))
 
 
-def _holds_a_speed(scene: Scene) -> bool:
-    """Whether a machine controls a speed."""
+def holds_a_speed(scene: Scene) -> bool:
+    """Whether a machine controls a speed.
+
+    Args:
+        scene: scene of the drive.
+    """
     ports = scene.drive.ports
     second = scene.drive.second_input is not None and ports.hold_second_speed
     return ports.hold_speed or second
 
 
-@lru_cache(maxsize=TRAINS_KEPT)
-def _default(scene: Scene) -> float:
-    train, fastest = build_train(held_axes(scene)), scene.drive.speed_limit
-    loop = linear_loop(scene, train, float(np.abs(train.cycles).sum()) * fastest / (2.0 * math.pi))
-    # Growth at a high bandwidth may be less than the rounding of its fast decay.
-    tried = [margin * FASTEST_DEFAULT for margin in (DEFAULT_MARGIN, LEAST_MARGIN, 1.0)]
-    limit = min([found for high in tried if (found := loop.limit(high)) < high] or tried[:1])
-    return _rounded_down(max(limit / DEFAULT_MARGIN, SLOWEST))
-
-
-def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
+def speed_loop_gains(layout: Layout, train: Train, bandwidth: float) -> Gains:
     """Gains of the speed loop.
 
     Args:
-        scene: scene of the drive.
-        train: of `build_train`.
+        layout: of the scene.
+        train: of the layout.
         bandwidth: of the loop [Hz].
 
     Returns:
@@ -148,10 +144,10 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
     integral = np.diag(inertia) * w**2 / 4.0
     trim = np.zeros((MACHINES, AXES))
-    if scene.drive.ports.given:
-        return _gains_with_ports(scene, train, inertia, w)
+    if layout.scene.drive.ports.given:
+        return _gains_with_ports(layout.scene, train, inertia, w)
     # The first motor gives its torque only; the load is trimmed to hold the speed.
-    trim[LOAD_MACHINE, 0] = -static_torques(scene)[LOAD_MACHINE] * integral[0]
+    trim[LOAD_MACHINE, 0] = -layout.machine_torques[LOAD_MACHINE] * integral[0]
     if axes > 1:
         trim[SECOND_MOTOR, 1] = integral[1]
     return Gains(inertia, np.diag(inertia) * w, trim, 0.0)
@@ -180,11 +176,11 @@ class LinearTrain:
     """The linearised train with its speed loop, at any speed.
 
     Args:
-        scene: scene of the drive.
-        train: of `build_train`.
+        layout: of the scene.
+        train: of the layout, with held axes.
     """
 
-    def __init__(self, scene: Scene, train: Train) -> None:
+    def __init__(self, layout: Layout, train: Train) -> None:
         meshes, machines = train.meshes, train.machines
         coupling, found = slice(machines), mean_stiffness(train)
         mesh = (train.copies * train.stiffness_factor * found[train.kind])[:meshes]
@@ -193,13 +189,13 @@ class LinearTrain:
         place = meshes + np.arange(machines)[:, None]
         np.add.at(rows, (np.arange(meshes)[:, None], train.body[:meshes]), train.sign[:meshes])
         np.add.at(rows, (place, train.coupling[coupling]), [1.0, -1.0])
-        basis = _basis(train, _masses(scene, train))
+        basis = _basis(train, _masses(layout.scene, train))
         stretch = rows[:, :-1] @ basis  # the ground is at rest
         stretch[:, : train.axes] = 0.0  # rigid motion: exactly zero, without rounding
         self._train, self._mesh, self._stretch = train, mesh, stretch
         self._stiffness = (stretch.T * springs) @ stretch
         self._proportional, self._integral = (
-            basis.T @ gain @ basis for gain in _feedback(scene, train)
+            basis.T @ gain @ basis for gain in _feedback(layout, train)
         )
 
     def loop(self, mesh_frequency: float) -> Loop:
@@ -219,11 +215,6 @@ class LinearTrain:
         return Loop(damping, self._stiffness, self._proportional, self._integral)
 
 
-def linear_loop(scene: Scene, train: Train, mesh_frequency: float) -> Loop:
-    """The linearised train with its speed loop, see `LinearTrain`."""
-    return LinearTrain(scene, train).loop(mesh_frequency)
-
-
 def _masses(scene: Scene, train: Train) -> np.ndarray:
     """Masses of the bodies [kg], (bodies,); very large where motion is given."""
     mass = train.mass[: train.bodies].copy()
@@ -241,9 +232,9 @@ def _basis(train: Train, mass: np.ndarray) -> np.ndarray:
     return np.asarray(np.linalg.qr(rigid, mode="complete")[0] / root)
 
 
-def _feedback(scene: Scene, train: Train) -> np.ndarray:
+def _feedback(layout: Layout, train: Train) -> np.ndarray:
     """P and I [kg] in the coordinates of `Train`, shape (2, bodies, bodies)."""
-    gains, machines = speed_loop_gains(scene, train, 0.5 / math.pi), train.coupling[:, 0]
+    gains, machines = speed_loop_gains(layout, train, 0.5 / math.pi), train.coupling[:, 0]
     feedback = np.zeros((2, train.bodies, train.bodies))
     load = machines[LOAD_MACHINE]
     feedback[0, load, load] = gains.load_proportional * train.inverse_radius[load] ** 2
@@ -256,76 +247,11 @@ def _feedback(scene: Scene, train: Train) -> np.ndarray:
     return feedback
 
 
-class SpeedLoopCheck:
-    """Refuses operating points at which the speed loop is unstable or has too little margin.
+def rounded_down(value: float) -> float:
+    """A positive value rounded down to two significant digits.
 
     Args:
-        scene: scene of the drive.
-        train: of `build_train`.
+        value: above 0.
     """
-
-    def __init__(self, scene: Scene, train: Train) -> None:
-        self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
-        self._is_default = scene.drive.speed_control.bandwidth is None
-        self._linear = LinearTrain(scene, train)
-        # A brake is never refused.
-        self._checks = _holds_a_speed(scene) and "brake" not in scene.drive.ports
-        self._stable: set[float] = set()  # recent mesh frequencies [Hz] that are stable
-
-    def check(self, point: OperatingPoint) -> None:
-        """Check an operating point; mesh damping may depend on its speeds.
-
-        Args:
-            point: the operating point.
-
-        Raises:
-            SceneError: the loop is not stable at sqrt(2) times its bandwidth.
-        """
-        if not self._checks:
-            return
-        speeds = np.zeros(AXES)
-        speeds[:] = point.input_speed, point.second_input_speed
-        frequency = abs(float(self._cycles @ speeds)) / (2.0 * math.pi)
-        if frequency not in self._stable:
-            self._check_at(frequency)
-            if len(self._stable) >= FREQUENCIES_KEPT:
-                self._stable.clear()
-            self._stable.add(frequency)
-
-    def _check_at(self, mesh_frequency: float) -> None:
-        loop, chosen = self._linear.loop(mesh_frequency), self._chosen
-        unstable = [b for b in (chosen, LEAST_MARGIN * chosen) if not loop.is_stable(b)]
-        if not unstable:
-            return
-        limit = loop.limit(unstable[0])
-        growing = max(loop.eigenvalues(unstable[0]), key=lambda value: value.real)
-        name = f"{chosen:g} Hz, the default" if self._is_default else f"{chosen:g} Hz"
-        highest = limit / LEAST_MARGIN
-        allowed = f"must be at most {_rounded_down(highest):g} Hz: " if highest else ""
-        above = f"above {limit:.3g} Hz" if highest else "at any bandwidth"
-        default = "" if self._is_default or not highest else "leave it out for the default, or "
-        raise SceneError(
-            f"{FIELD} = {name}: {allowed}the speed loop is unstable {above}, where motors and load "
-            f"oscillate on their couplings at {abs(growing.imag) / (2.0 * math.pi):.3g} Hz; "
-            f"{default}give the drive stiffer couplings or more damping"
-        )
-
-
-def check_speed_loop(scene: Scene, train: Train, point: OperatingPoint) -> None:
-    """Refuse a speed loop that is unstable or has too little margin with this train.
-
-    Args:
-        scene: scene of the drive.
-        train: of `build_train`.
-        point: operating point; mesh damping may depend on its speeds.
-
-    Raises:
-        SceneError: the loop is not stable at sqrt(2) times its bandwidth.
-    """
-    SpeedLoopCheck(scene, train).check(point)
-
-
-def _rounded_down(value: float) -> float:
-    """To two significant digits."""
     digits = 1 - math.floor(math.log10(value))
     return float(f"{math.floor(value * 10.0**digits) / 10.0**digits:.2g}")

@@ -7,43 +7,13 @@ meshes excite.
 
 from __future__ import annotations
 
-from .._core import BY_MACHINE, BY_MOTION, BY_TORQUE, Load, Model, PortStates, State, Train, load_at
-from ..scene import OperatingPoint, Scene
-from .bodies import MOTOR, build_bodies
+from .._core import BY_TORQUE, Load, Model, PortStates, State
 from .clock import Instant
-from .library import library
-from .point_laws import point_laws, record_of
-from .static_load import mesh_force
+from .gearbox import Gearbox
+from .layout import MOTOR
 
 UNBALANCED = 1e-3  # of the mean mesh force, above which the start is no equilibrium
 LIGHTEST = 1.0  # [N] mean mesh force that counts at least
-
-_CAUSALITIES = {
-    "machine": BY_MACHINE,
-    "torque": BY_TORQUE,
-    "motion": BY_MOTION,
-    "brake": BY_MOTION,
-}
-
-
-class LoadBuilder:
-    """Builds the loads of a train for any operating point.
-
-    Args:
-        scene: scene of the drive.
-        train: of `build_train`.
-    """
-
-    def __init__(self, scene: Scene, train: Train) -> None:
-        self.laws = point_laws(scene, train, [_CAUSALITIES[port] for port in scene.drive.ports])
-
-    def build(self, point: OperatingPoint) -> Load:
-        """Loads at an operating point.
-
-        Given torques and speeds are those of steady running there.
-        """
-        load: Load = load_at(self.laws, record_of(point))
-        return load
 
 
 def begin_given(load: Load, now: Instant, shown: PortStates) -> None:
@@ -56,30 +26,25 @@ def begin_given(load: Load, now: Instant, shown: PortStates) -> None:
     load.since_seconds, load.since = now
 
 
-def build_load(scene: Scene, point: OperatingPoint, train: Train) -> Load:
-    """Loads on the train at an operating point."""
-    return LoadBuilder(scene, train).build(point)
-
-
-def start_state(scene: Scene, model: Model) -> tuple[State, str]:
+def start_state(gearbox: Gearbox, model: Model) -> tuple[State, str]:
     """State at the start of a run, at time zero and motor angle zero.
 
     Args:
-        scene: the scene.
+        gearbox: of the scene.
         model: its train at the operating point.
 
     Returns:
         The state; and a warning if axes that move are not in equilibrium there, else "".
     """
     speed = model.load.target_speed.copy()
-    if scene.drive.speed_control.start_speed is not None:
-        speed[0] = scene.drive.speed_control.start_speed
-    force = mesh_force(scene, float(model.load.torque[MOTOR]))
-    state, unbalanced, body = library(scene).initial_state(model, speed, force)
+    start_speed = gearbox.scene.drive.speed_control.start_speed
+    if start_speed is not None:
+        speed[0] = start_speed
+    force = gearbox.mesh_force(float(model.load.torque[MOTOR]))
+    state, unbalanced, body = gearbox.core.initial_state(model, speed, force)
     if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
         return state, ""
-    place = build_bodies(scene).place
-    name = next(name for name, number in place.items() if number == body)
+    name = gearbox.bodies.names[body]
     return state, (
         f"no static equilibrium is found at the start: a force of {unbalanced:.3g} N on {name} is "
         "not balanced, so the run starts with a vibration that no mesh excites; simulate with "

@@ -20,7 +20,7 @@ from ..tooth.crack import Crack as RootCrack
 from ..tooth.material import Material
 from ..tooth.pair import ToothPair
 from ..tooth.tooth import Tooth
-from .static_load import mesh_force
+from .layout import Layout
 
 GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind of mesh: first and second
 LIGHTEST_LINE_LOAD = 1e3  # [N/m] contact compliance at lower loads is that of this load
@@ -67,7 +67,7 @@ def pair_gap(scene: Scene, kind: int) -> PairGap | None:
 
 def loaded_force(scene: Scene) -> float:
     """Force of a mesh [N] at the torque of the scene, at least a light load."""
-    force = abs(mesh_force(scene, scene.operating_point.input_torque))
+    force = abs(Layout(scene).mesh_force(scene.operating_point.input_torque))
     return max(force, LIGHTEST_LINE_LOAD * scene.gearset.face_width)
 
 
@@ -125,5 +125,5 @@ def _tooth_law(scene: Scene, pair: ToothPair) -> StiffnessLaw:
 def _contact(scene: Scene) -> ContactLaw:
     if scene.mesh.tooth.contact == "yang_sun":
         return yang_sun
-    force = abs(mesh_force(scene, scene.operating_point.input_torque))
+    force = abs(Layout(scene).mesh_force(scene.operating_point.input_torque))
     return weber_banaschek(max(force / scene.gearset.face_width, LIGHTEST_LINE_LOAD))

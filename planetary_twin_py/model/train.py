@@ -10,54 +10,39 @@ A held body is the ground: one additional entry with x = 0.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .._core import AXES, REGISTER, Train, axes
-from ..gearset.kinematics import mesh_cycles_per_turn
-from ..scene import OperatingPoint, Scene
-from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
+from .._core import AXES, REGISTER, Train
+from .bodies import Bodies
 from .drag import build_drag
+from .layout import Layout
+from .library import library
 from .meshes import build_meshes
 from .moving_axes import moving_fields
-from .stiffness_laws import stiffness_follows_load
-
-TRAINS_KEPT = 16
 
 
-def held_axes(scene: Scene) -> Scene:
-    """The scene with held axes, for results that do not depend on the motion of the axes."""
-    return scene.model_copy(update={"dynamics": "torsional"}) if scene.moving_axes else scene
-
-
-def build_train(scene: Scene) -> Train:
+def build_train(layout: Layout, bodies: Bodies) -> Train:
     """Translate a scene into arrays, which do not depend on quantities that may change in a run.
 
     Where axes move, the record is that of `_core.axes`, see `moving_axes`.
 
+    Args:
+        layout: of the scene.
+        bodies: of the layout.
+
+    Returns:
+        The record.
+
     Raises:
         ValueError: there is an instant without contact of teeth (see `pair_table`).
     """
-    return _built(unloaded(scene)).copy()
-
-
-def unloaded(scene: Scene) -> Scene:
-    """The scene with only those operating quantities on which the train itself depends."""
-    torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
-    point = OperatingPoint(backlash=0.0, input_speed=0.0, input_torque=torque)
-    return scene.model_copy(update={"operating_point": point})
-
-
-@lru_cache(maxsize=TRAINS_KEPT)
-def _built(scene: Scene) -> Train:
-    bodies = build_bodies(scene)
-    radii = base_radii(scene)
-    meshes = build_meshes(scene, bodies)
+    scene = layout.scene
+    meshes = build_meshes(layout, bodies)
     pitch = meshes["base_pitch"]
     fields = {
-        "bodies": len(bodies.mass) - 1,
+        "bodies": bodies.ground,
         "axes": len(scene.drive.inputs),
         "body_copies": bodies.copies,
         "mass": bodies.copies * bodies.mass,
@@ -67,21 +52,21 @@ def _built(scene: Scene) -> Train:
         "sun": bodies.place["sun"],
         "carrier": bodies.place["carrier"],
         "sun_advance": 1.0 / pitch,
-        "carrier_advance": -radii["sun"] / radii["carrier"] / pitch,
+        "carrier_advance": -layout.radii["sun"] / layout.radii["carrier"] / pitch,
         "friction": scene.lubrication.friction,
         "printed_torque": scene.lubrication.friction_torque == "printed",
-        **_cycles(scene),
-        **_couplings(scene, bodies),
+        **_cycles(layout),
+        **_couplings(layout, bodies),
         "lever": 1.0 / bodies.radius[np.asarray(meshes["body"])].T,
         **meshes,
-        **build_drag(scene, bodies),
+        **build_drag(layout, bodies),
     }
     if scene.moving_axes:
-        fields = moving_fields(scene, bodies, fields)
+        fields = moving_fields(layout, bodies, fields)
     fields["spin_ratio"] = _spin_ratio(fields)
-    if scene.moving_axes:
-        return axes.Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
-    return Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
+    lanes = _whole_registers(max(fields["bodies"], fields["meshes"]))
+    train: Train = library(scene).Train(**fields, lanes=lanes)
+    return train
 
 
 def _spin_ratio(fields: dict[str, Any]) -> np.ndarray:
@@ -101,16 +86,9 @@ def _whole_registers(count: int) -> int:
     return -(-count // REGISTER) * REGISTER
 
 
-def _cycles(scene: Scene) -> dict[str, Any]:
+def _cycles(layout: Layout) -> dict[str, Any]:
     """Mesh cycles per turn of each input, as fractions, so that whole turns add no error."""
-    ratios = rigid_ratios(scene)
-    inputs = range(len(ratios["sun"]))
-    cycles = [
-        mesh_cycles_per_turn(
-            scene.gearset.tooth_numbers, {kind: ratio[axis] for kind, ratio in ratios.items()}
-        )
-        for axis in inputs
-    ]
+    cycles = layout.cycles
     denominators = np.ones(AXES, dtype=int)
     denominators[: len(cycles)] = [cycle.denominator for cycle in cycles]
     return {
@@ -120,13 +98,12 @@ def _cycles(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _couplings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
+def _couplings(layout: Layout, bodies: Bodies) -> dict[str, Any]:
     """Elastic couplings between the machines and their members."""
-    found, radii = machines(scene), base_radii(scene)
-    squares = np.array([radii[machine.member] ** 2 for machine in found.values()])
+    found, place = layout.machines, bodies.place
+    squares = np.array([layout.radii[machine.member] ** 2 for machine in found.values()])
     stiffness = np.array([machine.coupling_stiffness for machine in found.values()])
     damping = np.array([machine.coupling_damping for machine in found.values()])
-    place = bodies.place
     return {
         "machines": len(found),
         "coupling": np.array([[place[name], place[m.member]] for name, m in found.items()]),

@@ -9,12 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import PortRanges, PortStates, Train
-from ..model.bodies import LOAD_MACHINE, MOTOR
+from .._core import PortRanges, PortStates
 from ..model.clock import TICKS
-from ..model.library import library
-from ..model.static_load import static_torques
-from ..scene import Scene
+from ..model.gearbox import Gearbox
+from ..model.layout import LOAD_MACHINE, MOTOR
 from ..scene.drive import Causality, Ports
 from ..text.number_check import check_number
 from ..text.object_repr import brief_record
@@ -128,19 +126,19 @@ UNITS = {"torque": "N m", "speed": "rad/s", "position": "rad"}
 """SI unit of a quantity."""
 
 
-def port_ranges(scene: Scene, train: Train) -> PortRanges:
+def port_ranges(gearbox: Gearbox) -> PortRanges:
     """Largest magnitudes of commands, from the limits of the drive.
 
     Args:
-        scene: the scene.
-        train: from `model.train.build_train`.
+        gearbox: of the scene.
 
     Returns:
         Limits at input and output: those of the drive, and these converted by the gear ratio.
     """
-    drive, bodies = scene.drive, train.coupling[[MOTOR, LOAD_MACHINE], 0]
-    ranges: PortRanges = library(scene).PortRanges(
-        torque=drive.torque_limit * np.abs(static_torques(scene)[[MOTOR, LOAD_MACHINE]]),
+    drive, train, shafts = gearbox.scene.drive, gearbox.train, [MOTOR, LOAD_MACHINE]
+    bodies = train.coupling[shafts, 0]
+    ranges: PortRanges = gearbox.core.PortRanges(
+        torque=drive.torque_limit * np.abs(gearbox.machine_torques[shafts]),
         speed=drive.speed_limit * np.abs(train.ratio[bodies]).sum(axis=1),
     )
     return ranges

@@ -6,8 +6,8 @@ import math
 from typing import NamedTuple
 
 from .._core import CREEPING, Control
-from ..model.bodies import rigid_ratios
-from ..scene import OperatingPoint, Scene
+from ..model.layout import Layout
+from ..scene import OperatingPoint
 
 SETTLED = 50.0  # presliding displacements of rolling after which the initial state has no effect
 
@@ -72,42 +72,35 @@ def course_so_far(control: Control, unsettled: float) -> Course:
     )
 
 
-def settling_rate(scene: Scene, point: OperatingPoint) -> float:
-    """Rate at which friction of creeping gears forgets the initial state [1/s].
-
-    Infinite if gears do not creep, 0 if they stand or friction has no memory.
-
-    Args:
-        scene: the scene.
-        point: its operating point.
-    """
-    return Settling(scene).rate(point)
-
-
 class Settling:
-    """Rate of `settling_rate` at one operating point after the other.
+    """How fast friction of creeping gears forgets the initial state.
 
     Args:
-        scene: the scene.
+        layout: of the scene.
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, layout: Layout) -> None:
+        scene = layout.scene
         gearset, friction = scene.gearset, scene.lubrication
         self._remembers = not scene.quasi_static and friction.friction
         self._distance = SETTLED * friction.presliding_displacement
         angle = min(mesh.pressure_angle for mesh in gearset.geometry.meshes)
         lever = gearset.geometry.sun.base_radius * math.tan(angle)
-        ratios = rigid_ratios(scene)
+        ratios = layout.ratios
         self._rolling = [
             lever * float(sun - carrier)
             for sun, carrier in zip(ratios["sun"], ratios["carrier"], strict=True)
         ]
 
     def rate(self, point: OperatingPoint) -> float:
-        """Rate at an operating point [1/s].
+        """Rate of forgetting.
 
         Args:
             point: the operating point.
+
+        Returns:
+            The rate [1/s]: infinite if gears do not creep, 0 if they stand or friction has no
+            memory.
         """
         if not self._remembers:
             return 0.0
@@ -122,6 +115,6 @@ def unsettled(share: float, rate: float) -> float:
 
     Args:
         share: rolled share of the distance after which it has.
-        rate: present rate of that share [1/s], see `settling_rate`.
+        rate: present rate of that share [1/s], see `Settling`.
     """
     return (1.0 - share) / rate if 0.0 < rate < math.inf and share < 1.0 else 0.0

@@ -20,10 +20,6 @@ BY_COST = ("quasi_static", "torsional", "quasi_static_planar", "planar", "spatia
 """From the simplest dynamics to the most complete one."""
 
 
-FIGURES = ("dte_mean", "dte_rms", "dte_peak", "mesh_force_mean", "mesh_force_peak", "power_loss")
-"""Compared quantities: the power loss, and the others for every mesh."""
-
-
 class Candidate(NamedTuple):
     """A dynamics, and its errors in a scene."""
 

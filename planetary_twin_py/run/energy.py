@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..model.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 
 ROUNDING = 1e-9  # of the stored energy: work below it is due to rounding
 

@@ -40,12 +40,12 @@ from ..model.clock import (
 )
 from ..model.cycle import common_cycles, turns_per_cycle
 from ..model.error_scale import POINTS, StepScale, new_integrator
-from ..model.library import library, record_in
+from ..model.gearbox import Gearbox
+from ..model.library import record_in
 from ..model.oil import build_oil
 from ..model.planet_bearings import check_planet_bearings
-from ..model.speed_loop import SpeedLoopCheck, bandwidth
-from ..model.start import LoadBuilder, start_state
-from ..model.train import build_train, held_axes
+from ..model.speed_loop_check import SpeedLoopCheck
+from ..model.start import start_state
 from ..scene import OperatingPoint, Scene
 from .limits import Limits, RunawayError
 from .samples import Samples, Waves, new_samples, wave_rows
@@ -76,31 +76,31 @@ class Engine:
         self.scene = scene
         self.tolerance = tolerance
         self._may_repeat = method == "auto"
-        self.train = build_train(scene)
-        self._core = library(scene)
+        self.gearbox = Gearbox(scene)
+        check_planet_bearings(self.gearbox, scene.operating_point)
+        self.train, self._core = self.gearbox.train, self.gearbox.core
         self.model: Model = self._core.Model(train=self.train)
         self.integrator = new_integrator(self._core, method)
         # Parts of the integrator that every window reads, because each look-up costs time.
         self._end, self._scratch = self.integrator.end, self.integrator.scratch
         self._periodic, self._last = self.integrator.periodic, self.integrator.last
         self._shown: tuple[float | Fraction, Samples] | None = None
-        self._limits = Limits(scene, self.train)
+        self._limits = Limits(self.gearbox)
         self._failure: RunawayError | None = None
-        self._speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
+        self._speed_loop = SpeedLoopCheck(self.gearbox)
         for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
             if speed is not None:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
                 self._speed_loop.check(where)
-        self._loads = LoadBuilder(scene, self.train)
-        self._scale = StepScale(scene, self.train, self._loads.laws)
+        self._scale = StepScale(self.gearbox)
         self._given = False
         self._oil = build_oil(scene, scene.operating_point)
         self._oil_temperature = scene.operating_point.oil_temperature
         self._cycles: dict[bool, int] = {}
-        self._pause = SETTLING / bandwidth(scene)
+        self._pause = SETTLING / self.gearbox.bandwidth
         self._load(scene.operating_point)
-        state, unbalanced = start_state(scene, self.model)
-        self.start_warning = unbalanced or whirl_warning(scene, scene.operating_point)
+        state, unbalanced = start_state(self.gearbox, self.model)
+        self.start_warning = unbalanced or whirl_warning(self.gearbox, scene.operating_point)
         self.integrator.begin = self.integrator.end = state
         self._prepare()
 
@@ -114,7 +114,7 @@ class Engine:
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
         self._load_oil(point)
-        load = self._loads.build(point)
+        load = self.gearbox.load(point)
         if self._given:  # values given at ports do not depend on the operating point
             keep_given(record_in(_core, self.model.load), load)
         self.model.load, self._given = record_in(self._core, load), self.scene.drive.ports.given
@@ -291,7 +291,7 @@ class Engine:
         """
         if self._failure is not None:
             raise self._failure
-        check_planet_bearings(self.scene, point)
+        check_planet_bearings(self.gearbox, point)
         if self.scene.mesh.damping.follows_speed:
             self._speed_loop.check(point)
         self._end_step(time)
@@ -313,7 +313,7 @@ class Engine:
     @property
     def laws(self) -> PointLaws:
         """How the loads depend on the operating point."""
-        return self._loads.laws
+        return self.gearbox.laws
 
     @property
     def control(self) -> Control:

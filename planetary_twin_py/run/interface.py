@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from .._core import Control, Report, Train, WindowEnd
+from ..model.gearbox import Gearbox
 from ..scene import OperatingPoint
 from .samples import Samples, Waves
 from .window_jobs import WindowJobs
@@ -14,6 +15,8 @@ from .window_jobs import WindowJobs
 class Run(Protocol):
     """A model that is advanced in time."""
 
+    gearbox: Gearbox
+    """Of the scene; its operating point and ports may have changed since."""
     train: Train
     start_warning: str
     """Why the start is no equilibrium, "" if it is one."""

@@ -6,18 +6,14 @@ are invalid long before: at a mesh deflection of a base pitch, teeth have broken
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from .. import _core
 from .._core import IMPULSE, Integrator, Load, Train, WindowEnd
-from ..model.bodies import MACHINE_NAMES, MeshNames, build_bodies, mesh_names
-from ..model.library import library
+from ..model.bodies import MeshNames
+from ..model.gearbox import Gearbox
+from ..model.layout import MACHINE_NAMES
 from ..model.limits import Limit, displacement_limit
-from ..model.moving_axes import bearing_names
-from ..model.static_load import static_torques
-from ..scene import Scene
 from .samples import Waves
 
 EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of the drive
@@ -27,13 +23,13 @@ class RunawayError(ArithmeticError):
     """A run exceeded a physical limit and was stopped; the message states time and reason."""
 
 
-def _axial_limit(scene: Scene) -> Limit:
-    names = bearing_names(scene)
+def _axial_limit(gearbox: Gearbox) -> Limit:
+    names = gearbox.bearings
     return Limit(
         "axial displacement",
         "m",
         names,
-        np.full(len(names), scene.gearset.face_width),
+        np.full(len(names), gearbox.scene.gearset.face_width),
         "gearset.face_width, at which teeth no longer meet; reduce the torque, or increase the "
         "axial stiffness of the bearings (supports.*.axial)",
     )
@@ -43,31 +39,31 @@ class Limits:
     """Limits of a run.
 
     Args:
-        scene: the scene.
-        train: from `model.train.build_train`.
+        gearbox: of the scene.
     """
 
-    def __init__(self, scene: Scene, train: Train) -> None:
-        drive, meshes = scene.drive, mesh_names(scene)
+    def __init__(self, gearbox: Gearbox) -> None:
+        drive, train, bodies = gearbox.scene.drive, gearbox.train, gearbox.bodies.names
         size = np.hypot(train.line_tangential, train.line_radial)
         self._errors = size.sum(axis=1)[: train.meshes]
         self._train = train
         self.deflection = Limit(
             "deflection",
             "m",
-            _mesh_names(meshes, int(train.meshes)),
+            _mesh_names(gearbox.mesh_names, int(train.meshes)),
             np.full(train.meshes, train.base_pitch),
             "a base pitch, at which teeth break or jump; reduce the torques or increase the "
             "stiffness",
         )
         """Of the mesh deflection, see `check_deflection`."""
         ratios = np.abs(train.ratio[: train.bodies]).sum(axis=1)
+        displaces = ["." in name for name in bodies]  # axes, which have no speed of rotation
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
         self.speed = Limit(
             "speed",
             "rad/s",
-            _names(build_bodies(scene).place, int(train.bodies)),
-            np.where(_displaces(scene), np.inf, EXCESS * fastest * ratios),
+            bodies,
+            np.where(displaces, np.inf, EXCESS * fastest * ratios),
             f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
         )
         """Of the speeds of the bodies."""
@@ -76,16 +72,16 @@ class Limits:
             "torque",
             "N m",
             MACHINE_NAMES[: train.machines],
-            EXCESS * (drive.torque_limit + accelerating) * np.abs(static_torques(scene)),
+            EXCESS * (drive.torque_limit + accelerating) * np.abs(gearbox.machine_torques),
             f"{EXCESS:g} times the torque at drive.torque_limit = {drive.torque_limit:g} N m and "
             f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
         )
         """Of the torques of the machines."""
-        self.displacement = displacement_limit(scene)
+        self.displacement = displacement_limit(gearbox)
         """Of the displacements of axes that move, see `check_displacements`."""
-        self.axial = _axial_limit(scene)
+        self.axial = _axial_limit(gearbox)
         """The same along the axes."""
-        self.record: _core.Limits = library(scene).Limits(
+        self.record: _core.Limits = gearbox.core.Limits(
             deflection=self.deflection.largest,
             error=self._errors,
             speed=self.speed.largest,
@@ -185,21 +181,9 @@ def _inertia(train: Train) -> float:
     return float((squares[:, None] * train.ratio**2).sum(axis=0).max())
 
 
-def _displaces(scene: Scene) -> list[bool]:
-    """Whether a coordinate is a displacement of an axis, which has no speed of rotation."""
-    bodies = build_bodies(scene)
-    return ["." in name for name in _names(bodies.place, len(bodies.mass) - 1)]
-
-
 def _mesh_names(meshes: MeshNames, count: int) -> list[str]:
     """Names of the entries of the meshes; where each flank has one, both have the same name."""
     names, places = list(meshes.names), meshes.place.tolist()
     named = {place % count: name for name, place in zip(names[::-1], places[::-1], strict=True)}
     half = count // 2
     return [named[at] if at in named else named[(at + half) % count] for at in range(count)]
-
-
-def _names(place: Mapping[str, int], count: int) -> list[str]:
-    """Names in order of their indices; the first of several names with the same index."""
-    first = {at: name for name, at in reversed(list(place.items()))}
-    return [first[at] for at in range(count)]

@@ -8,11 +8,11 @@ from fractions import Fraction
 import numpy as np
 
 from .._core import PORTS, REFUSED, WITHIN_LIMITS, PortStates, WindowEnd
-from ..model.bodies import MOTOR
 from ..model.clock import NEVER, TICKS, Instant, instant, instant_of_ticks, sampling
-from ..model.speed_loop import SpeedLoopCheck
-from ..model.start import LoadBuilder, begin_given
-from ..model.train import build_train, held_axes
+from ..model.gearbox import Gearbox
+from ..model.layout import MOTOR
+from ..model.speed_loop_check import SpeedLoopCheck
+from ..model.start import begin_given
 from ..scene import OperatingPoint, Scene
 from .braking import Braking, braking
 from .commands import NOTHING, Command, port_ranges
@@ -54,7 +54,7 @@ class DrivenEngine(Engine):
     def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
         self._braking: Braking | None = None  # until the shaft is at rest
         super().__init__(scene, tolerance, method)
-        self.port_ranges = port_ranges(scene, self.train)
+        self.port_ranges = port_ranges(self.gearbox)
         self._linear = scene.drive.interpolation == "linear"
         self._ports_set = -1  # [ticks] time of the last change of ports
         self._stepped = False  # since the last window, without sums of the meshes
@@ -81,15 +81,15 @@ class DrivenEngine(Engine):
         """
         if self._failure is not None:
             raise self._failure
-        speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
-        loads = LoadBuilder(scene, self.train)
+        gearbox = Gearbox(scene)
+        speed_loop = SpeedLoopCheck(gearbox)
         speed_loop.check(point)
         ticks = int(time * TICKS)
         self.apply_command(ticks, ticks, NOTHING)  # a shaft that has reached its position stops
         self._ports_set = ticks
         shown = self.port_states(ticks)
         self._end_step(time)
-        self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
+        self.scene, self.gearbox, self._speed_loop = scene, gearbox, speed_loop
         self._given = False
         self._cycles.clear()
         gain = self.model.load.trim_gain.copy()

@@ -16,8 +16,6 @@ from .._core import (
     WORK,
     WindowEnd,
 )
-from ..model.library import library
-from ..scene import Scene
 from .energy import Energy
 from .window import by_name
 from .windows import Windows
@@ -33,11 +31,10 @@ class RunTotal:
 
     Args:
         windows: windows of the run.
-        scene: scene of the run.
     """
 
-    def __init__(self, windows: Windows, scene: Scene) -> None:
-        core = library(scene)
+    def __init__(self, windows: Windows) -> None:
+        core = windows.run.gearbox.core
         self._core, self._windows, self._train = core, windows, windows.run.train
         self._begin, self._total, self._last = (core.WindowEnd() for _ in range(3))
         windows.run.exact_end(windows.ticks, self._begin)

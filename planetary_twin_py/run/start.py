@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ..model.gearbox import Gearbox
 from ..model.planet_bearings import check_planet_bearings
-from ..model.speed_loop import check_speed_loop
-from ..model.train import build_train, held_axes
+from ..model.speed_loop_check import SpeedLoopCheck
 from ..scene import OperatingPoint, Scene, SceneError
 from ..text.escaping import one_line
 from .interface import Run
@@ -33,7 +33,6 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
             f"give torsional, planar or quasi_static; `planetary-twin explain {name}` "
             "compares them"
         )
-    check_planet_bearings(scene, scene.operating_point)
     if not scene.quasi_static:
         return DrivenEngine(scene, tolerance, method)
     if method not in ("auto", "march"):
@@ -53,6 +52,7 @@ def check_point(scene: Scene, point: OperatingPoint) -> None:
     Raises:
         ValueError: the speed loop of the drive is not stable, or bearings of planets are too soft.
     """
-    check_planet_bearings(scene, point)
+    gearbox = Gearbox(scene)
+    check_planet_bearings(gearbox, point)
     if not scene.quasi_static:
-        check_speed_loop(scene, build_train(held_axes(scene)), point)
+        SpeedLoopCheck(gearbox).check(point)

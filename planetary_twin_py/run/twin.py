@@ -6,9 +6,8 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .._core import PortStates
-from ..model.bodies import LOAD_MACHINE, MOTOR, body_names, mesh_names
 from ..model.clock import TICKS
-from ..model.library import library
+from ..model.layout import LOAD_MACHINE, MOTOR
 from ..scene import OperatingPoint, Scene, SceneError
 from ..scene.drive import Causality, Ports
 from ..scene.given import check_scene
@@ -76,9 +75,10 @@ class Twin:
         """Scene at the start of the run."""
         self.scene = scene
         """Scene with the present ports."""
-        self._names, self._mesh_names = body_names(scene), mesh_names(scene)
         self._windows = Windows(scene, tolerance)
         self._engine = self._windows.run
+        gearbox = self._engine.gearbox
+        self._names, self._mesh_names = gearbox.body_names, gearbox.mesh_names
         first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
         self.log = [first]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
@@ -86,7 +86,7 @@ class Twin:
         self._kept = CommandLog(linear) if keep_commands else None
         self._given = scene.drive.ports.given
         self._stepped = False  # since the last window
-        core = library(scene)
+        core = gearbox.core
         self._shown, self._reached = core.PortStates(), core.WindowEnd()
 
     @property

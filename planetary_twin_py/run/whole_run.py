@@ -10,7 +10,6 @@ import numpy as np
 
 from .._core import WAVEFORM, Control
 from ..gearset.kinematics import mesh_frequency
-from ..model.bodies import body_names, mesh_names
 from ..model.clock import TICKS
 from ..scene import Scene
 from .axes.motion import axes_of_waves
@@ -85,8 +84,8 @@ class WholeRun:
         longest = SPAN if watched or self._course.commanded else None
         for plan in self._timed(begin, sample_rate, longest, watched):
             self._show(watch, plan)
-        total, parts, rate, kept = RunTotal(windows, scene), list[Waves](), sample_rate, 1
-        axes = AxesSums(scene) if scene.moving_axes else None
+        total, parts, rate, kept = RunTotal(windows), list[Waves](), sample_rate, 1
+        axes = AxesSums(windows.run.gearbox) if scene.moving_axes else None
         if axes is not None:
             kept = decimation(scene, sample_rate)
             rate = kept * sample_rate
@@ -122,7 +121,7 @@ class WholeRun:
 
     def _result(self, total: RunTotal, waves: Waves, duration: float, simulated: float) -> Result:
         scene, run = self._scene, self._windows.run
-        names, mesh, mean_speed = body_names(scene).names, total.mesh, total.mean_speed
+        names, mesh, mean_speed = run.gearbox.body_names.names, total.mesh, total.mean_speed
         sun, carrier = (float(mean_speed[names.index(body)]) for body in ("sun", "carrier"))
         frequency = mesh_frequency(scene.gearset.tooth_numbers, sun, carrier)
         assert waves.bodies is not None
@@ -131,7 +130,7 @@ class WholeRun:
             duration=duration,
             time=waves.time,
             bodies=names,
-            meshes=mesh_names(scene).names,
+            meshes=run.gearbox.mesh_names.names,
             angle=waves.bodies.angle,
             speed=waves.bodies.speed,
             mean_speed=mean_speed,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._core import MESH_STATISTICS
-from ..model.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..text.object_repr import brief, brief_record
 from .axes.motion import AxesMotion
 from .counters import Course

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from types import ModuleType
-
-from .._core import PUBLISHED, Report, Train, WindowEnd
+from .._core import PUBLISHED, WindowEnd
 from ..gearset.kinematics import mesh_frequency
-from ..model.bodies import body_names, machines, mesh_names
 from ..model.clock import TICKS
-from ..scene import Scene
+from ..model.gearbox import Gearbox
 from .axes.motion import axes_of_waves
 from .counters import Course
 from .window import Waveform, Window, by_name
@@ -19,21 +16,19 @@ class WindowResults:
     """Computes the results of windows of a scene.
 
     Args:
-        scene: the scene.
-        core: module of the compiled core that fits the scene.
-        train: gear train of the scene.
-        report: indices of bodies and meshes in the records.
+        gearbox: of the scene.
     """
 
-    def __init__(self, scene: Scene, core: ModuleType, train: Train, report: Report) -> None:
-        self._core, self._train, self._report = core, train, report
-        self._bodies, self._meshes = body_names(scene).names, mesh_names(scene).names
-        members = [machine.member for machine in machines(scene).values()]
+    def __init__(self, gearbox: Gearbox) -> None:
+        scene, train = gearbox.scene, gearbox.train
+        self._core, self._train, self._report = gearbox.core, train, gearbox.report
+        self._bodies, self._meshes = gearbox.body_names.names, gearbox.mesh_names.names
+        members = [machine.member for machine in gearbox.machines.values()]
         self._members = tuple(self._bodies.index(member) for member in members)
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._bodies.index("sun")
         self._planets = scene.gearset.planets
         # Views of the record, which is filled again for every window.
-        record = self._record = core.Figures()
+        record = self._record = gearbox.core.Figures()
         bodies, count = len(self._bodies), int(train.machines)
         self._angle, self._mean_speed = record.angle[:bodies], record.mean_speed[:bodies]
         self._machine_speed = record.machine_speed[:count]

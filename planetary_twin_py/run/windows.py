@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from .._core import WindowEnd
-from ..model.bodies import body_names, build_report, mesh_names
 from ..model.clock import TICKS
-from ..model.library import library
 from ..scene import OperatingPoint, Scene
 from .counters import Course, Settling, course_so_far, unsettled
 from .interface import Run
@@ -33,18 +31,18 @@ class Windows:
     def __init__(
         self, scene: Scene, tolerance: float, method: str = "auto", asked: Asked = PUBLISHED_ONES
     ) -> None:
-        core = library(scene)
-        self.report = build_report(core, body_names(scene), mesh_names(scene))
-        """Indices of the reported bodies and meshes."""
         self.run: Run = start(scene, tolerance, method)
         """The model in progress."""
+        gearbox = self.run.gearbox
+        self.report = gearbox.report
+        """Indices of the reported bodies and meshes."""
         self.ticks = 0
         """Present time [ticks of the clock]: the end of the last window."""
         self._room = WaveRoom(self.run.train, self.report, asked)
-        self._results = WindowResults(scene, core, self.run.train, self.report)
+        self._results, core = WindowResults(gearbox), gearbox.core
         self._ends = core.WindowEnd(), core.WindowEnd()  # of the last window, and of the next one
         self.begin()
-        self._forgetting, self._settled = Settling(scene), 0.0
+        self._forgetting, self._settled = Settling(gearbox), 0.0
         self.set_point(scene.operating_point)
         self._course = course_so_far(self.run.control, 0.0)
 

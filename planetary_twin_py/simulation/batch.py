@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ..run.result import Result
@@ -14,8 +11,7 @@ from ..scene.given import given_scenes
 from ..text.escaping import one_line
 from ..text.object_repr import brief_record
 from .simulate import check_run, simulate
-
-AHEAD = 2  # runs per thread that are active, queued or complete and not yet consumed
+from .threads import Threads
 
 
 @dataclass(frozen=True)
@@ -75,32 +71,14 @@ def simulate_many(
         ValueError: an argument is out of range.
     """
     check_run(duration, sample_rate, method, tolerance)
-    if workers is None:
-        workers = len(os.sched_getaffinity(0))
-    if workers < 1:
-        raise ValueError(f"workers = {workers!r}: must be at least 1")
+    threads = Threads(workers)
 
-    def run(place: int, scene: Scene) -> Outcome:
+    def run(task: tuple[int, Scene]) -> Outcome:
+        place, scene = task
         try:
             found = simulate(scene, duration, sample_rate, method, tolerance)
         except (ValueError, ArithmeticError) as error:
             return Outcome(place, scene, error)
         return Outcome(place, scene, found)
 
-    return _in_order(given_scenes(scenes), run, workers)
-
-
-def _in_order(
-    scenes: Iterator[Scene], run: Callable[[int, Scene], Outcome], workers: int
-) -> Iterator[Outcome]:
-    pending: deque[Future[Outcome]] = deque()
-    pool = ThreadPoolExecutor(workers, "scene")
-    try:
-        for place, scene in enumerate(scenes):
-            if len(pending) == AHEAD * workers:
-                yield pending.popleft().result()
-            pending.append(pool.submit(run, place, scene))
-        while pending:
-            yield pending.popleft().result()
-    finally:
-        pool.shutdown(cancel_futures=True)
+    return threads.in_order(run, enumerate(given_scenes(scenes)))

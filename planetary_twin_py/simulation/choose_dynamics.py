@@ -7,14 +7,14 @@ import time
 import numpy as np
 
 from ..model.clock import TICKS
-from ..model.mesh_frequency import wanted_mesh_frequency
-from ..model.static_load import mesh_force
+from ..model.layout import Layout
 from ..run.commanded_run import CommandedRun
-from ..run.dynamics_choice import BY_COST, FIGURES, Candidate, DynamicsChoice
+from ..run.dynamics_choice import BY_COST, Candidate, DynamicsChoice
 from ..run.run_total import RunTotal
 from ..run.windows import Windows
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
+from ..units.catalogue import FIGURES
 
 TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.1, 2.0  # [s] limits of the measured time, and of the settling before it
@@ -76,7 +76,7 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
     end = round(duration * TICKS)
     for _ in course.advance(end, 1.0, None, sampled=False):
         pass
-    total = RunTotal(windows, scene)
+    total = RunTotal(windows)
     for _ in course.advance(2 * end, 1.0, None, sampled=False):
         total.add(windows.last, False)
     total.close(duration)
@@ -87,7 +87,7 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
 
 def _duration(scene: Scene) -> float:
     """Measured time [s]."""
-    frequency = wanted_mesh_frequency(scene)
+    frequency = Layout(scene).mesh_frequency
     return min(max(SHORTEST, CYCLES / frequency if frequency > 0.0 else SHORTEST), LONGEST)
 
 
@@ -116,4 +116,4 @@ def _nothing(scene: Scene) -> tuple[float, float]:
     point, drive = scene.operating_point, scene.drive
     torque = abs(point.input_torque) + abs(point.torque_ripple) or drive.torque_limit
     speeds = (abs(point.input_speed), abs(point.second_input_speed), NOTHING * drive.speed_limit)
-    return abs(mesh_force(scene, NOTHING * torque)), NOTHING * torque * max(speeds)
+    return abs(Layout(scene).mesh_force(NOTHING * torque)), NOTHING * torque * max(speeds)

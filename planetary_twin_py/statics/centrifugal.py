@@ -10,9 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.bodies import carrier_speed
-from ..model.planar_rows import CENTRAL, PlanarRows
-from ..scene import Scene
+from ..model.layout import Layout
+from ..model.planar_rows import CENTRAL
 
 
 class Centrifugal(NamedTuple):
@@ -32,17 +31,18 @@ class Centrifugal(NamedTuple):
         return np.asarray(self.force + displacement @ self.softening)
 
 
-def centrifugal(scene: Scene, rows: PlanarRows) -> Centrifugal:
+def centrifugal(layout: Layout) -> Centrifugal:
     """Centrifugal forces at the speeds of the operating point.
 
     Args:
-        scene: the scene; without `supports`, planets have `gearset.planet_mass` and stay in place.
-        rows: rows of its gear set.
+        layout: of the scene; without `supports`, planets have `gearset.planet_mass` and stay in
+            place.
 
     Returns:
         The forces.
     """
-    square = carrier_speed(scene, scene.operating_point) ** 2
+    scene, rows = layout.scene, layout.rows
+    square = layout.speeds_at(scene.operating_point)["carrier"] ** 2
     arm, supports, identity = (
         scene.gearset.geometry.centre_distance,
         scene.supports,
@@ -50,10 +50,10 @@ def centrifugal(scene: Scene, rows: PlanarRows) -> Centrifugal:
     )
     mass = scene.gearset.planet_mass if supports is None else supports.planet.mass
     force, softening = np.zeros(len(identity)), np.zeros(identity.shape)
-    for i in range(scene.gearset.planets):
-        outwards = rows.place(f"planet_{i + 1}.xi")
+    for planet in layout.planets:
+        outwards = rows.place(f"{planet}.xi")
         force[outwards] = mass * square * arm
-        across = identity[rows.place(f"planet_{i + 1}.eta")] - identity[rows.place("carrier.u")]
+        across = identity[rows.place(f"{planet}.eta")] - identity[rows.place("carrier.u")]
         for row in (identity[outwards], across):
             softening += mass * square * np.outer(row, row)
     if supports is None:

@@ -11,10 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.bodies import rigid_ratios
-from ..model.planar_rows import PlanarRows
-from ..model.planet_groups import scene_phases
-from ..scene import Scene
+from ..model.layout import Layout
 from ..scene.errors import Offset
 
 
@@ -31,29 +28,29 @@ class Displacements(NamedTuple):
     """Reduction of the backlash of each mesh by thicker teeth, on either side [m], (meshes,)."""
 
 
-def displacements(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> Displacements:
+def displacements(layout: Layout, turns: np.ndarray) -> Displacements:
     """Errors of a scene.
 
     Args:
-        scene: scene with the errors.
-        rows: rows of its gear set.
+        layout: of the scene with the errors.
         turns: turns of the first motor, (P,); a second motor is at rest.
 
     Returns:
         The displacements, in the frame of the carrier.
     """
+    scene = layout.scene
     errors, planets = scene.errors, scene.gearset.planets
     radial, tangential, thicker = (
         np.array(values or (0.0,) * planets)
         for values in (errors.pin_radial, errors.pin_tangential, errors.planet_thickness)
     )
-    angle = {name: 2.0 * np.pi * float(r[0]) * turns for name, r in rigid_ratios(scene).items()}
+    angle = {name: 2.0 * np.pi * float(r[0]) * turns for name, r in layout.ratios.items()}
     axis = np.zeros((len(turns), 3, 2))
     for place, offset in ((1, errors.ring_offset), (2, errors.carrier_offset)):
         axis[:, place] = _in_carrier_frame(offset, angle["carrier"])
     cosines = [math.cos(mesh.pressure_angle) for mesh in scene.gearset.geometry.meshes]
     return Displacements(
-        _toothings(scene, rows, angle),
+        _toothings(layout, angle),
         np.column_stack([radial, tangential]),
         axis,
         np.concatenate([thicker * cosine / 2.0 for cosine in cosines]),
@@ -65,11 +62,12 @@ def _in_carrier_frame(offset: Offset, carrier: np.ndarray) -> np.ndarray:
     return offset.size * np.column_stack([np.cos(direction), np.sin(direction)])
 
 
-def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> np.ndarray:
+def _toothings(layout: Layout, angle: dict[str, np.ndarray]) -> np.ndarray:
     """Displacements by runout, with the start angles of `model.form_errors`."""
+    scene, rows = layout.scene, layout.rows
     runout, errors, teeth = scene.mesh.runout, scene.errors, scene.gearset.tooth_numbers
     carrier, first = angle["carrier"], scene.gearset.planet_angles[0]
-    sun_phases, ring_phases = scene_phases(scene)
+    sun_phases, ring_phases = layout.phases
     displaced = np.zeros((len(carrier), len(rows.coordinates)))
     # The part of the phase of a ring mesh that is independent of the planet's position.
     offset = 2.0 * np.pi * float(ring_phases[0]) / teeth.ring
@@ -81,9 +79,9 @@ def _toothings(scene: Scene, rows: PlanarRows, angle: dict[str, np.ndarray]) -> 
         displaced[:, rows.place(f"{gear}.x")] = size * np.cos(direction)
         displaced[:, rows.place(f"{gear}.y")] = size * np.sin(direction)
     phases = errors.planet_runout_phases or (0.0,) * scene.gearset.planets
-    for i, phase in enumerate(phases):
+    for i, (planet, phase) in enumerate(zip(layout.planets, phases, strict=True)):
         start = math.pi + 2.0 * np.pi * float(sun_phases[i]) / teeth.planet + phase
         direction = angle["planet"] - carrier + start
-        displaced[:, rows.place(f"planet_{i + 1}.xi")] = runout.planet * np.cos(direction)
-        displaced[:, rows.place(f"planet_{i + 1}.eta")] = runout.planet * np.sin(direction)
+        displaced[:, rows.place(f"{planet}.xi")] = runout.planet * np.cos(direction)
+        displaced[:, rows.place(f"{planet}.eta")] = runout.planet * np.sin(direction)
     return displaced

@@ -15,14 +15,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .._core.axes import RollingBearing
-from ..gearset.kinematics import mesh_cycles_per_turn
-from ..model.bodies import rigid_ratios
+from ..model.layout import Layout
 from ..model.limits import displacement_limit
-from ..model.moving_axes import bearing_names, linear_bearing
-from ..model.planar_rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
-from ..model.planet_groups import scene_phases
+from ..model.moving_axes import linear_bearing
+from ..model.planar_rows import CENTRAL, COAST, DRIVE
 from ..model.rolling_bearings import largest_element_load, rolling_bearing
-from ..model.static_load import mesh_force
 from ..model.teeth import build_teeth, stiffness_at
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
@@ -106,98 +103,95 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     if scene.supports is not None:
         for error in unsupported(scene.supports):
             raise SceneError(error)
-    turns = _positions(scene) if turns is None else np.asarray(turns, dtype=float)
-    gears = scene.gearset.geometry
-    angles = [mesh.pressure_angle for mesh in gears.meshes]
-    rows = planar_rows(scene.gearset.planet_angles, *angles)
-    errors = displacements(scene, rows, turns)
-    basis = _free_coordinates(scene, rows)
-    inertia = centrifugal(scene, rows)
-    springs = _springs(scene, rows, errors, turns, basis, inertia.softening)
-    weight = weight_forces(scene, rows, turns)
-    force = (_input_force(scene, rows) + weight + inertia.force) @ basis
-    driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
+    layout = Layout(scene)
+    turns = _positions(layout) if turns is None else np.asarray(turns, dtype=float)
+    errors = displacements(layout, turns)
+    basis = _free_coordinates(layout)
+    inertia = centrifugal(layout)
+    springs = _springs(layout, errors, turns, basis, inertia.softening)
+    weight = weight_forces(layout, turns)
+    force = (_input_force(layout) + weight + inertia.force) @ basis
+    driven = np.sign(layout.mesh_force(scene.operating_point.input_torque))
     closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
     solution = equilibrium(springs, force, closed)
     if scene.supports is not None:
-        _check_displacements(scene, eccentricities(springs, solution.displacement))
+        _check_displacements(layout, eccentricities(springs, solution.displacement))
     elements = _element_loads(scene, springs, solution)
     on_bodies = weight + inertia.on(solution.displacement @ basis.T)
-    return _assemble_result(scene, rows, turns, errors, basis, solution, on_bodies, elements)
+    return _assemble_result(layout, turns, errors, basis, solution, on_bodies, elements)
 
 
-def _check_displacements(scene: Scene, displaced: np.ndarray) -> None:
+def _check_displacements(layout: Layout, displaced: np.ndarray) -> None:
     """Check displacements in the bearings [m], (P, bearings, 2)."""
     try:
-        displacement_limit(scene).check(np.linalg.norm(displaced, axis=2))
+        displacement_limit(layout).check(np.linalg.norm(displaced, axis=2))
     except ArithmeticError as reason:
         raise ValueError(f"{reason}") from None
 
 
-def _positions(scene: Scene) -> np.ndarray:
+def _positions(layout: Layout) -> np.ndarray:
     """Turns of the first motor at which the load is evaluated."""
+    scene = layout.scene
     teeth, runout, errors = scene.gearset.tooth_numbers, scene.mesh.runout, scene.errors
     uneven = [kind for kind in teeth._fields if getattr(runout, kind)]
     cycles = math.lcm(*(getattr(teeth, kind) for kind in uneven))
-    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
-    per_turn = mesh_cycles_per_turn(teeth, ratios)
+    per_turn, carrier = layout.cycles[0], layout.ratios["carrier"][0]
     heavy = scene.supports is not None and scene.supports.gravity > 0.0
     turns_back = heavy or errors.ring_offset.size or errors.carrier_offset.size
-    if turns_back and ratios["carrier"]:
-        cycles = math.lcm(cycles, abs((per_turn / ratios["carrier"]).numerator))
+    if turns_back and carrier:
+        cycles = math.lcm(cycles, abs((per_turn / carrier).numerator))
     cycles = min(cycles, MOST_CYCLES)
     count = POSITIONS if cycles == 1 else PER_CYCLE * cycles
     # Middles of intervals, so that no position is at the start or end of a tooth contact.
     return np.asarray((np.arange(count) + 0.5) / count * cycles / abs(float(per_turn)))
 
 
-def _free_coordinates(scene: Scene, rows: PlanarRows) -> np.ndarray:
+def _free_coordinates(layout: Layout) -> np.ndarray:
     """Displacement of each coordinate per free coordinate, (coordinates, free).
 
     The input member can turn, the other central members cannot. Without bearings the axes are held,
     and planets move with the carrier.
     """
+    scene, rows = layout.scene, layout.rows
     basis = np.eye(len(rows.coordinates))
     fixed = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
     if scene.supports is None:
         fixed += [f"{body}.{motion}" for body in CENTRAL for motion in "xy"]
-        for i in range(scene.gearset.planets):
-            fixed += [f"planet_{i + 1}.xi", f"planet_{i + 1}.eta"]
-            basis[rows.place(f"planet_{i + 1}.eta"), rows.place("carrier.u")] = 1.0
+        for planet in layout.planets:
+            fixed += [f"{planet}.xi", f"{planet}.eta"]
+            basis[rows.place(f"{planet}.eta"), rows.place("carrier.u")] = 1.0
     return np.delete(basis, [rows.place(name) for name in fixed], axis=1)
 
 
-def _input_force(scene: Scene, rows: PlanarRows) -> np.ndarray:
+def _input_force(layout: Layout) -> np.ndarray:
     """Force of the input torque on each coordinate [N], (coordinates,)."""
-    gears, member = scene.gearset.geometry, scene.drive.input.member
-    radius = {
-        "sun": gears.sun.base_radius,
-        "ring": gears.ring.base_radius,
-        "carrier": gears.centre_distance,
-    }
+    scene, rows = layout.scene, layout.rows
+    member = scene.drive.input.member
     force = np.zeros(len(rows.coordinates))
-    force[rows.place(f"{member}.u")] = scene.operating_point.input_torque / radius[member]
+    force[rows.place(f"{member}.u")] = (
+        scene.operating_point.input_torque / layout.planar_radii[member]
+    )
     return force
 
 
 def _springs(
-    scene: Scene,
-    rows: PlanarRows,
+    layout: Layout,
     errors: Displacements,
     turns: np.ndarray,
     basis: np.ndarray,
     softening: np.ndarray,
 ) -> Springs:
+    scene, rows = layout.scene, layout.rows
     flanks = np.vstack([rows.flanks(side) for side in SIDES])
     displaced = errors.toothing
     if scene.supports is None:
-        displaced = displaced + _held_pins(scene, rows, errors)
+        displaced = displaced + _held_pins(layout, errors)
     backlash = scene.operating_point.backlash
     _, offset = scene.mesh.flanks(backlash, scene.gearset.transverse.pressure_angle)
-    form = _harmonic_errors(scene, turns)
+    form = _harmonic_errors(layout, turns)
     gap = np.concatenate([side * form + offset - errors.closing for side in SIDES], axis=1)
-    stiffness = np.concatenate([_stiffness(scene, turns, side) for side in SIDES], axis=1)
-    bearing, radial, clearance, centre = _bearings(scene, rows, errors)
+    stiffness = np.concatenate([_stiffness(layout, turns, side) for side in SIDES], axis=1)
+    bearing, radial, clearance, centre = _bearings(layout, errors)
     return Springs(
         basis.T @ softening @ basis,
         flanks @ basis,
@@ -211,25 +205,26 @@ def _springs(
     )
 
 
-def _held_pins(scene: Scene, rows: PlanarRows, errors: Displacements) -> np.ndarray:
+def _held_pins(layout: Layout, errors: Displacements) -> np.ndarray:
     """Displacements of planets by errors of their pins, and of held axes, (P, n)."""
+    rows = layout.rows
     displaced = np.zeros((len(errors.axis), len(rows.coordinates)))
     for place, body in enumerate(CENTRAL):
         for direction, motion in enumerate("xy"):
             displaced[:, rows.place(f"{body}.{motion}")] = errors.axis[:, place, direction]
     carried = -rows.pin @ displaced.T  # displacements of the pins with the axis of the carrier
-    for i in range(scene.gearset.planets):
+    for i, planet in enumerate(layout.planets):
         for direction, motion in enumerate(("xi", "eta")):
-            place = rows.place(f"planet_{i + 1}.{motion}")
+            place = rows.place(f"{planet}.{motion}")
             displaced[:, place] = errors.pin[i, direction] + carried[i, direction]
     return displaced
 
 
 def _bearings(
-    scene: Scene, rows: PlanarRows, errors: Displacements
+    layout: Layout, errors: Displacements
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Rows, stiffness, clearance and centre of the bearings: sun, ring, carrier, planets."""
-    supports, count = scene.supports, len(errors.axis)
+    supports, rows, count = layout.scene.supports, layout.rows, len(errors.axis)
     if supports is None:
         none = np.zeros((0, 2, len(rows.coordinates)))
         return none, np.zeros(0), np.zeros(0), np.zeros((count, 0, 2))
@@ -238,7 +233,7 @@ def _bearings(
         for direction, motion in enumerate("xy"):
             central[place, direction, rows.place(f"{body}.{motion}")] = 1.0
     pins = np.tile(errors.pin, (count, 1, 1))
-    stiffness, clearance = _bearing_data(scene, supports)
+    stiffness, clearance = _bearing_data(layout, supports)
     return (
         np.concatenate([central, rows.pin]),
         stiffness,
@@ -252,9 +247,9 @@ def _body_kinds(scene: Scene) -> list[str]:
     return [*CENTRAL, *["planet"] * scene.gearset.planets]
 
 
-def _bearing_data(scene: Scene, supports: Supports) -> tuple[np.ndarray, np.ndarray]:
-    kinds = _body_kinds(scene)
-    stiffness = np.array([linear_bearing(scene, name)[0] for name in bearing_names(scene)])
+def _bearing_data(layout: Layout, supports: Supports) -> tuple[np.ndarray, np.ndarray]:
+    kinds, torque = _body_kinds(layout.scene), layout.scene.operating_point.input_torque
+    stiffness = np.array([linear_bearing(layout, name, torque)[0] for name in layout.bearings])
     return stiffness, np.array([getattr(supports, kind).clearance for kind in kinds])
 
 
@@ -266,22 +261,16 @@ def _rolling_laws(scene: Scene) -> tuple[RollingBearing | None, ...]:
     return tuple(rolling_bearing(rolling) if rolling else None for rolling in given)
 
 
-def _cycles_per_turn(scene: Scene) -> float:
-    """Mesh cycles per turn of the first motor, signed."""
-    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
-    return float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios))
-
-
-def _mesh_cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
+def _mesh_cycles(layout: Layout, turns: np.ndarray) -> np.ndarray:
     """Cycles since a pair was at the pitch point of each mesh, on drive flanks, (P, meshes)."""
-    per_turn = _cycles_per_turn(scene)
-    phases = np.array([float(phase) for kind in scene_phases(scene) for phase in kind])
-    return np.asarray(per_turn * turns[:, None] - phases)
+    phases = np.array([float(phase) for kind in layout.phases for phase in kind])
+    return np.asarray(float(layout.cycles[0]) * turns[:, None] - phases)
 
 
-def _harmonic_errors(scene: Scene, turns: np.ndarray) -> np.ndarray:
+def _harmonic_errors(layout: Layout, turns: np.ndarray) -> np.ndarray:
     """Transmission errors of the teeth, harmonics of the mesh frequency [m], (P, meshes)."""
-    cycles, planets = _mesh_cycles(scene, turns), scene.gearset.planets
+    scene, planets = layout.scene, len(layout.planets)
+    cycles = _mesh_cycles(layout, turns)
     errors = np.zeros_like(cycles)
     for kind, error in enumerate((scene.mesh.sun_planet_error, scene.mesh.planet_ring_error)):
         meshes = slice(kind * planets, (kind + 1) * planets)
@@ -291,12 +280,13 @@ def _harmonic_errors(scene: Scene, turns: np.ndarray) -> np.ndarray:
     return errors
 
 
-def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
+def _stiffness(layout: Layout, turns: np.ndarray, side: float) -> np.ndarray:
     """Stiffness of each mesh on the flanks of one side [N/m], (P, meshes)."""
+    scene = layout.scene
     teeth, planets = build_teeth(scene), scene.gearset.planets
     kinds = np.repeat([0, 1], planets)
     lead = np.array([mesh.coast_lead for mesh in scene.gearset.geometry.meshes])[kinds]
-    cycles = side * _mesh_cycles(scene, turns) + (lead if side == COAST else 0.0)
+    cycles = side * _mesh_cycles(layout, turns) + (lead if side == COAST else 0.0)
     fractions = cycles - np.floor(cycles)
     nominal = [stiffness_at(teeth, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
     factors = [scene.errors.of_planet(i).stiffness for i in range(planets)]
@@ -304,8 +294,7 @@ def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
 
 
 def _assemble_result(
-    scene: Scene,
-    rows: PlanarRows,
+    layout: Layout,
     turns: np.ndarray,
     errors: Displacements,
     basis: np.ndarray,
@@ -313,7 +302,8 @@ def _assemble_result(
     on_bodies: np.ndarray,
     elements: np.ndarray,
 ) -> LoadSharing:
-    planets, count = scene.gearset.planets, len(turns)
+    scene, rows = layout.scene, layout.rows
+    planets, count = len(layout.planets), len(turns)
     forces = solution.contact_force.reshape(count, 2, 2 * planets)
     sun_mesh = forces[:, 0, :planets] - forces[:, 1, :planets]
     moved = (solution.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
@@ -331,7 +321,7 @@ def _assemble_result(
         bearing + np.eye(3)[2][:, None] * on_carrier[:, None, place : place + 2],
         moved[:, :, :2] - (0.0 if scene.supports is None else errors.axis),
         elements,
-        np.floor(np.abs(_cycles_per_turn(scene) * turns)).astype(int),
+        np.floor(np.abs(float(layout.cycles[0]) * turns)).astype(int),
     )
 
 

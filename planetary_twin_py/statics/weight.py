@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..model.bodies import rigid_ratios
-from ..model.planar_rows import CENTRAL, PlanarRows
-from ..scene import Scene
+from ..model.layout import Layout
+from ..model.planar_rows import CENTRAL
 
 
-def weight_forces(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> np.ndarray:
+def weight_forces(layout: Layout, turns: np.ndarray) -> np.ndarray:
     """Force of gravity on each coordinate.
 
     Args:
-        scene: scene with `supports.gravity`; without supports, weight has no effect.
-        rows: rows of its gear set.
+        layout: of a scene with `supports.gravity`; without supports, weight has no effect.
         turns: turns of the first motor, (P,); a second motor is at rest.
 
     Returns:
         Forces [N], (P, coordinates).
     """
+    scene, rows = layout.scene, layout.rows
     force, supports = np.zeros((len(turns), len(rows.coordinates))), scene.supports
     if supports is None or supports.gravity == 0.0:
         return force
-    carrier = 2.0 * np.pi * float(rigid_ratios(scene)["carrier"][0]) * turns
+    carrier = 2.0 * np.pi * float(layout.ratios["carrier"][0]) * turns
     pull = supports.gravity * np.exp(1j * (supports.gravity_direction - carrier))
     for body in CENTRAL:
         weight = getattr(supports, body).mass * pull
@@ -31,9 +30,8 @@ def weight_forces(scene: Scene, rows: PlanarRows, turns: np.ndarray) -> np.ndarr
             weight.real,
             weight.imag,
         )
-    for i, psi in enumerate(scene.gearset.planet_angles):
+    for planet, psi in zip(layout.planets, scene.gearset.planet_angles, strict=True):
         weight = supports.planet.mass * pull * np.exp(-1j * psi)
-        planet = f"planet_{i + 1}"
         force[:, rows.place(f"{planet}.xi")] = weight.real
         force[:, rows.place(f"{planet}.eta")] = weight.imag
     return force

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..model.bodies import mesh_names
+from ..model.gearbox import Gearbox
 from ..run.counters import Course
 from ..scene import Scene
 from ..units.catalogue import COURSE
@@ -161,7 +161,7 @@ def _tabulate(
 
     from .table import column
 
-    meshes = mesh_names(scene).names
+    meshes = Gearbox(scene).mesh_names.names
     rows: list[tuple[Any, ...]] = []
     for direction, branch in samples_by_branch.items():
         for sampled in branch:

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any
 
-from .work import Failure
-
-Task = TypeVar("Task")
-Answer = TypeVar("Answer")
+from .work import Answer, Failure, Task
 
 AHEAD = 4  # points per thread of the cluster that run or are queued
 _TIMEOUT = 30.0  # [s] for the scheduler to answer, and for its first worker
@@ -45,17 +42,17 @@ class Cluster:
                 )
 
     def run(
-        self, work: Callable[[Task], Answer], points: Iterable[Task]
+        self, work: Callable[[Task], Answer], tasks: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer | Failure]]:
-        """Yield every point with its result, in order of completion.
+        """Yield every task with its result, in order of completion.
 
         Args:
-            work: function to evaluate at each point.
-            points: points of the study.
+            work: the function.
+            tasks: points of a study, or groups of gearboxes.
         """
         from distributed import as_completed
 
-        waiting = iter(points)
+        waiting = iter(tasks)
         running = as_completed()
         submitted: dict[Any, Task] = {}
 

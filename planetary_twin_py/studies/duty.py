@@ -16,7 +16,7 @@ from ..recording.tables.measurements import TIME, Array, missing_column, read_co
 from ..scene import OperatingPoint, Scene
 from ..scene.names import did_you_mean
 from ..scene.quantity import unit_of
-from ..units.catalogue import SIDES
+from ..units.catalogue import MESH, SIDES
 from .plan import MOST_POINTS, Point, Settings, Study
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 NAMES = {"torque": "input_torque", "speed": "input_speed"}
 """Short names of columns."""
 REQUIRED = tuple(NAMES.values())
-PEAKS = tuple(f"{side}_{name}" for side in SIDES for name in ("mesh_force_peak", "dte_peak"))
+PEAKS = tuple(f"{side}_{name}" for side in SIDES for name in MESH if name.endswith("_peak"))
 
 
 class Duty(NamedTuple):

@@ -15,8 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.bodies import LOAD_MACHINE, rigid_ratios
-from ..model.static_load import static_torques
+from ..model.layout import LOAD_MACHINE, Layout
 from ..model.stiffness_laws import stiffness_laws
 from ..run.twin import Twin
 from ..scene import Scene
@@ -185,7 +184,7 @@ def lost_motion(
         raise ValueError("drive.second_input: must be none for a lost-motion test")
     if not 0.0 < share < 0.5:
         raise ValueError(f"share = {share!r}: must be above 0 and below 0.5")
-    per_input = float(static_torques(scene)[LOAD_MACHINE])
+    per_input = float(Layout(scene).machine_torques[LOAD_MACHINE])
     limit = scene.drive.torque_limit
     if not 0.0 < torque <= limit * abs(per_input):
         raise ValueError(
@@ -246,15 +245,9 @@ def _on_bench(scene: Scene) -> Scene:
 
 def _heavy_gears(scene: Scene) -> dict[str, object]:
     """Inertias with which each gear alone has the frequency `GEARS` on its meshes."""
-    gears, planets = scene.gearset.geometry, scene.gearset.planets
+    radius, planets = Layout(scene).planar_radii, scene.gearset.planets
     sun, ring = (law.single for law in stiffness_laws(scene))
     per_planet = {"sun": sun, "planet": sun + ring, "ring": ring, "carrier": sun + ring}
-    radius = {
-        "sun": gears.sun.base_radius,
-        "planet": gears.planet.base_radius,
-        "ring": gears.ring.base_radius,
-        "carrier": gears.centre_distance,
-    }
     inertia = {}
     for kind, stiffness in per_planet.items():
         meshes = 1 if kind == "planet" else planets
@@ -270,7 +263,7 @@ def _compliance_of_couplings(scene: Scene) -> float:
     """Twist of the output per torque on it by both couplings, with the motor held [rad/(N m)]."""
     sides = scene.drive.input, scene.drive.output
     driving, driven = (1.0 / machine.coupling_stiffness for machine in sides)
-    return driven + driving * float(rigid_ratios(scene)[sides[1].member][0]) ** 2
+    return driven + driving * float(Layout(scene).ratios[sides[1].member][0]) ** 2
 
 
 def _stiffness(scene: Scene, member: str) -> float:
@@ -287,5 +280,5 @@ def _twist(twin: Twin, scene: Scene, duration: float) -> tuple[float, float]:
     members = scene.drive.input.member, scene.drive.output.member
     angle = dict(zip(window.bodies, np.remainder(window.angle + np.pi, 2.0 * np.pi), strict=True))
     driving, driven = (float(angle[member] - np.pi) for member in members)
-    ratio = float(rigid_ratios(scene)[members[1]][0])
+    ratio = float(Layout(scene).ratios[members[1]][0])
     return float(window.machine_torque[LOAD_MACHINE]), driven - ratio * driving

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from ..units.catalogue import (
     SPEED_SHARE,
     STUDIED,
     STUDIED_OF_AXES,
+    SUMMARY,
 )
 from .plan import Settings
 from .turning import speed_share
@@ -57,27 +57,19 @@ def measure(scene: Scene, settings: Settings) -> Row:
     return row(scene, twin.advance(settings.duration))
 
 
-class RunSummary(NamedTuple):
-    """Summary of a run over its duration and over all meshes."""
-
-    power_loss: float  # tooth friction, bearings, seals and churning, mean [W]
-    dte_mean: float  # mean over the meshes of each one's mean [m]
-    dte_rms: float  # mean over the meshes of the rms about each one's mean [m]
-    dte_peak: float  # largest magnitude in any mesh [m]
-    mesh_force_mean: float  # mean over the meshes of each one's mean [N]
-    mesh_force_peak: float  # largest magnitude in any mesh [N]
-
-
-def summary_of(result: Result) -> RunSummary:
+def summary_of(result: Result) -> Row:
     """Summary of a run over its duration and over all meshes.
 
     Args:
         result: result of the run.
+
+    Returns:
+        Mean power loss, and the statistics of `SUMMARY`, in SI.
     """
-    mesh = result.mesh
-    means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
-    peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}
-    return RunSummary(power_loss=result.mean_power_loss, **means, **peaks)
+    figures = {"power_loss": result.mean_power_loss}
+    for name, (_, quantity) in SUMMARY.items():
+        figures[name] = float(quantity.over_meshes(result.mesh[name]))
+    return figures
 
 
 def row(scene: Scene, window: Window) -> Row:
@@ -147,7 +139,7 @@ def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
     Args:
         mesh: statistics of the meshes by name, (meshes,) each, in SI.
     """
-    planets = len(mesh["dte_mean"]) // 2
+    planets = len(next(iter(mesh.values()))) // 2
     return {
         side: {
             name: float(quantity.over_meshes(mesh[name][meshes])) for name, quantity in MESH.items()

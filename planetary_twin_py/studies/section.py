@@ -12,7 +12,6 @@ from fractions import Fraction
 import numpy as np
 
 from .._core import DTE
-from ..model.bodies import body_names, mesh_names
 from ..run.counters import Course, course_so_far
 from ..run.samples import Samples
 from ..run.start import start
@@ -44,7 +43,8 @@ class Section:
             raise ValueError(f"dynamics = {scene.dynamics!r}: must be torsional for vibration")
         self._scene, self._point, self._tolerance = scene, scene.operating_point, tolerance
         self._run = start(scene, tolerance)
-        names, self._meshes = body_names(scene), mesh_names(scene).place
+        names = self._run.gearbox.body_names
+        self._meshes = self._run.gearbox.mesh_names.place
         # Sun and carrier: their indices among the bodies, and their turns per turn of each motor.
         self._places = names.place[[names.names.index("sun"), names.names.index("carrier")]]
         self._ratio = self._run.train.ratio[self._places]

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..model.mesh_frequency import wanted_mesh_frequency
+from ..model.layout import Layout
 from ..scene import Scene
 from ..statics.error_turns import WHOLE_TURN
 from ..units.catalogue import ERROR_TURNS, SPEED_SHARE
@@ -40,7 +40,7 @@ def speed_share(scene: Scene, found: float) -> float:
     Returns:
         The ratio; NaN if the set-point is standstill, or if `start_speed` starts a run-up.
     """
-    wanted = wanted_mesh_frequency(scene)
+    wanted = Layout(scene).mesh_frequency
     runs_up = scene.drive.speed_control.start_speed is not None
     return math.nan if runs_up or not wanted > STANDSTILL else found / wanted
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from ..scene import Scene
 from .measures import Row, measure
 from .plan import Point, Settings, describe
+
+Task = TypeVar("Task")
+Answer = TypeVar("Answer")
 
 
 @dataclass(frozen=True)
@@ -37,14 +40,14 @@ class Evaluation:
 
 
 class Executor(Protocol):
-    """Runs the points of a study: `local.Threads` or `cluster.Cluster`."""
+    """Runs a function of many tasks: `Threads` or `Cluster`."""
 
     def run(
-        self, work: Callable[[Point], Found], points: Iterable[Point]
-    ) -> Iterator[tuple[Point, Found]]:
-        """Yield every point with its result, in order of completion.
+        self, work: Callable[[Task], Answer], tasks: Iterable[Task]
+    ) -> Iterator[tuple[Task, Answer | Failure]]:
+        """Yield every task with its result, in order of completion.
 
         Args:
-            work: function to evaluate at each point.
-            points: points of the study.
+            work: the function.
+            tasks: points of a study, or groups of gearboxes.
         """

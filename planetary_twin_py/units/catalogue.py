@@ -106,6 +106,20 @@ MESH = {
 }  # fmt: skip
 """Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `by_name`."""
 
+SUMMARY = {
+    "dte_mean": ("mean_dte", Quantity("DTE of all meshes, mean", "m")),
+    "dte_rms": ("dte_vibration_rms", Quantity("DTE of all meshes, rms about the mean", "m")),
+    "dte_peak": ("dte_peak", Quantity("DTE of any mesh, peak", "m", over_meshes=np.max)),
+    "mesh_force_mean": ("mean_mesh_force", Quantity("force of all meshes, mean", "N")),
+    "mesh_force_peak": (
+        "mesh_force_peak", Quantity("force of any mesh, peak", "N", over_meshes=np.max)
+    ),
+}  # fmt: skip
+"""Those of `MESH` that sum up a run: the JSON name without its unit, and the quantity over all
+meshes."""
+FIGURES = (*SUMMARY, "power_loss")
+"""What a run is compared by: with another dynamics, or without a term of the model."""
+
 TRAIN_PLOTS = {
     "speed": (Quantity("Speed", "rad/s"), ("sun_speed", "ring_speed", "carrier_speed")),
     "mesh_frequency": (TRAIN["mesh_frequency"], ("mesh_frequency",)),
@@ -123,6 +137,22 @@ WAVEFORM = {
 """Samples of every mesh, as in the core: fields of MeshWaveform, attributes of `MeshSamples`."""
 WAVEFORM_VIEWS = ("dte", "mesh_force")
 """Those that a view of a recording shows."""
+
+LUBRICATION = (
+    "film_thickness", "lambda_ratio", "boundary_friction", "viscous_friction", "power_loss",
+)  # fmt: skip
+"""Statistics of a mesh that a simulated result has at every sample, too."""
+SAMPLED = (*WAVEFORM_VIEWS, *LUBRICATION)
+"""Arrays over samples and meshes in a file of a result: attributes of `Result`."""
+
+OVERVIEW = ("dte", ("boundary_friction", "viscous_friction"))
+"""Of `WAVEFORM` and of `MESH` on the first page of a view."""
+PAGES = {
+    "Transmission error": ("dte", ("dte_mean", "dte_peak", "dte_rms")),
+    "Mesh force": ("mesh_force", ("mesh_force_mean", "contact_fraction")),
+    "Lubrication": (None, LUBRICATION),
+}
+"""The same on further pages, by title."""
 
 MEMBERS = ("sun", "ring", "carrier")
 """Central bodies, by prefix of a field."""

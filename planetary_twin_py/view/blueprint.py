@@ -14,6 +14,8 @@ from ..units.catalogue import (
     MEMBERS,
     MESH,
     OPERATING_POINT,
+    OVERVIEW,
+    PAGES,
     SHARING,
     TRAIN_PLOTS,
     WAVEFORM,
@@ -133,17 +135,15 @@ def _planet(gearset: Gearset) -> rrb.Spatial3DView:
 def _tabs(
     gearset: Gearset | None, compared: str | None, axes: Scales | None, *, followed: bool
 ) -> rrb.Tabs:
-    several = compared is not None
+    several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]
     contact = [] if gearset is None else [_contact(gearset)]
     return rrb.Tabs(
         _page(
             "Overview",
             [
-                _zoom("dte"),
-                _range("dte"),
-                _mesh("boundary_friction", legend=False),
-                _mesh("viscous_friction", legend=False),
+                *_wave(overview),
+                *(_mesh(name, legend=False) for name in shown),
             ],
             [
                 _train("power_loss", several),
@@ -152,28 +152,9 @@ def _tabs(
                 _set_point("backlash", several),
             ],
         ),
-        _page(
-            "Transmission error",
-            [_zoom("dte"), _range("dte"), _mesh("dte_mean"), _mesh("dte_peak"), _mesh("dte_rms")],
-        ),
-        _page(
-            "Mesh force",
-            [
-                _zoom("mesh_force"),
-                _range("mesh_force"),
-                _mesh("mesh_force_mean"),
-                _mesh("contact_fraction"),
-            ],
-        ),
-        _page(
-            "Lubrication",
-            [
-                _mesh("film_thickness"),
-                _mesh("lambda_ratio"),
-                _mesh("boundary_friction"),
-                _mesh("viscous_friction"),
-                _mesh("power_loss"),
-            ],
+        *(
+            _page(title, [*_wave(wave), *map(_mesh, statistics)])
+            for title, (wave, statistics) in PAGES.items()
         ),
         *contact,
         *([] if axes is None else [_axes()]),
@@ -187,7 +168,7 @@ def _tabs(
 
 
 def _contact(gearset: Gearset) -> rrb.Vertical:
-    curves = rrb.Horizontal(_zoom("mesh_force"), _zoom("dte"))
+    curves = rrb.Horizontal(*map(_zoom, reversed(WAVEFORM_VIEWS)))
     return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
 
 
@@ -284,8 +265,13 @@ def _set_point(name: str, several: bool) -> rrb.TimeSeriesView:
 
 def _difference(compared: str) -> rrb.Horizontal:
     less = f" minus that of {compared}"
-    views = [show(name, DIFFERENCE, less) for name in WAVEFORM_VIEWS for show in (_zoom, _range)]
+    views = [view for name in WAVEFORM_VIEWS for view in _wave(name, DIFFERENCE, less)]
     return _page("Difference", views)
+
+
+def _wave(name: str | None, below: str = "", less: str = "") -> list[rrb.TimeSeriesView]:
+    """Both views of a quantity of the waveform, if there is one."""
+    return [] if name is None else [show(name, below, less) for show in (_zoom, _range)]
 
 
 def _range(name: str, below: str = "", less: str = "") -> rrb.TimeSeriesView:

@@ -18,6 +18,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
+from ..model.gearbox import Gearbox
 from ..model.pair_loads import pair_loads
 from ..recording.runs.reader import Recording
 from ..scene import Scene
@@ -35,6 +36,7 @@ _FULL = 0.99  # quantile of the loads at the end of the scale; rare impacts exce
 _OVERHANG = 0.06  # of the face width, so that the end is visible in front of the gears
 _THICKEST, _LONGEST = 0.24, 3.0  # radius and bend at the full load [modules]
 _BARS = 48  # steps of the drawn scale
+_BLOCK = 8192  # times that are sent at once: about 30 MB while they become strips
 _NEAR = 2e-4  # [s], largest time difference between a sample and its use
 
 
@@ -64,18 +66,27 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
         recording: recording to draw.
         motion: angles at the times to draw.
     """
-    force = forces(recording, motion.time)
-    contacts_of_meshes = [
-        contacts(scene, mesh, motion.angle, force[:, mesh]) for mesh in range(len(recording.meshes))
-    ]
-    loads = np.concatenate([mesh.load[mesh.load > 0.0] for mesh in contacts_of_meshes])
-    if not len(loads):
+    gearbox, meshes, force = Gearbox(scene), recording.meshes, forces(recording, motion.time)
+    blocks = [slice(n, n + _BLOCK) for n in range(0, len(motion.time), _BLOCK)]
+
+    def angles(rows: slice) -> dict[str, Array]:
+        return {member: angle[rows] for member, angle in motion.angle.items()}
+
+    loads = []
+    for rows in blocks:
+        for mesh in range(len(meshes)):
+            load = pair_loads(gearbox, mesh, angles(rows), force[rows, mesh]).load
+            loads.append(load[load > 0.0])
+    loaded = np.concatenate(loads)
+    if not len(loaded):
         return
-    full = one_digit(float(np.quantile(loads, _FULL)))
-    index = timeline.columns(motion.time, motion.stamp)
-    for name, mesh in zip(recording.meshes, contacts_of_meshes, strict=True):
-        columns = _strips(scene.gearset, mesh, full)
-        layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
+    full = one_digit(float(np.quantile(loaded, _FULL)))
+    for rows in blocks:
+        index = timeline.columns(motion.time[rows], motion.stamp[rows])
+        for mesh, name in enumerate(meshes):
+            found = contacts(gearbox, mesh, angles(rows), force[rows, mesh])
+            columns = _strips(scene.gearset, found, full)
+            layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
     _log_scale(layer, scene.gearset, full)
 
 
@@ -101,11 +112,11 @@ def forces(recording: Recording, time: Array) -> Array:
     return force
 
 
-def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
+def contacts(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
     """Tooth pairs that carry the force of a mesh, by the stiffness and the faults of the model.
 
     Args:
-        scene: gears, stiffness and faults.
+        gearbox: gears, stiffness and faults.
         mesh: index of the mesh in a recording.
         angle: angles of the members [rad] (n,), see `pair_loads`.
         force: force of the mesh [N] (n,), negative on the coast flanks.
@@ -113,11 +124,11 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
     Returns:
         Lines of contact, directions and loads.
     """
-    gearset = scene.gearset
+    gearset = gearbox.scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
     working = gearset.geometry.meshes[ring]
     radius, pitch = working.pitch_radii[ring], working.base_pitch
-    pairs = pair_loads(scene, mesh, angle, force)
+    pairs = pair_loads(gearbox, mesh, angle, force)
     half = 0.5 * pairs.face[..., None] * gearset.face_width * np.array([-1.0, 1.0])
     ends, direction = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
     for flank in (DRIVE, COAST):

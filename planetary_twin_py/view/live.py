@@ -14,7 +14,7 @@ from ..recording.ros2.layout import Layouts
 from ..recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..recording.runs.axes_samples import AxesInMemory, axes_samples_of
 from ..recording.runs.origin import read_origin
-from ..recording.runs.reader import TOPICS, Recording, assemble, axes_of
+from ..recording.runs.reader import SERIES, TOPICS, Recording, assemble, series_of
 from ..recording.runs.waveform import InMemory, waveform_of
 from ..scene import Scene
 from .axes import Scales, scales
@@ -97,7 +97,8 @@ class LiveView:
             first = (STATE, AXES_STATE) if scene.moving_axes else (STATE,)
             if not all(self._waiting[name] for name in first):
                 return False
-            drawn = scales(scene.gearset, axes_of(self._waiting[AXES_STATE]))
+            axes = series_of(AXES_STATE, self._waiting[AXES_STATE].copy())
+            drawn = scales(scene.gearset, axes)
             self._run = _DrawnRun(self._namespace, self._begin(), scene, drawn)
         now: Messages = {}
         for name, messages in self._waiting.items():
@@ -119,7 +120,7 @@ class _DrawnRun:
         self._namespace = namespace
         self._scene = scene
         self._layer = Layer(stream)
-        self._last: Messages = {STATE: [], POINT: [], AXES_STATE: []}
+        self._last: Messages = {name: [] for name in SERIES}
         send_layout(stream, scene, LIVE, axes=drawn)
         log_gears(self._layer, scene.gearset)
 
@@ -153,7 +154,8 @@ class _DrawnRun:
     def _recording(self, messages: Messages) -> Recording:
         samples = InMemory(waveform_of(messages[WAVEFORM]))
         axes = AxesInMemory(axes_samples_of(messages[AXES_WAVEFORM]))
-        return assemble(messages, samples, axes, Path(self._namespace), self._namespace)
+        series = {name: series_of(name, messages[name].copy()) for name in SERIES}
+        return assemble(series, samples, axes, Path(self._namespace), self._namespace)
 
 
 def _cut(messages: list[NDArray[Any]], time: str, reached: float) -> int:

@@ -10,7 +10,7 @@ from docs.blocks import ROOT
 from examples.two_mass_joint import TwoMasses
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.bodies import build_bodies
+from planetary_twin_py.model.gearbox import Gearbox
 
 mujoco = pytest.importorskip("mujoco")
 sys.path.insert(0, str(Path(ROOT) / "docs" / "examples"))
@@ -32,7 +32,7 @@ def scene():
 
 def motor_inertia(scene):
     """Of the motor and all gears, carried to the output: J/r^2 of every body [kg m^2]."""
-    bodies = build_bodies(scene)
+    bodies = Gearbox(scene).bodies
     squares = bodies.copies * bodies.mass * (bodies.radius * bodies.ratio[:, 0]) ** 2
     own = np.delete(squares, [bodies.place["load"], len(squares) - 1])
     return RATIO**2 * float(own.sum())

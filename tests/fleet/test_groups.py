@@ -11,7 +11,7 @@ from studies.test_cluster import scheduler, until  # noqa: F401 - a fixture
 
 from planetary_twin_py.fleet.groups import FollowGroup, follow_groups
 from planetary_twin_py.fleet.tables import gearboxes_of, read_fleet
-from planetary_twin_py.studies.local import Threads
+from planetary_twin_py.simulation.threads import Threads
 
 ROWS, COUNT = 60, 12
 

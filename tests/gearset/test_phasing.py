@@ -15,7 +15,7 @@ from planetary_twin_py.gearset.phasing import (
     mesh_phases,
     nearest_assembly,
 )
-from planetary_twin_py.model.planet_groups import axes_stand, planet_groups
+from planetary_twin_py.model.layout import Layout
 
 PAPER = Teeth(30, 20, 70)
 FITTING = np.radians([90.0, -28.8, 208.8])
@@ -90,8 +90,8 @@ def test_equal_planets_at_rounded_angles_are_one_group():
         **{"gearset.teeth": teeth, "gearset.planet_angles": angles}
     )
     assert scene.gearset.planet_angles == pytest.approx((0.0, math.tau / 3, math.tau / 1.5), 1e-15)
-    assert planet_groups(scene).sizes == (3,)
-    assert axes_stand(scene)
+    assert Layout(scene).groups.sizes == (3,)
+    assert Layout(scene).axes_stand
 
 
 def test_no_positions_are_suggested_at_which_planets_touch():

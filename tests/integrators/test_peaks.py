@@ -86,3 +86,15 @@ def test_peaks_of_repeated_mesh_cycles_are_those_of_computed_ones():
     for name in PEAKS:
         largest = computed.mesh[name].max()
         assert repeated.mesh[name] == pytest.approx(computed.mesh[name], abs=TOLERANCE * largest)
+
+
+@pytest.mark.parametrize(("torque", "ripple"), [(1.0, 5.0), (3.0, 5.0)])
+def test_peaks_in_wide_backlash_are_those_of_the_other_method(torque, ripple):
+    """The tolerance is relative to a deflection of which half the backlash is nearly all."""
+    scene = PAPER.replace(
+        input_speed="4600 rpm", backlash="100 um", input_torque=torque, torque_ripple=ripple
+    )
+    run = pt.simulate(scene, 0.004, method="march", tolerance=TOLERANCE)
+    other = pt.simulate(scene, 0.004, method="rosenbrock", tolerance=1e-7)
+    exact = other.mesh["mesh_force_peak"]
+    assert run.mesh["mesh_force_peak"] == pytest.approx(exact, abs=TOLERANCE * exact.max())

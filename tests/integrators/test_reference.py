@@ -9,7 +9,6 @@ from power_flows import FLOWS, scene_of
 from reference_model import Reference
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.model.bodies import body_names, mesh_names
 from planetary_twin_py.run.engine import Engine
 
 pytestmark = pytest.mark.slow
@@ -27,13 +26,13 @@ def absolute(engine, _=None):
     """Angles, speeds and the speed loop's integral at the end of the last step, sides."""
     train, state = engine.train, engine.integrator.end
     bodies = int(train.bodies)
-    place = np.append(body_names(engine.scene).place, [bodies - 2, bodies - 1])
+    place = np.append(engine.gearbox.body_names.place, [bodies - 2, bodies - 1])
     with_ground = slice(bodies + 1)
     turned = 2 * math.pi * (state.turns + state.fraction)
     angle = train.ratio @ turned + state.x / np.where(train.radius, train.radius, 1.0)
     speed = train.ratio @ state.speed + state.v / np.where(train.radius, train.radius, 1.0)
     y = np.concatenate([angle[with_ground][place], speed[with_ground][place], state.trim[:1]])
-    return y, state.side[mesh_names(engine.scene).place]
+    return y, state.side[engine.gearbox.mesh_names.place]
 
 
 def errors(scene, begin, duration, tolerances, model=Reference, state=absolute):
@@ -44,7 +43,7 @@ def errors(scene, begin, duration, tolerances, model=Reference, state=absolute):
     first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
     times, reference = np.arange(first, last + 1) / RATE, model(scene)
     exact, flank_events = reference.transmission_errors(*state(source, reference), times - start)
-    result, place = [], mesh_names(scene).place if model is Reference else slice(None)
+    result, place = [], source.gearbox.mesh_names.place if model is Reference else slice(None)
     for tolerance in tolerances:
         engine = Engine(scene, tolerance)
         engine.integrator.end = source.integrator.end

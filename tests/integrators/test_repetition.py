@@ -20,9 +20,7 @@ from planetary_twin_py._core import (
 )
 from planetary_twin_py.model.clock import TICKS
 from planetary_twin_py.model.cycle import common_cycles
-from planetary_twin_py.model.speed_loop import bandwidth
-from planetary_twin_py.model.start import build_load
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.run.engine import Engine
 
 TOLERANCE = 1e-3
@@ -52,7 +50,7 @@ class Settled:
     """A run of a scene until it has settled, and what is seen just before."""
 
     def __init__(self, scene, method):
-        end = PERIODS / bandwidth(scene)
+        end = PERIODS / Gearbox(scene).bandwidth
         first = math.floor(end * 20_000) - 19
         self.engine = Engine(scene, TOLERANCE, method)
         begin, end = (self.engine._core.WindowEnd() for _ in range(2))
@@ -107,7 +105,7 @@ def test_ten_minutes_later_gears_are_where_the_set_point_says():
 @pytest.mark.parametrize("change", [{"lambda_ratio": 2.0}, {"input_torque": 20.0}])
 def test_a_change_acts_at_its_instant_on_repeated_cycles(change):
     """Its path is that of a run in which nothing ever repeats."""
-    seen, end = [], PERIODS / bandwidth(PAPER)
+    seen, end = [], PERIODS / Gearbox(PAPER).bandwidth
     for method in ("auto", "march"):
         engine = Engine(PAPER, TOLERANCE, method)
         engine.sample(end)
@@ -170,14 +168,14 @@ def test_what_does_not_come_round_is_computed(changes):
 )
 def test_all_is_as_before_when_teeth_and_waves_come_round(changes, cycles):
     scene = PAPER.replace(**changes)
-    train = build_train(scene)
-    assert common_cycles(train, build_load(scene, scene.operating_point, train)) == cycles
+    gearbox = Gearbox(scene)
+    assert common_cycles(gearbox.train, gearbox.load(scene.operating_point)) == cycles
 
 
 def test_with_two_motors_the_motion_does_not_repeat():
     scene = pt.load_scene("differential")
-    train = build_train(scene)
-    assert common_cycles(train, build_load(scene, scene.operating_point, train)) == 0
+    gearbox = Gearbox(scene)
+    assert common_cycles(gearbox.train, gearbox.load(scene.operating_point)) == 0
 
 
 RESONANT = PAPER.replace(

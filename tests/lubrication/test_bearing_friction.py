@@ -6,7 +6,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import bearing_torque
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 
 
 @pytest.mark.parametrize(
@@ -30,7 +30,7 @@ def test_a_roller_bearing_has_its_catalogued_friction():
     the load rating: of an NU 208, 40 by 80 mm, 62 kN. Palmgren's f1 of its series is 3e-4, f0 2 and
     more. The oil, 20 mm^2/s at 1000 rpm, counts for a quarter of the torque."""
     bearing = {"mean_diameter": "60 mm", "f0": 2.0, "f1": 3e-4}
-    train = build_train(pt.load_scene("paper").replace(losses={"planet_bearing": bearing}))
+    train = Gearbox(pt.load_scene("paper").replace(losses={"planet_bearing": bearing})).train
     load, speed = 6200.0, pt.rpm(1000)
     found = bearing_torque(
         train.joint_no_load_factor[0], train.joint_load_factor[0], 20e-6, speed, load

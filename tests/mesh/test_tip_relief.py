@@ -11,7 +11,7 @@ from planetary_twin_py.gearset.geometry import PathOfContact
 from planetary_twin_py.mesh.stiffness import given_stiffness
 from planetary_twin_py.mesh.tip_relief import PairGap, Relief, relieved_table
 from planetary_twin_py.mesh.tooth_pairs import pair_table
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 
 PATH = PathOfContact(0.75, 0.85)
 STIFFNESS, FORCE = 2e8, 2000.0
@@ -81,7 +81,7 @@ def test_no_amount_of_relief_changes_nothing():
     paper = pt.load_scene("paper")
     none = {"amount": 0.0, "length": 1e-3}
     scene = paper.replace(**{"mesh.tip_relief": {"sun": none, "ring": none}})
-    plain, relieved = build_train(paper), build_train(scene)
+    plain, relieved = Gearbox(paper).train, Gearbox(scene).train
     for name in ("weight", "edge", "shift", "segments", "stiffness_gain"):
         assert np.array_equal(getattr(plain, name), getattr(relieved, name))
 

@@ -8,14 +8,12 @@ from planar.moving_scenes import planar, supports
 from power_flows import FLOWS
 
 import planetary_twin_py as pt
-from planetary_twin_py.gearset.kinematics import mesh_cycles_per_turn
 from planetary_twin_py.modal.campbell import resonances
 from planetary_twin_py.modal.excitation import EXCITED, NO_MESH, SUPPRESSED, excitation
 from planetary_twin_py.modal.modes import clusters
 from planetary_twin_py.modal.natural import natural_modes, spring_model
 from planetary_twin_py.modal.turning import turning_terms
-from planetary_twin_py.model.bodies import rigid_ratios
-from planetary_twin_py.model.planet_groups import scene_phases
+from planetary_twin_py.model.layout import Layout
 
 AWAY = 1e-4  # relative distance of a frequency from a natural frequency
 
@@ -109,13 +107,13 @@ def test_axial_modes_of_spur_gears_deform_no_mesh():
 def forced_response(scene, speed, harmonic, frequency):
     """Largest displacement under harmonic pulls of the sun meshes on the lines of action."""
     springs = spring_model(scene, "planar", "mean")
-    ratios = {kind: ratio[0] for kind, ratio in rigid_ratios(scene).items()}
-    speeds = {kind: speed * float(ratio) for kind, ratio in ratios.items()}
+    layout = Layout(scene)
+    speeds = layout.speeds(speed)
     terms = turning_terms(springs, speeds["carrier"], speeds, scene.gearset.planet_angles)
     omega = 2.0 * np.pi * frequency
     # Mesh cycles grow with the turns of the motor; force is the real part of f exp(-i omega t).
-    forward = np.sign(speed * float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios)))
-    delays = np.array([float(phase) for phase in scene_phases(scene)[0]])
+    forward = np.sign(speed * float(layout.cycles[0]))
+    delays = np.array([float(phase) for phase in layout.phases[0]])
     pulls = np.exp(2j * np.pi * forward * harmonic * delays)
     rows = [spring.row for spring in springs.springs if spring.kind == "sun_planet"]
     dynamic = (

@@ -10,6 +10,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.modal.springs import Spring, SpringModel
 from planetary_twin_py.modal.turning import turning_terms
 from planetary_twin_py.modal.whirl import growing, whirl_warning
+from planetary_twin_py.model.gearbox import Gearbox
 
 MASS, STIFFNESS = 2.0, 8e4
 CRITICAL = math.sqrt(STIFFNESS / MASS)  # [rad/s]
@@ -92,7 +93,7 @@ TURNING_DAMPING = {
 @pytest.mark.filterwarnings("ignore")
 def test_whirl_of_a_run_grows_as_its_warning_says():
     scene = soft(25_000, **TURNING_DAMPING)
-    warning = whirl_warning(scene, scene.operating_point)
+    warning = whirl_warning(Gearbox(scene), scene.operating_point)
     frequency = float(warning.split(" Hz in the frame")[0].split()[-1])
     growth = float(warning.split(" 1/s")[0].split()[-1])
     twin = pt.Twin(scene, sample_rate=2000.0, tolerance=1e-5)
@@ -116,4 +117,4 @@ def test_runs_and_load_sharing_warn_of_whirl_that_grows():
 @pytest.mark.parametrize("speed", [12_000, 18_000])
 def test_damping_in_the_housing_keeps_the_axes_stable(speed):
     scene = soft(speed)
-    assert whirl_warning(scene, scene.operating_point) == ""
+    assert whirl_warning(Gearbox(scene), scene.operating_point) == ""

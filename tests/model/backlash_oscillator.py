@@ -12,8 +12,8 @@ import math
 import numpy as np
 
 from planetary_twin_py._core import DRIVE_SIDE, TOTAL, Integrator, Model, advance, cut, radau
-from planetary_twin_py.model.bodies import LOAD_MACHINE
 from planetary_twin_py.model.clock import NEVER, Instant, instant, sampling
+from planetary_twin_py.model.layout import LOAD_MACHINE
 from planetary_twin_py.run.samples import new_samples
 
 MASS, MOTOR, GROUND = 0, 1, 2

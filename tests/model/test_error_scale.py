@@ -6,8 +6,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.error_scale import StepScale
-from planetary_twin_py.model.start import LoadBuilder
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 
 PAPER = pt.load_scene("paper").replace(backlash=4e-5)
 ALPHA = PAPER.gearset.transverse.pressure_angle
@@ -21,8 +20,7 @@ MEET = {
 @pytest.mark.parametrize(("law", "motion"), MEET, ids="-".join)
 def test_the_scale_adds_the_backlash_where_flanks_meet(law, motion):
     scene = PAPER.replace(**{"mesh.backlash": law, "mesh.motion": motion})
-    train = build_train(scene)
-    scale = StepScale(scene, train, LoadBuilder(scene, train).laws)
+    scale = StepScale(Gearbox(scene))
     point = scene.operating_point
     gap = scale.deflection(point) - scale.elastic_deflection(point)
     assert gap == pytest.approx(MEET[law, motion], rel=1e-12)

@@ -8,7 +8,7 @@ from tiers import first_rows
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
-from planetary_twin_py.model.bodies import body_names, mesh_names
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.model.pair_loads import pair_loads
 from planetary_twin_py.run.start import start
 
@@ -18,13 +18,13 @@ STEP = 0.7e-3  # [s] about a third of a mesh cycle at 1000 rpm
 TURN = 30 * 2e-3  # [s] of the sun, which meets each of its teeth once a turn
 
 
-def model_loads(engine, scene):
+def model_loads(engine):
     """Angles; forces (meshes,), positions and loads (meshes, pairs) in the model's own state."""
     model, state, train = engine.model, engine.integrator.end, engine.train
     moment, work = StepConstants(), Evaluation()
     set_step_constants(model, state, moment)
     forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
-    bodies, shown = body_names(scene), mesh_names(scene).place
+    bodies, shown = engine.gearbox.body_names, engine.gearbox.mesh_names.place
     turns = 2 * math.pi * train.ratio @ (state.turns + state.fraction)
     angle = (turns + state.x * train.inverse_radius)[bodies.place]
     slots, meshes = int(train.slots), int(train.meshes)
@@ -48,15 +48,15 @@ def loads_at(places, positions, loads):
 
 def largest_difference(scene, duration):
     """Of the loads from those of the model and of a healthy set, over the largest force."""
-    engine, healthy = start(scene, 1e-4, "march"), scene.replace(faults=[])
+    engine, healthy = start(scene, 1e-4, "march"), Gearbox(scene.replace(faults=[]))
     wrong, effect, largest = 0.0, 0.0, 0.0
     for k in range(1, round(duration / STEP)):
         engine.sample(k * STEP)
-        angle, force, positions, expected = model_loads(engine, scene)
+        angle, force, positions, expected = model_loads(engine)
         turned = {name: np.mod(value, 2 * math.pi) for name, value in angle.items()}
         for mesh in range(len(force)):
             given = np.array([force[mesh]])
-            found = pair_loads(scene, mesh, turned, given)
+            found = pair_loads(engine.gearbox, mesh, turned, given)
             without = pair_loads(healthy, mesh, turned, given).load
             assert found.load.sum() == pytest.approx(abs(force[mesh]))
             places = positions[mesh]
@@ -104,7 +104,7 @@ def shared(depth, force, cycle):
     turned = {"sun": angle, "ring": -3 / 7 * angle, "carrier": 0.0}
     turned |= {f"planet_{i}": -1.5 * angle for i in (1, 2, 3)}
     given = {name: np.array([value]) for name, value in turned.items()}
-    found = pair_loads(PAPER.replace(faults=[wear]), 0, given, np.array([force]))
+    found = pair_loads(Gearbox(PAPER.replace(faults=[wear])), 0, given, np.array([force]))
     return loads_at(np.array([cycle, cycle - 1.0]), found.position[0], found.load[0])
 
 

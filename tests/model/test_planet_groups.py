@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.planet_groups import planet_groups
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.run.engine import Engine
 
 PAPER = pt.load_scene("paper")
@@ -52,8 +52,8 @@ def returning(planets):
     ids=lambda value: None if isinstance(value, tuple) else value.name,
 )
 def test_planets_in_phase_form_a_group(scene, group):
-    assert planet_groups(scene).group == group
-    assert sum(planet_groups(scene).sizes) == len(group)
+    assert Layout(scene).groups.group == group
+    assert sum(Layout(scene).groups.sizes) == len(group)
 
 
 def fault(gear, **changes):
@@ -76,7 +76,7 @@ def fault(gear, **changes):
     ids=str,
 )
 def test_different_teeth_split_groups_unless_same_teeth_return(scene, changes, group):
-    assert planet_groups(scene.replace(**changes)).group == group
+    assert Layout(scene.replace(**changes)).groups.group == group
 
 
 def test_one_planet_of_each_group_is_integrated():
@@ -130,7 +130,7 @@ def test_one_planet_of_each_group_gives_the_results_of_all(scene, method):
     options = {"method": method, "tolerance": TOLERANCE}
     one = pt.simulate(scene, 0.01, **options)
     assert_equal_results(one, pt.simulate(scene.replace(**APART), 0.01, **options))
-    group = planet_groups(scene).group
+    group = Layout(scene).groups.group
     for i, first in enumerate(group):
         leader = group.index(first)
         assert np.array_equal(one.dte[:, i], one.dte[:, leader])

@@ -8,8 +8,8 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py._core import TOTAL
 from planetary_twin_py.explanation.meshes import describe_meshes
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.model.stiffness_laws import tooth_pairs
-from planetary_twin_py.model.train import build_train
 
 PAPER = pt.load_scene("paper")
 STAGE = pt.load_scene("reference_gearbox_stage")
@@ -44,7 +44,7 @@ SCENES = pytest.mark.parametrize(
 
 @SCENES
 def test_rigid_turning_moves_no_mesh(scene):
-    train = build_train(scene)
+    train = Gearbox(scene).train
     for i in range(train.meshes):
         kind, bodies = train.kind[i], train.body[i]
         moved = train.sign[i] * train.radius[bodies] * train.ratio[bodies, 0]
@@ -59,7 +59,7 @@ def test_rigid_turning_moves_no_mesh(scene):
 @SCENES
 def test_radii_of_curvature_end_on_the_line_of_action(scene):
     """r1 + r2 = a sin(a_w) at the sun, r2 - r1 = a sin(a_w) at the ring."""
-    train, gears = build_train(scene), scene.gearset.geometry
+    train, gears = Gearbox(scene).train, scene.gearset.geometry
     for kind, mesh in enumerate(gears.meshes):
         first, second = train.pitch_curvature[kind]
         length = gears.centre_distance * math.sin(mesh.pressure_angle)
@@ -137,7 +137,7 @@ def test_the_largest_stiffness_is_that_of_one_pair():
     """c' of ISO 6336-1, its maximum: it is that of the modes and of the damping."""
     figures, width = describe_meshes(OFF).planet_ring, OFF.gearset.face_width
     assert min(figures.approach, figures.recess) == pytest.approx(-0.012, abs=1e-4)
-    train = build_train(OFF)
+    train = Gearbox(OFF).train
     carried = [
         train.stiffness_gain[1] * train.weight[1, j, TOTAL, 0]
         for j in range(train.segments[1])

@@ -25,13 +25,12 @@ from planetary_twin_py._core import (
     place_lines,
     set_step_constants,
 )
-from planetary_twin_py.model.bodies import base_radii
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.run.engine import Engine
 
 SIZE = 1e-6  # [m] small beside a tooth: errors are of first order in it
 SCENE = pt.load_scene("paper").replace(backlash="60 um")
-ANGLE, RADIUS = SCENE.gearset.pressure_angle, base_radii(SCENE)
+ANGLE, RADIUS = SCENE.gearset.pressure_angle, Gearbox(SCENE).radii
 CENTRE = {"sun": 0.0, "planet": RADIUS["carrier"] / math.cos(ANGLE), "ring": 0.0}
 PAIRS = {False: ("sun", "planet"), True: ("planet", "ring")}
 
@@ -93,7 +92,7 @@ TURNING = {
     ("gear", "ring"), [("sun", False), ("planet", False), ("planet", True), ("ring", True)]
 )
 def test_runout_moves_both_flanks_as_eccentric_involutes_do(gear, ring, flank):
-    train = build_train(SCENE.replace(**{f"mesh.runout.{gear}": SIZE}))
+    train = Gearbox(SCENE.replace(**{f"mesh.runout.{gear}": SIZE})).train
     mesh = int(train.meshes) // 2 if ring else 0
     rate, begin = TURNING[gear]
     turns = np.linspace(0.0, 7.0, 23)
@@ -134,7 +133,7 @@ def test_runout_is_that_of_the_closed_form_of_involutes(gear, ring, flank):
     rate, begin = TURNING[gear]
     left = []
     for size in (2e-5, 2e-6):
-        train = build_train(SCENE.replace(**{f"mesh.runout.{gear}": size}))
+        train = Gearbox(SCENE.replace(**{f"mesh.runout.{gear}": size})).train
         mesh = int(train.meshes) // 2 if ring else 0
         turns = np.linspace(0.0, 7.0, 23)
         found = np.array([modelled(train, mesh, flank, turn) for turn in turns])
@@ -147,7 +146,7 @@ def test_runout_is_that_of_the_closed_form_of_involutes(gear, ring, flank):
 
 @pytest.mark.parametrize("place", [1, 2])
 def test_the_sun_is_off_by_the_same_towards_every_planet(place):
-    train = build_train(SCENE.replace(**{"mesh.runout.sun": SIZE}))
+    train = Gearbox(SCENE.replace(**{"mesh.runout.sun": SIZE})).train
     angles = SCENE.gearset.planet_angles
     for flank in (1, -1):
         for turn in (0.0, 0.3, 2.9):
@@ -158,7 +157,7 @@ def test_the_sun_is_off_by_the_same_towards_every_planet(place):
 
 def test_the_play_breathes_by_the_radial_part():
     """Two flanks leave B + 2 e_R between them: the tangential part shifts both equally."""
-    train = build_train(SCENE.replace(**{"mesh.runout.sun": SIZE}))
+    train = Gearbox(SCENE.replace(**{"mesh.runout.sun": SIZE})).train
     play = [modelled(train, 0, 1, turn) - modelled(train, 0, -1, turn) for turn in (0.0, 0.25, 0.5)]
     widest = 2.0 * SIZE * math.sin(ANGLE)
     assert play == pytest.approx([widest, 0.0, -widest], abs=1e-12)

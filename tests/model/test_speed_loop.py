@@ -10,14 +10,9 @@ from power_flows import ALL_FLOWS, DIFFERENTIALS, scene_of
 from stability.sound import PAPER, PLAIN
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.speed_loop import (
-    FIELD,
-    bandwidth,
-    check_speed_loop,
-    linear_loop,
-    speed_loop_gains,
-)
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
+from planetary_twin_py.model.speed_loop import LinearTrain, speed_loop_gains
+from planetary_twin_py.model.speed_loop_check import FIELD, SpeedLoopCheck
 from planetary_twin_py.run.engine import Engine
 
 WIND = pt.load_scene("wind_turbine_stage")
@@ -33,7 +28,8 @@ LIGHT = dict.fromkeys(("sun", "planet", "ring", "carrier"), 1e-5)
 
 
 def loop_of(scene, mesh_frequency=500.0):
-    return linear_loop(scene, build_train(scene), mesh_frequency)
+    gearbox = Gearbox(scene)
+    return LinearTrain(gearbox, gearbox.train).loop(mesh_frequency)
 
 
 @pytest.mark.parametrize("share", [1e-3, 0.1, 0.5, 0.9, 0.99])
@@ -81,7 +77,7 @@ def test_a_run_decays_or_grows_as_the_eigenvalues_say(chosen):
         input_torque=20.0, **{FIELD: 25.0, "drive.speed_control.start_speed": pt.rpm(999.0)}
     )
     engine = Engine(scene, 1e-6, "march")
-    gains = speed_loop_gains(scene, engine.train, chosen)
+    gains = speed_loop_gains(engine.gearbox, engine.train, chosen)
     engine.model.load.proportional = gains.proportional
     engine.model.load.trim_gain = gains.trim
     slowest = max(loop_of(scene).eigenvalues(chosen), key=lambda value: value.real)
@@ -102,8 +98,9 @@ def test_every_default_is_steady_and_growing_loops_are_refused(flow):
         sides = ["input", "output", *["second_input"] * (flow in DIFFERENTIALS)]
         couplings = {f"drive.{side}.coupling_stiffness": coupling for side in sides}
         scene = scene_of(flow, **{"drive.output.inertia": 5e-2 * ratio}, **couplings)
-        chosen, train = bandwidth(scene), build_train(scene)
-        check_speed_loop(scene, train, scene.operating_point)
+        gearbox, point = Gearbox(scene), scene.operating_point
+        chosen = gearbox.bandwidth
+        SpeedLoopCheck(gearbox).check(point)
         rigid, time = RigidGears(scene, chosen), 10.0 / chosen
         assert rigid.growth(2.0 * time) <= rigid.growth(time) < 1.0
         fast = scene.replace(**{FIELD: 3.0})
@@ -111,13 +108,13 @@ def test_every_default_is_steady_and_growing_loops_are_refused(flow):
         if grows:
             refused += 1
             with pytest.raises(pt.SceneError):
-                check_speed_loop(fast, train, scene.operating_point)
+                SpeedLoopCheck(Gearbox(fast)).check(point)
     assert refused >= 1
 
 
 @pytest.mark.parametrize("point", [{"input_speed": 0.0}, {"backlash": 0.0, "torque_ripple": 5.0}])
 def test_the_default_does_not_follow_the_operating_point(point):
-    assert bandwidth(HEAVY.replace(**point)) == bandwidth(HEAVY) < 3.0
+    assert Gearbox(HEAVY.replace(**point)).bandwidth == Gearbox(HEAVY).bandwidth < 3.0
 
 
 @pytest.mark.parametrize("scene", [HEAVY, WIND], ids=["e-axle", "wind stage"])
@@ -129,10 +126,10 @@ def test_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     largest = float(text.split("at most ")[1].split(" Hz")[0])
     for allowed in (largest, None):
         other = scene.replace(**{FIELD: allowed})
-        check_speed_loop(other, build_train(other), other.operating_point)
+        SpeedLoopCheck(Gearbox(other)).check(other.operating_point)
     above = scene.replace(**{FIELD: 1.1 * largest})
     with pytest.raises(pt.SceneError):
-        check_speed_loop(above, build_train(above), above.operating_point)
+        SpeedLoopCheck(Gearbox(above)).check(above.operating_point)
 
 
 @pytest.mark.parametrize(

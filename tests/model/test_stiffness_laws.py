@@ -6,8 +6,8 @@ from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import find_segment, mesh_stiffness
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.model.stiffness_laws import tooth_pairs
-from planetary_twin_py.model.train import build_train
 
 PAPER = pt.load_scene("paper")
 INVOLUTE = PAPER.replace(**{"mesh.stiffness": "involute"})
@@ -15,7 +15,7 @@ KINDS = pytest.mark.parametrize("kind", [0, 1], ids=["sun_planet", "planet_ring"
 
 
 def over_the_cycle(scene, kind, cycles):
-    train = build_train(scene)
+    train = Gearbox(scene).train
     mesh = kind * train.meshes // 2
     return np.array(
         [mesh_stiffness(train, mesh, find_segment(train, kind, x, 1.0), x) for x in cycles]
@@ -58,8 +58,8 @@ def test_given_stiffness_is_that_of_one_and_two_pairs(kind):
 
 
 def test_the_nominal_load_stiffens_the_contact_by_little():
-    light = build_train(INVOLUTE.replace(input_torque=6.3)).stiffness
-    heavy = build_train(INVOLUTE).stiffness
+    light = Gearbox(INVOLUTE.replace(input_torque=6.3)).train.stiffness
+    heavy = Gearbox(INVOLUTE).train.stiffness
     assert np.all((heavy > 1.02 * light) & (heavy < 1.2 * light))
 
 

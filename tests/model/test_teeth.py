@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.model import teeth, train
+from planetary_twin_py.model import teeth
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
 
@@ -18,7 +18,6 @@ SCENES = {"paper": PAPER, "relief": PAPER.replace(**RELIEF)}
 @pytest.fixture
 def builds():
     """Number of builds of teeth, from none kept, also not in trains."""
-    train._built.cache_clear()
     teeth._built.cache_clear()
     return lambda: teeth._built.cache_info().misses
 

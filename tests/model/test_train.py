@@ -9,17 +9,26 @@ from power_flows import ALL_FLOWS, DIFFERENTIALS, FLOWS, flow_name, scene_of
 from scipy.linalg import eigvalsh
 
 from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.run.engine import Engine
+from planetary_twin_py.scene import load_scene
 
 
 @ALL_FLOWS
 def test_rigid_motion_leaves_every_mesh_as_it_is(flow):
-    train = build_train(scene_of(flow))
+    train = Gearbox(scene_of(flow)).train
     travel = train.ratio * train.radius[:, None]
     meshes = int(train.meshes)
     motion = (train.sign[:meshes, :, None] * travel[train.body[:meshes]]).sum(axis=1)
     assert motion == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("name", ["paper", "differential", "floating_sun"])
+def test_a_train_does_not_depend_on_the_operating_point(name):
+    scene = load_scene(name)
+    point = {"lambda_ratio": 1.7, "input_torque": 9.0, "backlash": 3e-6, "oil_temperature": 300.0}
+    trains = [Gearbox(each).train for each in (scene, scene.replace(**point))]
+    assert trains[0].raw().tobytes() == trains[1].raw().tobytes()
 
 
 def stiffness_matrix(model, state, bodies):

@@ -7,8 +7,7 @@ from power_flows import FLOWS, flow_name
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.cycle import common_cycles
-from planetary_twin_py.model.planet_groups import planet_groups
-from planetary_twin_py.model.train import build_train
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.run.engine import Engine
 
 IN_PHASE = {
@@ -42,7 +41,7 @@ def test_they_move_as_if_each_were_integrated(flow):
 
 def test_opposite_planets_in_phase_are_integrated_in_pairs():
     scene = planar(**OPPOSITE_IN_PHASE)
-    assert planet_groups(scene).group == (0, 1, 0, 1)
+    assert Gearbox(scene).groups.group == (0, 1, 0, 1)
     together, apart = (
         pt.simulate(one, 0.005, 20_000.0, tolerance=1e-7, method="march")
         for one in (scene, scene.replace(**APART))
@@ -62,14 +61,14 @@ def test_opposite_planets_in_phase_are_integrated_in_pairs():
 )
 def test_whatever_moves_an_axis_keeps_planets_apart(change):
     scene = planar(**IN_PHASE)
-    assert planet_groups(scene).sizes == (4,)
-    assert planet_groups(scene.replace(**change)).sizes == (1, 1, 1, 1)
-    assert build_train(scene).bodies < build_train(scene.replace(**change)).bodies
+    assert Gearbox(scene).groups.sizes == (4,)
+    assert Gearbox(scene.replace(**change)).groups.sizes == (1, 1, 1, 1)
+    assert Gearbox(scene).train.bodies < Gearbox(scene.replace(**change)).train.bodies
 
 
 def test_planets_out_of_phase_move_the_axes_and_stay_apart():
     scene = planar()
-    assert planet_groups(scene).sizes == (1, 1, 1)
+    assert Gearbox(scene).groups.sizes == (1, 1, 1)
 
 
 @pytest.mark.exhaustive
@@ -92,7 +91,7 @@ def test_weight_repeats_with_the_turns_of_the_carrier():
     turning = planar(FLOWS[2], **{"supports.gravity": 9.81})
     held = planar(FLOWS[0], **{"supports.gravity": 9.81})
     cycles = [
-        common_cycles(build_train(scene), Engine(scene, 1e-3).model.load)
+        common_cycles(Gearbox(scene).train, Engine(scene, 1e-3).model.load)
         for scene in (held, turning)
     ]
     assert cycles == [1, 70]  # mesh cycles in a turn of the carrier against the held ring

@@ -10,13 +10,11 @@ from planar.moving_scenes import MASSES, planar
 from planar.reference_in_plane import PlanarReference
 from power_flows import FLOWS
 
-from planetary_twin_py.model.bodies import build_bodies
-
 
 def absolute(engine, reference):
     """Coordinates, speeds and integral of the speed loop at the end of the last step, and sides."""
     train, state = engine.train, engine.integrator.end
-    planets, place = engine.scene.gearset.planets, build_bodies(engine.scene).place
+    planets, place = engine.scene.gearset.planets, engine.gearbox.bodies.place
     names = [
         "sun",
         *(f"planet_{i + 1}" for i in range(planets)),

@@ -7,9 +7,9 @@ from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py.plots.style import save
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.bifurcation import Dwell, bifurcation
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck
 
 PAPER = pt.load_scene("paper")

@@ -3,7 +3,7 @@
 import numpy as np
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.bodies import build_bodies, machines
+from planetary_twin_py.model.gearbox import Gearbox
 
 PAPER = pt.load_scene("paper")
 RATIO = -3.0 / 7.0  # of the output's speed to the input's
@@ -37,7 +37,7 @@ def at_rest(input, output, **changes):
 
 def inertia_at_input(scene, without=()):
     """Inertia of the rigid train at the input, from J/r^2 of all bodies [kg m^2]."""
-    bodies = build_bodies(scene)
+    bodies = Gearbox(scene).bodies
     squares = bodies.copies * bodies.mass * (bodies.radius * bodies.ratio[:, 0]) ** 2
     squares = squares[:-1]  # the ground
     left_out = [bodies.place[name] for name in without]
@@ -49,7 +49,8 @@ def momentum(scene, result, states):
 
     Forces between the bodies do no work in a rigid motion, so only torques at the ports change it.
     """
-    bodies = build_bodies(scene)
+    gearbox = Gearbox(scene)
+    bodies = gearbox.bodies
     total = 0.0
     for n, name in enumerate(result.bodies):
         at = bodies.place[name]
@@ -59,7 +60,7 @@ def momentum(scene, result, states):
             bodies.mass[at] * bodies.radius[at] ** 2 * bodies.ratio[at, 0] * result.speed[-1, n]
         )
     shafts = (states.input_speed, states.output_speed)
-    for (name, _), speed in zip(machines(scene).items(), shafts, strict=True):
+    for (name, _), speed in zip(gearbox.machines.items(), shafts, strict=True):
         at = bodies.place[name]
         total += bodies.mass[at] * bodies.radius[at] ** 2 * bodies.ratio[at, 0] * speed
     return float(total)

@@ -15,7 +15,7 @@ from ports.ports_of_paper import (
 )
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.bodies import build_bodies
+from planetary_twin_py.model.gearbox import Gearbox
 
 DAMPED = {"drive.input.coupling_damping": 2.0, "drive.output.coupling_damping": 10.0}
 
@@ -71,7 +71,7 @@ def test_flanks_in_a_wide_backlash_do_not_pull_the_load_along(tolerance):
     twin, torque = pt.Twin(scene, tolerance=tolerance), -1e-4
     for _ in range(200):
         shown = twin.step(1e-3, input_torque=torque, output_torque=0.0)
-    moved = build_bodies(scene)
+    moved = Gearbox(scene).bodies
     own = [moved.place[name] for name in ("motor", "sun")]
     inertia = float((moved.mass[own] * moved.radius[own] ** 2).sum())
     assert shown.input_speed == pytest.approx(0.2 * torque / inertia, rel=1e-3)

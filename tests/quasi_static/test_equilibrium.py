@@ -10,11 +10,11 @@ from scipy.integrate import quad
 from scipy.optimize import root
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.static_load import mesh_force
+from planetary_twin_py.model.layout import Layout
 
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
 OMEGA = PAPER.operating_point.input_speed
-FORCE = mesh_force(PAPER, 63.0)  # mean [N]
+FORCE = Layout(PAPER).mesh_force(63.0)  # mean [N]
 PERIOD = 2 * math.pi / OMEGA / PAPER.gearset.teeth.sun  # of the mesh cycle [s]
 STIFFNESS = 2e8  # of one pair [N/m]
 

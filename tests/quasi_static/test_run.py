@@ -11,7 +11,7 @@ from run.test_long_run import HOURS, columns, turns_after
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.clock import TICKS
-from planetary_twin_py.model.mesh_frequency import wanted_mesh_frequency
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.run.samples import EVERYTHING
 from planetary_twin_py.run.window_jobs import run_alone
 from planetary_twin_py.run.windows import Windows
@@ -257,7 +257,7 @@ def test_methods_and_tolerances_are_refused_where_there_are_none():
 
 def test_ramp_smooths_dte_of_computed_stiffness_as_documented():
     stage = pt.load_scene("reference_gearbox_stage").replace(dynamics="quasi_static")
-    cycle = 1.0 / wanted_mesh_frequency(stage)
+    cycle = 1.0 / Layout(stage).mesh_frequency
     for ramp, rms, mean in ((0.0, 12.61, 348.6), (0.03, 11.38, 349.8), (0.1, 7.77, 353.3)):
         mesh = pt.simulate(stage.replace(**{"mesh.ramp": ramp}), 4.0 * cycle, 100.0 / cycle).mesh
         assert 1e6 * mesh["dte_rms"].mean() == pytest.approx(rms, abs=0.01)

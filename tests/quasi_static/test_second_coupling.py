@@ -14,7 +14,7 @@ from planetary_twin_py._core import (
     frame_cycle_rate,
     solve_equilibrium,
 )
-from planetary_twin_py.model.bodies import SECOND_MOTOR, base_radii
+from planetary_twin_py.model.layout import SECOND_MOTOR, Layout
 from planetary_twin_py.run.quasi_static.engine import QuasiStaticEngine
 
 SOFT = "drive.second_input.coupling_stiffness"
@@ -68,7 +68,7 @@ def torques(flow, stiffness, backwards):
 def test_the_equilibrium_is_one_from_the_least_stiffness_on(flow):
     least = least_stiffness(flow)
     exact = (
-        3 * NEGLIGIBLE_FORCE * base_radii(scene_of(flow))["ring"]
+        3 * NEGLIGIBLE_FORCE * Layout(scene_of(flow)).radii["ring"]
     )  # friction of three planets' meshes
     there, back = (torques(flow, least, backwards) for backwards in (False, True))
     assert there == pytest.approx(back, abs=exact)

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 from domains import private_domain
-from planetary_twin import shaft_commands
+from planetary_twin.simulation import shaft_commands
 from planetary_twin_msgs.msg import OperatingPoint
 from small_disk import mounted
 from std_srvs.srv import Trigger

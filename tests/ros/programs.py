@@ -86,7 +86,7 @@ _FRUGAL = {"planetary_twin.simulation": ("--ros-args", "-p", "tolerance:=0.001")
 
 
 class Forked:
-    """The `main` of a module in a process forked from a warm one; used as `Executed`.
+    """A module run in a process forked from a warm one; used as `Executed`.
 
     A simulation has a fixed tolerance unless `arguments` give another.
     """
@@ -168,5 +168,7 @@ def _run(
     os.environ.clear()
     os.environ.update(environment)
     program = importlib.import_module(module)
+    if not hasattr(program, "main"):  # the folder of a node
+        program = importlib.import_module(f"{module}.node")
     sys.argv = [str(program.__file__), *arguments]
     sys.exit(program.main())

@@ -21,7 +21,7 @@ STATES = f"{TWIN}/gearbox_state"
 def test_every_message_is_recorded_until_signals_end_it(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
-    twin = start("planetary_twin.composed", name="bag")
+    twin = start("planetary_twin.twin", name="bag")
     states = peer.listen(GearboxState, STATES, 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     peer.until(lambda: len(states) > 100 and status and STATES in status[-1].topics)
@@ -50,7 +50,7 @@ def test_a_node_that_cannot_start_ends_both_with_one_line(
     start: Start, tmp_path: Path, setting: str, reason: str
 ) -> None:
     (tmp_path / "file").write_text("in the way")
-    twin = start("planetary_twin.composed", "--ros-args", "-p", setting)
+    twin = start("planetary_twin.twin", "--ros-args", "-p", setting)
     _, errors = twin.communicate(timeout=LONG)
     assert twin.returncode == 1
     lines = [line for line in errors.strip().splitlines() if "[INFO]" not in line]

@@ -11,8 +11,8 @@ import time
 from pathlib import Path
 
 import pytest
-from planetary_twin.benchmark.figures import Slope
-from planetary_twin.benchmark.process import own_memory, resident_memory, waited_for_processor
+from planetary_twin_live.figures import Slope
+from planetary_twin_live.process import own_memory, resident_memory, waited_for_processor
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, RecorderStatus
 from rclpy.serialization import deserialize_message
 from rosbags.rosbag2 import Reader

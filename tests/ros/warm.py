@@ -5,15 +5,6 @@ import inspect
 import sys
 
 import diagnostic_msgs.msg
-import planetary_twin.commands
-import planetary_twin.composed
-import planetary_twin.follower
-import planetary_twin.logger
-import planetary_twin.plant
-import planetary_twin.replay
-import planetary_twin.replay_command
-import planetary_twin.simulation
-import planetary_twin.steering  # noqa: F401
 import planetary_twin_msgs.msg
 import planetary_twin_msgs.srv
 import rcl_interfaces.msg

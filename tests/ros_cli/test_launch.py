@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import re
+import signal
+import time
 from pathlib import Path
 
 from rosbags.rosbag2 import Reader
@@ -9,6 +13,7 @@ from rosbags.rosbag2 import Reader
 from .command import Ros2
 
 LAUNCH = ("launch", "planetary_twin", "twin.launch.py")
+FOLLOW = ("launch", "planetary_twin", "follow.launch.py")
 ARGUMENTS = (
     "scene", "namespace", "frame_prefix", "record", "respawn", "rate_factor", "params_file",
     "params", "use_sim_time", "log_level", "domain", "use_composition", "composed",
@@ -93,3 +98,44 @@ def test_a_simulation_that_cannot_start_ends_the_launch(ros2: Ros2) -> None:
     assert "simulation: " in output and "rate_factor" in output
     assert "Traceback" not in output
     assert "/wrong/logger" not in ros2("node", "list").split()
+
+
+def test_a_follower_uses_the_given_topics_and_parameters(ros2: Ros2) -> None:
+    params = ros2.folder / "follower.yaml"
+    params.write_text("/**:\n  ros__parameters:\n    publish_rate: 5.0\n", encoding="utf-8")
+    topics = {
+        "joint_states": "/rig/joints", "dynamic_joint_states": "/rig/dynamic",
+        "vibration": "/rig/vibration",
+    }  # fmt: skip
+    given = [f"{name}:={topic}" for name, topic in topics.items()]
+    options = ("namespace:=machine", f"params_file:={params}", "use_composition:=true")
+    launched = ros2.start(*FOLLOW, *given, *options)
+    joints = "{name: [input_joint, output_joint], velocity: [100.0, -43.0]}"
+    sent = ros2.start("topic", "pub", "-r", "50", "/rig/joints", "sensor_msgs/JointState", joints)
+    # The logger records the topic whatever its type: the right one may not be installed.
+    other = ros2.start("topic", "pub", "-r", "50", "/rig/dynamic", "std_msgs/String", "{data: x}")
+    ros2.until("active [3]", "lifecycle", "get", "/machine/follower")
+    assert ros2.value("/machine/follower", "publish_rate") == "5.0"
+    subscribed = ros2("node", "info", "/machine/follower").partition("Publishers:")[0]
+    assert "/rig/joints: " in subscribed and "/rig/vibration: " in subscribed
+    ros2.until("/rig/dynamic", "topic", "echo", "--once", "/machine/logger/status")
+    for process in (sent, other):
+        ros2.interrupt(process)
+    assert ros2.interrupt(launched) == 0
+    assert "[recorded_follower-" in ros2.output(launched)
+    (bag,) = Path(ros2.folder, "recordings").glob("machine_*")
+    with Reader(bag) as reader:
+        counts = {connection.topic: connection.msgcount for connection in reader.connections}
+    assert counts["/rig/joints"] and counts["/rig/dynamic"]
+
+
+def test_a_killed_logger_starts_again_with_respawn(ros2: Ros2) -> None:
+    twin = ros2.start(*LAUNCH, "namespace:=again", "respawn:=true")
+    ros2.until("active [3]", "lifecycle", "get", "/again/logger")
+    (started,) = re.findall(r"\[logger-\d\]: process started with pid \[(\d+)\]", ros2.output(twin))
+    os.kill(int(started), signal.SIGKILL)
+    deadline = time.monotonic() + 60.0
+    while len(list(Path(ros2.folder, "recordings").glob("again_*"))) < 2:
+        assert time.monotonic() < deadline, ros2.output(twin)
+        time.sleep(0.1)
+    assert ros2.interrupt(twin) == 0

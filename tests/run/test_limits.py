@@ -8,7 +8,7 @@ from command_line import run
 from stability.sound import PAPER, static_force
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.speed_loop import FIELD
+from planetary_twin_py.model.speed_loop_check import FIELD
 from planetary_twin_py.run.engine import Engine
 
 # Teeth of rubber, into which 63 N m press one another by 0.94 mm; a base pitch is 2.34 mm.

@@ -76,7 +76,7 @@ def test_looking_at_the_end_of_a_window_changes_nothing(scene):
             plan = windows.plan(windows.ticks + round(0.00123 * TICKS), 1e4)
             run_alone(windows.jobs(plan))
             windows.close(plan)
-        RunTotal(seen, scene)
+        RunTotal(seen)
         assert np.array_equal(seen.last.ledger, untouched.last.ledger)
         assert np.array_equal(seen.last.sums.integral, untouched.last.sums.integral)
 

@@ -9,8 +9,7 @@ import pytest
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py.model import train
-from planetary_twin_py.simulation import batch
+from planetary_twin_py.simulation import threads
 
 # The first takes longest, so that others are done before it.
 SCENES = [
@@ -67,7 +66,7 @@ def test_results_are_kept_only_a_few_ahead_of_the_caller(small_heap):
             yield PAPER.replace(lambda_ratio=1.0 + 0.01 * n)
 
     for outcome in pt.simulate_many(scenes(), 0.001, workers=2):
-        assert len(taken) <= outcome.place + 1 + 2 * batch.AHEAD
+        assert len(taken) <= outcome.place + 1 + 2 * threads.AHEAD
         results.append(weakref.ref(outcome.result))
         del outcome
         gc.collect()
@@ -93,21 +92,3 @@ def test_arguments_out_of_range_are_refused_before_anything_runs(arguments):
     with pytest.raises(ValueError, match=f"^{name} = ") as error:
         pt.simulate_many([PAPER], **{"duration": 0.01, **arguments})
     assert "\n" not in str(error.value)
-
-
-@pytest.mark.parametrize("name", [*pt.packaged_scenes(), "yang_sun"])
-def test_a_train_that_scenes_share_is_the_one_built_for_each(name):
-    if name == "yang_sun":
-        contact = {"mesh.tooth.contact": name}
-        scene = pt.load_scene("cracked_tooth").replace(**contact)
-    else:
-        scene = pt.load_scene(name)
-    other = {"lambda_ratio": 1.7, "input_torque": 9.0, "backlash": 3e-6, "oil_temperature": 300.0}
-    for point in (scene, scene.replace(**other)):
-        shared, own = train.build_train(point), train._built.__wrapped__(point)
-        assert shared.raw().tobytes() == own.raw().tobytes()
-
-
-def test_who_changes_a_train_does_not_change_that_of_others():
-    train.build_train(PAPER).radius[:] = 1.0
-    assert train.build_train(PAPER).radius[0] < 0.1

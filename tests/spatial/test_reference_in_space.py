@@ -8,7 +8,7 @@ from power_flows import FLOWS
 from spatial.reference_in_space import SpatialReference
 from spatial.tilting_scenes import spatial
 
-from planetary_twin_py.model.bodies import build_bodies, tilting_radii, tilts_of
+from planetary_twin_py.model.bodies import tilts_of
 
 ERRORS = {"errors.pin_tangential": [-2e-5, 1e-5, 0.0], "lubrication.friction": False}
 
@@ -17,7 +17,7 @@ def absolute_in_space(engine, reference):
     """Coordinates, speeds and trim as the reference has them, and sides."""
     plane, sides = absolute(engine, reference)
     middle = len(plane) // 2
-    place, radii = build_bodies(engine.scene).place, tilting_radii(engine.scene)
+    place, radii = engine.gearbox.bodies.place, engine.gearbox.planar_radii
     state, more = engine.integrator.end, []
     for name in ("sun", "ring", "carrier", *(f"planet_{i + 1}" for i in range(reference.n))):
         more += [(f"{name}.z", 1.0)]

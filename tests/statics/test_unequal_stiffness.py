@@ -18,7 +18,7 @@ from tiers import first
 from planetary_twin_py import SceneError, load_scene, simulate
 from planetary_twin_py.explanation.terms import terms
 from planetary_twin_py.modal.natural import natural_modes
-from planetary_twin_py.model.planet_groups import planet_groups
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.statics.load_sharing import load_sharing
 
 ANGLE = math.radians(21.34)
@@ -64,7 +64,7 @@ def test_runs_with_moving_axes_share_the_load_as_statics(sun, shares, still):
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 def test_planets_rigid_on_their_pins_share_load_by_their_meshes(dynamics):
     given = scene(4, UNEQUAL, dynamics=dynamics, **QUIET)
-    assert len(planet_groups(given).leaders) > 1
+    assert len(Layout(given).groups.leaders) > 1
     forces = simulate(given, 0.01, settling=0.02).mesh["mesh_force_mean"]
     shares = with_held_axes(pins=False)
     assert forces[:4] / forces[:4].mean() == pytest.approx(shares, rel=1e-6)

@@ -5,8 +5,8 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.measures import clipped_friction
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep

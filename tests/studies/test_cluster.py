@@ -10,9 +10,9 @@ import time
 import pytest
 from studies.small import PAPER
 
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.cluster import Cluster
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
 

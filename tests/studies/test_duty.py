@@ -7,8 +7,8 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.duty import read_duty, summary_of_duty
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings
 from planetary_twin_py.studies.sweep import sweep
 

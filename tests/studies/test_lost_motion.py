@@ -10,8 +10,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.model.bodies import LOAD_MACHINE
-from planetary_twin_py.model.static_load import static_torques
+from planetary_twin_py.model.layout import LOAD_MACHINE, Layout
 from planetary_twin_py.studies.lost_motion import lost_motion
 
 TORQUE, PLAY = 100.0, 2e-5  # [N m], [m]
@@ -66,7 +65,7 @@ def quasi_static_stiffness(scene, torque):
     """Torque on the output over its twist [N m/rad], in a quasi-static run, mean of both senses."""
     stiffness = []
     for sense in (1.0, -1.0):
-        driving = sense * torque / static_torques(scene)[LOAD_MACHINE]
+        driving = sense * torque / Layout(scene).machine_torques[LOAD_MACHINE]
         changes = {"dynamics": "quasi_static", "input_torque": driving, "input_speed": 1e-3}
         dte = pt.simulate(scene.replace(**changes), 1e-3, sample_rate=1e4).dte[0]
         stiffness.append(torque / (abs(dte[0] + dte[5]) / LEVER))

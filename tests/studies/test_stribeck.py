@@ -7,9 +7,9 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.cli._study import default_speeds
-from planetary_twin_py.model.mesh_frequency import wanted_mesh_frequency
+from planetary_twin_py.model.layout import Layout
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis, read_axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.table import read
 
@@ -63,7 +63,7 @@ def test_axes_move_in_a_stribeck_curve_as_in_the_scene(name, dynamics, used, tmp
     assert table["failure"].null_count == 2
     changes = {"dynamics": used, "lubrication.lambda_ratio": "computed", "input_speed": pt.rpm(10)}
     scene = pt.load_scene(name).replace(**changes)
-    run = pt.simulate(scene, 1.0 / wanted_mesh_frequency(scene))
+    run = pt.simulate(scene, 1.0 / Layout(scene).mesh_frequency)
     planets = scene.gearset.planets
     friction = run.mesh["viscous_friction"][planets:].mean()
     found = table["planet_ring_viscous_friction"].to_pylist()[-1]

@@ -7,10 +7,10 @@ from scipy.integrate import trapezoid
 from studies.small import AXES, PAPER, QUICK, STUDY
 
 import planetary_twin_py as pt
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies import work
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.journal import Journal
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import grid
 from planetary_twin_py.studies.sweep import sweep

@@ -7,9 +7,9 @@ from studies.small import PAPER
 
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.turning import turning_warnings
-from planetary_twin_py.model.mesh_frequency import wanted_mesh_frequency
+from planetary_twin_py.model.layout import Layout
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.sweep import sweep
@@ -56,7 +56,7 @@ def test_gears_that_stick_show_in_the_table_of_a_sweep():
 
 def test_a_run_up_has_no_share():
     scene = PAPER.replace(**{"drive.speed_control.start_speed": 0.0})
-    assert wanted_mesh_frequency(scene) == pytest.approx(500.0)
+    assert Layout(scene).mesh_frequency == pytest.approx(500.0)
     assert math.isnan(speed_share(scene, 250.0))
     assert speed_share(PAPER, 250.0) == pytest.approx(0.5)
 

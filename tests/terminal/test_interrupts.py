@@ -44,7 +44,7 @@ HANDLERS = {
         "repeat_lost(interrupt); signal.signal(signal.SIGINT, interrupt)",
     ),
     "nodes": (
-        "from planetary_twin.signals import SIGNALS",
+        "from planetary_twin.process.signals import SIGNALS",
         "SIGNALS.install(); within = SIGNALS.interrupting(); within.__enter__()",
     ),
     "nothing": ("", ""),

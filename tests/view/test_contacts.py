@@ -9,6 +9,7 @@ from synthetic_recording import write_recording
 from planetary_twin_py.gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import speed_ratios
 from planetary_twin_py.gearset.mount import mount
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.robot.parts import carrier_radius, gear_of
 from planetary_twin_py.scene import load_scene
@@ -70,7 +71,9 @@ def gears_of_mesh(scene, mesh):
 def test_contacts_are_on_the_loaded_flanks_of_both_gears(scene, flank):
     """Sun and planet turn in opposite senses: both touch with flanks that face the same way."""
     for mesh in range(2 * scene.gearset.planets):
-        found = contacts(scene, mesh, turned(scene), np.full(len(SUN_ANGLE), 1000.0 * flank))
+        found = contacts(
+            Gearbox(scene), mesh, turned(scene), np.full(len(SUN_ANGLE), 1000.0 * flank)
+        )
         there = found.load > 0.0
         facing = (-flank, flank) if mesh >= scene.gearset.planets else (flank, flank)
         for (gear, angle, centre), side in zip(gears_of_mesh(scene, mesh), facing, strict=True):
@@ -92,7 +95,7 @@ def test_helical_lines_of_contact_cover_the_path_of_contact():
     gearset = HELICAL.gearset
     for mesh, path in ((1, sun_planet_path), (4, planet_ring_path)):
         reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
-        found = contacts(HELICAL, mesh, turned(HELICAL), np.full(len(SUN_ANGLE), 1000.0))
+        found = contacts(Gearbox(HELICAL), mesh, turned(HELICAL), np.full(len(SUN_ANGLE), 1000.0))
         there = found.load > 0.0
         z = found.ends[there][..., 2]
         assert np.abs(z).max() == pytest.approx(0.5 * gearset.face_width, rel=1e-9)
@@ -106,7 +109,7 @@ def test_contacts_are_on_the_line_of_action(flank):
     gearset = PAPER.gearset
     for mesh, path in ((1, sun_planet_path), (4, planet_ring_path)):
         reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
-        found = contacts(PAPER, mesh, turned(PAPER), np.full(len(SUN_ANGLE), flank))
+        found = contacts(Gearbox(PAPER), mesh, turned(PAPER), np.full(len(SUN_ANGLE), flank))
         there = found.load > 0.0
         for gear, _, centre in gears_of_mesh(PAPER, mesh):
             arm, push = (found.point - centre)[there], found.direction[there]
@@ -125,7 +128,7 @@ def test_contacts_are_on_the_line_of_action(flank):
 
 def test_pairs_share_the_whole_force_and_an_open_mesh_has_none():
     force = np.where(SUN_ANGLE < 0.2, 1500.0, 0.0)
-    found = contacts(PAPER, 0, turned(PAPER), force)
+    found = contacts(Gearbox(PAPER), 0, turned(PAPER), force)
     assert np.allclose(found.load.sum(axis=1), force)
     pairs = (found.load > 0).sum(axis=1)
     assert set(pairs[force > 0]) == {1, 2}
@@ -138,7 +141,8 @@ def test_a_cracked_tooth_is_drawn_with_its_smaller_load():
     crack = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.5}
     force = np.full(len(SUN_ANGLE), 1000.0)
     healthy, cracked = (
-        contacts(scene, 0, turned(scene), force) for scene in (PAPER, PAPER.replace(faults=[crack]))
+        contacts(Gearbox(scene), 0, turned(scene), force)
+        for scene in (PAPER, PAPER.replace(faults=[crack]))
     )
     assert np.allclose(cracked.load.sum(axis=1), force)
     cycle = 30 * SUN_ANGLE / (2 * math.pi)  # tooth 0 is at the pitch point of planet 1 at 0

@@ -16,10 +16,10 @@ from planetary_twin_py._core import (
     show_states,
 )
 from planetary_twin_py._core import Problem as Record
+from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.model.oil import build_oil
-from planetary_twin_py.model.start import build_load, start_state
-from planetary_twin_py.model.static_load import mesh_force
-from planetary_twin_py.model.train import build_train, lightest_body
+from planetary_twin_py.model.start import start_state
+from planetary_twin_py.model.train import lightest_body
 from planetary_twin_py.scene import Scene
 
 CALLS = 100_000  # of the right-hand side, to time it
@@ -29,22 +29,21 @@ class Problem:
     """y' = f(t, y), y(0) = 0, and the magnitudes of the entries of y."""
 
     def __init__(self, scene: Scene) -> None:
-        train, point = build_train(scene), scene.operating_point
-        load = build_load(scene, point, train)
-        model = Model(train=train, oil=build_oil(scene, point), load=load)
-        start = start_state(scene, model)[0]
+        gearbox, point = Gearbox(scene), scene.operating_point
+        train = gearbox.train
+        model = Model(train=train, oil=build_oil(scene, point), load=gearbox.load(point))
+        start = start_state(gearbox, model)[0]
         self.record = Record(model=model, start=start)
-        self._train = train
         self.bodies, self.axes, self.meshes = train.bodies, train.axes, train.meshes
         self.size = 2 * self.bodies + self.axes
-        self.scale = self._scale(scene)
+        self.scale = self._scale(gearbox)
         frequency = max(abs(frame_cycle_rate(train, start)), train.lowest_frequency)
         self.mesh_period = 1.0 / frequency  # at the start [s]
 
-    def _scale(self, scene: Scene) -> np.ndarray:
+    def _scale(self, gearbox: Gearbox) -> np.ndarray:
         """Magnitudes of the entries of y (size,): deflection and fastest vibration of a mesh."""
-        train, point = self._train, scene.operating_point
-        force = abs(mesh_force(scene, abs(point.input_torque) + point.torque_ripple))
+        train, point = gearbox.train, gearbox.scene.operating_point
+        force = abs(gearbox.mesh_force(abs(point.input_torque) + point.torque_ripple))
         stiffness = float(train.stiffness.min())
         deflection = max(force, LIGHTEST_MESH_LOAD) / stiffness + 0.5 * point.backlash
         fastest = np.sqrt(2.0 * stiffness / lightest_body(train))

@@ -21,6 +21,7 @@ namespace {
 constexpr std::int64_t MOST_EVEN_TIMES = 129;  // largest number of times
 constexpr double LEAST_CLOSER = 2.0;           // intervals for each one where peaks are sought
 constexpr double VERTEX_ERROR = 0.5;           // of a vertex between nodes, of its rise above them
+constexpr double LARGEST_LAG = 3.0;            // tolerances by which forces at nodes may lag
 constexpr double NEAR = 0.02;                  // of a step: tolerance for its end at the last node
 // Times at which brief motion is evaluated: the first in decay times, the ratio of the next ones.
 constexpr double EARLIEST = 0.05, LATER = std::numbers::sqrt2;
@@ -365,20 +366,22 @@ Brief<MESH_LANES<L>> brief_motion(const Model& model, const Integrator& integrat
     return {steep, !none((rise > allowed * bound) & (bound > OfMeshes(yet.force_peak)))};
 }
 
-// Integrals of a part of a collocation step, and its peaks.
+// Peaks of the run so far. A recorded step is repeated in later windows.
+const MeshSums& peaks_so_far(const Integrator& integrator) {
+    static constexpr MeshSums NOTHING{};
+    const StepSums& sums = integrator.sums;
+    return integrator.periodic.recording || sums.total.time == 0.0 ? NOTHING : sums.total;
+}
+
+// Peaks of a part of a collocation step.
 //
 // Nodes are too far apart for the vertices of parabolas that may be the largest ones yet, and for
 // waves that decay before the first of them.
 template <int L, class Values>
-void add_collocated_values(const Model& model, Integrator& integrator, const Values& values,
-                           MeshSums& step) {
+void find_largest(const Model& model, Integrator& integrator, const Values& values,
+                  MeshSums& step) {
     constexpr int M = MESH_LANES<L>;
-    const StepSums& sums = integrator.sums;
-    add_integrals<M>(integrator.constants, values, step);
-    // A recorded step is repeated in later windows.
-    static constexpr MeshSums NOTHING{};
-    const bool first = integrator.periodic.recording || sums.total.time == 0.0;
-    const MeshSums& yet = first ? NOTHING : sums.total;
+    const MeshSums& yet = peaks_so_far(integrator);
     const double begin = values.time(0), end = values.time(1);
     const auto [steep, brief] = brief_motion<L>(model, integrator, values, yet);
     const MeshPeaks<M> peaks = find_peaks<M>(values, steep);
@@ -388,6 +391,34 @@ void add_collocated_values(const Model& model, Integrator& integrator, const Val
     if (!brief) return;
     fill_at_early_times<L>(model, integrator, begin, end);
     raise(find_peaks<M>(AtEvenTimes{integrator.sums.series}, nowhere<M>()), step);
+}
+
+// Whether forces at the nodes, which are those before the last sweep has changed the motion, differ
+// by that from a force that may be the largest one yet.
+template <int L>
+bool forces_lag(const Model& model, const Integrator& integrator, const MeshSums& step) {
+    using V = Row<L>;
+    const Propagation& run = integrator.run;
+    const Node& node = run.node[run.nodes.count - 1];
+    V d = V(node.d) - V(run.before_d), rate = V(node.rate) - V(run.before_rate);
+    V stiffness = V(contacts_of(run).stiffness) / V(model.train.copies);
+    V lag = stiffness * (absolute(d) + V(integrator.constants.damping_time) * absolute(rate));
+    V most = V(step.force_peak) + lag;
+    return !none((lag > LARGEST_LAG * integrator.control.tolerance * most) &
+                 (most > V(peaks_so_far(integrator).force_peak)));
+}
+
+// Integrals and peaks of a collocation step that ends at its last node.
+template <int L>
+void add_nodes(const Model& model, Integrator& integrator) {
+    constexpr int M = MESH_LANES<L>;
+    const AtNodes nodes{integrator.run};
+    StepSums& sums = integrator.sums;
+    add_integrals<M>(integrator.constants, nodes, sums.step);
+    find_largest<L>(model, integrator, nodes, sums.step);
+    if (!forces_lag<M>(model, integrator, sums.step)) return;
+    fill_at_even_times<L>(model, integrator, 0.0, integrator.control.step, 2 * FEWEST);
+    find_largest<L>(model, integrator, AtEvenTimes{sums.series}, sums.step);
 }
 
 // Sum up the contacts and the friction of a collocation step; `cut`: it ends before its last node.
@@ -415,8 +446,7 @@ void add_collocated(const Model& model, Integrator& integrator) {
     const bool cut = std::fabs(h - run.motion.step) > NEAR * run.motion.step;
     add_contacts_of_nodes<L>(model, integrator, cut);
     std::int64_t intervals = even_intervals(integrator, model.train, h);
-    if (intervals == 0 && !cut)
-        return add_collocated_values<L>(model, integrator, AtNodes{run}, sums.step);
+    if (intervals == 0 && !cut) return add_nodes<L>(model, integrator);
     fill_at_even_times<L>(model, integrator, 0.0, h, std::max(intervals, FEWEST));
     add_series(model, integrator, sums.step);
 }
@@ -473,9 +503,8 @@ void add_series(const Model& model, Integrator& integrator, MeshSums& step) {
     const Series& series = integrator.sums.series;
     with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         const AtEvenTimes values{series};
-        if (integrator.control.collocated)
-            return add_collocated_values<L>(model, integrator, values, step);
         add_integrals<MESH_LANES<L>>(integrator.constants, values, step);
+        if (integrator.control.collocated) return find_largest<L>(model, integrator, values, step);
         put_vertices(find_peaks<MESH_LANES<L>>(values, nowhere<MESH_LANES<L>>()), step);
     });
 }

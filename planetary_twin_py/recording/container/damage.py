@@ -11,7 +11,7 @@ from mcap.exceptions import UnsupportedCompressionError
 from mcap.opcode import Opcode
 from mcap.records import Message
 
-from .framing import indexed_messages
+from .framing import record_of
 from .walk import Lost, Sound
 
 
@@ -31,13 +31,10 @@ class Damages:
 
     def __init__(self, file: Path) -> None:
         self._file = file
-        self._size = file.stat().st_size
         self._first: int | None = None  # log time [ns] of the first message
         self._newest: Sequence[Any] = ()  # records of the last section with messages
         self._gaps: list[_Gap] = []
         self._open: _Gap | None = None
-        self.reached = 0
-        """End of the last intact record."""
 
     def add_lost(self, lost: Lost) -> None:
         """Add an unreadable part, which follows the parts added before."""
@@ -48,15 +45,14 @@ class Damages:
 
     def add_sound(self, sound: Sound) -> None:
         """Add an intact record."""
-        self.reached = sound.piece.end
         if self._open and sound.piece.opcode == Opcode.MESSAGE_INDEX:
-            self._open.indexed += indexed_messages(sound.piece)
-        if sound.records and isinstance(sound.records[-1], Message):
+            self._open.indexed += len(record_of(*sound.piece[1:]).records)
+        if times := _log_times(sound.records):
             self._newest = sound.records
             if self._first is None:
-                self._first = min(_log_times(sound.records))
+                self._first = min(times)
             if self._open:
-                self._open.after = min(_log_times(sound.records))
+                self._open.after = min(times)
                 self._open = None
 
     @property
@@ -67,13 +63,16 @@ class Damages:
         return unknown[0] if unknown and self._first is None else None
 
     def remarks(self) -> list[str]:
-        """A line for each gap, and for a missing end."""
+        """A line for each gap, the last of which may be a missing end."""
         return [self._line(gap) for gap in self._gaps]
 
     def _line(self, gap: _Gap) -> str:
         last = gap.losses[-1]
-        # A recorder that is still writing has made the file longer since its size was read.
-        if last.end >= self._size and last.opcode == 0:
+        if last.opcode == Opcode.DATA_END and last.is_last:
+            return (
+                f"{self._file.name}: its data fail their checksum: they may be wrong or incomplete"
+            )
+        if last.is_last:
             return self._truncated(gap, last.end)
         begin = gap.losses[0].place
         size = sum(lost.end - lost.place for lost in gap.losses)

@@ -1,7 +1,6 @@
-"""Random access to the messages of a finished file, by its index.
+"""Random access to the messages of a file, with some bytes for each chunk and channel.
 
-The index is used only if the checksums of the whole file are correct. It takes some bytes for each
-chunk and channel, none for each message.
+The index in a finished file is used only if the checksums of the whole file are correct.
 """
 
 from __future__ import annotations
@@ -9,6 +8,7 @@ from __future__ import annotations
 import struct
 from array import array
 from bisect import bisect_right
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,12 +17,12 @@ from typing import BinaryIO
 
 import numpy as np
 from mcap.opcode import Opcode
-from mcap.records import Message
+from mcap.records import Channel, Message, Metadata, Schema
 from numpy.typing import NDArray
 
 from .framing import DAMAGED
 from .integrity import damaged_data
-from .records import section_at
+from .records import section_at, sections_of
 from .summary import ChunkPlace, read_summary
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
@@ -47,6 +47,7 @@ class LogTimes:
             return
         if not self.recorded:
             self.first = self.last = int(times[0])
+        self.first = min(self.first, int(min(times)))
         newest = np.maximum.accumulate(np.concatenate(([self.last], times)))
         self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
         self.last = int(newest[-1])
@@ -73,31 +74,58 @@ class _Chunks:
 
 
 class Index:
-    """Index of a finished file: its channels, and `times[channel]` of their messages."""
+    """Schemas, channels and metadata of a file, and `times[channel]` of the messages."""
 
     def __init__(self, file: Path) -> None:
-        """Read the index of `file`.
+        self.schemas: dict[int, Schema] = {}
+        self.channels: dict[int, Channel] = {}
+        self.metadata: list[Metadata] = []
+        self.times: defaultdict[int, LogTimes] = defaultdict(LogTimes)
+        self._chunks: defaultdict[int, _Chunks] = defaultdict(_Chunks)
+        self._section = lru_cache(_KEPT)(lambda place: section_at(file, place))
+
+    @classmethod
+    def of_summary(cls, file: Path) -> Index:
+        """Use the index in `file`.
 
         Raises:
             one of `UNSOUND`: there is no index, or it is inconsistent.
         """
-        summary = read_summary(file)
+        index, summary = cls(file), read_summary(file)
         if damaged_data(file):
             raise ValueError("checksum error")
-        self.schemas, self.channels = summary.schemas, summary.channels
-        self.metadata = summary.metadata
-        self.times = {channel: LogTimes() for channel in self.channels}
-        self._chunks = {channel: _Chunks() for channel in self.channels}
+        index.schemas, index.channels = summary.schemas, summary.channels
+        index.metadata = summary.metadata
         with file.open("rb") as stream:
             for chunk in summary.chunks:
                 for channel, times in _entries(stream, chunk):
-                    self._chunks[channel].places.append(chunk.place)
-                    self._chunks[channel].before.append(self.times[channel].recorded)
-                    self.times[channel].add(times)
-        counts = summary.statistics.channel_message_counts
-        if any(counts.get(c, 0) != times.recorded for c, times in self.times.items()):
+                    index._add(channel, chunk.place, times)
+        if any(summary.counts[c] != index.times[c].recorded for c in index.channels):
             raise ValueError("messages are missing in the index")
-        self._section = lru_cache(_KEPT)(lambda place: section_at(file, place))
+        return index
+
+    @classmethod
+    def of_records(cls, file: Path, remarks: list[str]) -> Index:
+        """Read all of `file`; a line is appended to `remarks` for each damaged part.
+
+        Raises:
+            RecordingError: nothing can be read.
+        """
+        index = cls(file)
+        for place, records in sections_of(file, remarks):
+            times: defaultdict[int, list[int]] = defaultdict(list)
+            for record in records:
+                if isinstance(record, Schema):
+                    index.schemas[record.id] = record
+                elif isinstance(record, Channel):
+                    index.channels[record.id] = record
+                elif isinstance(record, Metadata):
+                    index.metadata.append(record)
+                elif isinstance(record, Message):
+                    times[record.channel_id].append(record.log_time)
+            for channel, of_channel in times.items():
+                index._add(channel, place, np.array(of_channel, np.int64))
+        return index
 
     def message(self, channel: int, number: int) -> Message:
         """Message `number` of a channel, counted from 0 in file order.
@@ -116,6 +144,12 @@ class Index:
         if len(messages) <= within:
             raise ValueError("the index lists a message that does not exist")
         return messages[within]
+
+    def _add(self, channel: int, place: int, times: NDArray[np.int64]) -> None:
+        """Add the messages of a channel in the section at `place`, by their log times."""
+        self._chunks[channel].places.append(place)
+        self._chunks[channel].before.append(self.times[channel].recorded)
+        self.times[channel].add(times)
 
 
 def _entries(stream: BinaryIO, chunk: ChunkPlace) -> Iterator[tuple[int, NDArray[np.int64]]]:

@@ -11,19 +11,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.records import Channel, DataEnd, Message, Schema
-from mcap.stream_reader import CRCValidationError
+from mcap.records import Attachment, Channel, Message, Metadata, Schema
 
 from ...text.escaping import one_line
 from .damage import Damages
 from .foreign import how_stored
 from .framing import DAMAGED, opened, piece_at
-from .integrity import MAGIC, damaged_summary, end_of_data
+from .integrity import MAGIC, end_of_data, start_of_summary
 from .missing_files import missing_files
 from .suffixes import TABLES
-from .walk import Lost, Sound, Walk
+from .walk import Sound, walk
 
 _LONGEST_MESSAGE = 900  # characters
 
@@ -91,28 +89,24 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 
 def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
     """All intact records as in `records_of`, section by section."""
-    known, damages, ended, end_remark = _Known(file), Damages(file), False, ""
+    known, damages, end = _Known(file), Damages(file), None
     with file.open("rb") as stream:
         remarks += _begin_remarks(file, stream)
         if stream.tell() < len(MAGIC):
             return
-        for step in Walk(file, stream):
-            if isinstance(step, Sound):
-                damages.add_sound(step)
-                ended = ended or step.piece.opcode == Opcode.DATA_END  # the rest only repeats
-                place, records = step.piece.place, [] if ended else known.described(step.records)
-            elif isinstance(step, Lost):
-                damages.add_lost(step)
-                place, records = step.place, known.summarised()
+        for part in walk(file, stream):
+            if isinstance(part, Sound):
+                damages.add_sound(part)
+                place, records = part.piece.place, known.described(part.records)
+                end = part.piece.end if part.piece.opcode == Opcode.DATA_END else None
             else:
-                end_remark = _damage_after_data(file, damages.reached, step)
-                break
+                damages.add_lost(part)
+                place, records = part.place, known.summarised()
             if records:
                 yield Section(place, records)
-        end_remark = end_remark or _end_remark(file, ended)
     if damages.unsupported:
         raise RecordingError(f"{file}: {damages.unsupported}")
-    remarks += damages.remarks() or filter(None, [end_remark])
+    remarks += damages.remarks() or filter(None, [_end_remark(file, end)])
     if known.strays:
         remarks.append(
             f"{file.name}: {known.strays} messages are skipped because their channels are lost"
@@ -129,7 +123,7 @@ class _Known:
         self.strays = 0
 
     def described(self, records: list[Any]) -> list[Any]:
-        """`records` without channels that lack a schema, and messages that lack a channel."""
+        """The described ones: channels with their schemas, messages with their channels."""
         return [record for record in records if self._is_described(record)]
 
     def summarised(self) -> list[Any]:
@@ -150,7 +144,7 @@ class _Known:
             if record.schema_id not in self._schemas:
                 return False
             self._channels.add(record.id)
-        return True
+        return isinstance(record, (Schema, Channel, Attachment, Metadata))
 
 
 def _summary(file: Path) -> list[Any]:
@@ -183,7 +177,7 @@ def _begin_remarks(file: Path, stream: BinaryIO) -> list[str]:
     if MAGIC.startswith(first):
         return [f"{file.name}: ends after {len(first)} bytes, before any message"]
     try:
-        is_mcap = opened(header := piece_at(stream)) == [] and header.opcode == Opcode.HEADER
+        is_mcap = opened(header := piece_at(stream)) and header.opcode == Opcode.HEADER
     except DAMAGED:
         is_mcap = stream.seek(0, 2) > len(MAGIC) and end_of_data(file) is not None
     if not is_mcap:
@@ -191,36 +185,25 @@ def _begin_remarks(file: Path, stream: BinaryIO) -> list[str]:
     return [f"{file.name}: its first {len(MAGIC)} bytes are damaged"]
 
 
-def _end_remark(file: Path, ended: bool) -> str:
-    """Warning about the end of a file that is not truncated; empty if there is none."""
-    if not ended:
+def _end_remark(file: Path, end: int | None) -> str:
+    """Warning about what follows the data, which end at position `end`; empty if it is intact."""
+    if end is None:
         return f"{file.name}: has no Data End record; data may be missing"
-    return f"{file.name}: its summary is damaged" if damaged_summary(file) else ""
-
-
-def _damage_after_data(file: Path, sound: int, reason: Exception) -> str:
-    """Warning about damage after the data, or a wrong checksum of the data."""
-    if isinstance(reason, CRCValidationError) and isinstance(reason.record, DataEnd):
-        return f"{file.name}: its data fail their checksum: they may be wrong or incomplete"
-    size = file.stat().st_size
+    if start_of_summary(file) is not None:
+        return ""
+    with file.open("rb") as stream:
+        size = stream.seek(0, 2)
+        stream.seek(max(size - len(MAGIC), end))
+        if stream.read() == MAGIC:
+            return f"{file.name}: its summary is damaged"
     return (
-        f"{file.name}: is truncated, the last {size - sound} of {size} bytes "
-        f"are unreadable ({type(reason).__name__}); everything before is intact"
+        f"{file.name}: is truncated, the last {size - end} of {size} bytes are unreadable; "
+        "everything before is intact"
     )
 
 
 def section_at(file: Path, place: int) -> list[Any]:
-    """The records of the section at position `place`, from `sections_of`."""
+    """The records of the section at position `place`; raises one of `DAMAGED` if there is none."""
     with file.open("rb") as stream:
         stream.seek(place)
         return opened(piece_at(stream))
-
-
-def chunk_at(file: Path, place: int) -> list[Any]:
-    """The records of the chunk at position `place`; raises one of `DAMAGED` if there is none."""
-    with file.open("rb") as stream:
-        stream.seek(place)
-        piece = piece_at(stream)
-    if piece.opcode != Opcode.CHUNK:
-        raise McapError(f"no chunk at {place}")
-    return opened(piece)

@@ -4,13 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcap.writer import CompressionType
-
-COMPRESSIONS = {
-    "zstd": CompressionType.ZSTD,
-    "lz4": CompressionType.LZ4,
-    "none": CompressionType.NONE,
-}
+COMPRESSIONS = ("zstd", "lz4", "none")
 CHUNK_SIZES = (0.001, 64.0)  # [MB]; readers keep a chunk in memory
 _MEGABYTE = 1_000_000
 

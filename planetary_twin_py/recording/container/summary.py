@@ -5,16 +5,25 @@ A day of a twin has 200 000 chunks.
 
 from __future__ import annotations
 
-from io import BytesIO
+from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from mcap.data_stream import ReadDataStream
-from mcap.opcode import Opcode
-from mcap.records import Channel, ChunkIndex, Metadata, MetadataIndex, Schema, Statistics
+from mcap.records import (
+    Channel,
+    ChunkIndex,
+    Message,
+    Metadata,
+    MetadataIndex,
+    Schema,
+    Statistics,
+)
+from mcap.stream_reader import StreamReader
 
-from .framing import opened, piece_at
-from .integrity import damaged_summary, start_of_summary
+from .extent import Extent
+from .framing import LONGEST_RECORD
+from .integrity import start_of_summary
+from .records import section_at, sections_of
 
 
 class ChunkPlace(NamedTuple):
@@ -37,7 +46,9 @@ class Summary(NamedTuple):
 
     schemas: dict[int, Schema]
     channels: dict[int, Channel]
-    statistics: Statistics
+    counts: Counter[int]
+    """Messages by channel."""
+    extent: Extent
     chunks: list[ChunkPlace]
     metadata: list[Metadata]
 
@@ -46,37 +57,69 @@ def read_summary(file: Path) -> Summary:
     """Read the summary of a file.
 
     Raises:
-        one of `DAMAGED`: there is none with statistics, or it is damaged.
+        one of `DAMAGED`: there is none with statistics, channels and chunks, or it is damaged.
     """
-    if damaged_summary(file):
+    start = start_of_summary(file)
+    if start is None:
         raise ValueError("checksum error")
     schemas, channels = dict[int, Schema](), dict[int, Channel]()
     statistics: Statistics | None = None
     chunks, metadata = list[ChunkPlace](), list[Metadata]()
     sets: dict[frozenset[int], frozenset[int]] = {}  # so that equal ones are one object
     with file.open("rb") as stream:
-        stream.seek(start_of_summary(file))
-        while (piece := piece_at(stream)).opcode != Opcode.FOOTER:
-            data = ReadDataStream(BytesIO(piece.content))
-            if piece.opcode == Opcode.CHUNK_INDEX:
-                chunks.append(_place(ChunkIndex.read(data), sets))
-            elif piece.opcode == Opcode.STATISTICS:
-                statistics = Statistics.read(data)
-            elif piece.opcode == Opcode.SCHEMA:
-                (schema,) = opened(piece)
-                schemas[schema.id] = schema
-            elif piece.opcode == Opcode.CHANNEL:
-                (channel,) = opened(piece)
-                channels[channel.id] = channel
-            elif piece.opcode == Opcode.METADATA_INDEX:
-                here = stream.tell()
-                stream.seek(MetadataIndex.read(data).offset)
-                metadata += opened(piece_at(stream))
-                stream.seek(here)
+        stream.seek(start)
+        reader = StreamReader(stream, skip_magic=True, record_size_limit=LONGEST_RECORD)
+        for record in reader.records:
+            if isinstance(record, ChunkIndex):
+                chunks.append(_place(record, sets))
+            elif isinstance(record, Statistics):
+                statistics = record
+            elif isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                channels[record.id] = record
+            elif isinstance(record, MetadataIndex):
+                found = section_at(file, record.offset)
+                metadata += [each for each in found if isinstance(each, Metadata)]
     if statistics is None:
         raise ValueError("no statistics")
     chunks.sort(key=lambda chunk: chunk.place)
-    return Summary(schemas, channels, statistics, chunks, metadata)
+    if len(channels) < statistics.channel_count or (statistics.message_count and not chunks):
+        raise ValueError("channels or chunks are not listed")
+    counts = Counter(statistics.channel_message_counts)
+    extent = Extent(statistics.message_start_time, statistics.message_end_time)
+    return Summary(schemas, channels, counts, extent, chunks, metadata)
+
+
+def summary_of_records(file: Path, remarks: list[str]) -> Summary:
+    """Make a summary of what can be read in a file, with a place for each section of messages.
+
+    Args:
+        file: MCAP file.
+        remarks: a line is appended for each damaged part.
+
+    Raises:
+        RecordingError: nothing can be read.
+    """
+    found = Summary({}, {}, Counter[int](), Extent(), [], [])
+    for place, records in sections_of(file, remarks):
+        for record in records:
+            if isinstance(record, Schema):
+                found.schemas[record.id] = record
+            elif isinstance(record, Channel):
+                found.channels[record.id] = record
+            elif isinstance(record, Metadata):
+                found.metadata.append(record)
+        messages = [record for record in records if isinstance(record, Message)]
+        if messages:
+            times = [message.log_time for message in messages]
+            channels = [message.channel_id for message in messages]
+            found.counts.update(channels)
+            found.extent.include(min(times))
+            found.extent.include(max(times))
+            part = ChunkPlace(min(times), max(times), place, place, 0, frozenset(channels))
+            found.chunks.append(part)
+    return found
 
 
 def _place(index: ChunkIndex, sets: dict[frozenset[int], frozenset[int]]) -> ChunkPlace:

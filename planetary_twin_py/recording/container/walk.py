@@ -1,7 +1,7 @@
 """All intact records of a file in order, and the damaged parts between them.
 
-If an intact record follows a damaged one, only the damaged one is lost. If none follows, e.g.
-after a wrong length or a missing byte, the next intact chunk is searched.
+After a damaged record, reading continues with the next one, or if it is not intact, either, e.g.
+after a wrong length or a missing byte, with the next intact chunk.
 """
 
 from __future__ import annotations
@@ -9,26 +9,21 @@ from __future__ import annotations
 import os
 import zlib
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from mcap.exceptions import InvalidMagic, McapError
+from mcap.exceptions import EndOfFile
 from mcap.opcode import Opcode
-from mcap.records import DataEnd
 from mcap.stream_reader import CRCValidationError
 
-from .framing import DAMAGED, Piece, next_chunk, opened, piece_at, unpacked_size
+from .framing import DAMAGED, LONGEST_RECORD, Piece, next_chunk, opened, piece_at, record_of
 from .integrity import MAGIC, end_of_data
 
-_AHEAD = 16 * (os.cpu_count() or 1)  # records; each chunk is followed by an index per topic
-_BYTES_AHEAD = 2**25  # of chunks that are decompressed in advance
-_OF_SUMMARY = (
-    *(Opcode.STATISTICS, Opcode.CHUNK_INDEX, Opcode.ATTACHMENT_INDEX),
-    *(Opcode.METADATA_INDEX, Opcode.SUMMARY_OFFSET),
-)
+_AHEAD = 2**25  # bytes of chunks that are decompressed in advance
+_MOST_AHEAD = 16 * (os.cpu_count() or 1)  # each chunk is followed by an index per topic
 
 
 class Sound(NamedTuple):
@@ -45,114 +40,124 @@ class Lost(NamedTuple):
     end: int
     opcode: int
     reason: Exception
+    is_last: bool = False
+    """Whether nothing intact follows."""
 
 
-class Walk:
-    """Reads a file once; chunks are decompressed in advance on the other cores."""
+def walk(file: Path, stream: BinaryIO) -> Iterator[Sound | Lost]:
+    """Every part of the data of a file, read once; other cores decompress chunks in advance.
 
-    def __init__(self, file: Path, stream: BinaryIO) -> None:
-        self._file, self._stream = file, stream
-        self._reached = len(MAGIC)
-        """Position up to which everything was yielded."""
-        self._vouched = len(MAGIC)
-        """End of the last intact chunk."""
-        self._ended = False
+    Args:
+        file: the file.
+        stream: its contents.
 
-    def __iter__(self) -> Iterator[Sound | Lost | Exception]:
-        """Records and damaged parts; last an error after the data, or of their checksum."""
-        with ThreadPoolExecutor(os.cpu_count()) as threads:
-            while True:
-                try:
-                    yield from self._in_frames(threads)
-                    return
-                except DAMAGED as reason:
-                    if self._ended:
-                        yield reason
-                        return
-                    size = self._file.stat().st_size
-                    resumed = self._resume() or size
-                    begin = self._reached if self._reached <= resumed else self._vouched
-                    yield Lost(begin, resumed, 0, reason)
-                    if resumed == size:
-                        return
-                    self._reached = self._vouched = resumed
-
-    def _resume(self) -> int | None:
-        chunk = next_chunk(self._stream, self._vouched)
-        if chunk is None and (end := end_of_data(self._file)) and end >= self._reached:
-            return end
-        return chunk
-
-    def _in_frames(self, threads: ThreadPoolExecutor) -> Iterator[Sound | Lost]:
-        """Records in order; raises one of `DAMAGED` if no intact record follows a damaged one."""
-        failed: Lost | None = None
-        pieces = _pieces(self._stream, self._reached)
-        for piece, open_it in _in_order(pieces, threads):
-            try:
-                if piece.opcode in _OF_SUMMARY and not self._ended:
-                    raise McapError("a summary before the end of the data")
-                records = open_it()
-            except DAMAGED as reason:
-                if failed:
-                    raise
-                failed = Lost(piece.place, piece.end, piece.opcode, reason)
-                continue
-            if failed:
-                yield failed
-                failed = None
-            self._reached = piece.end
-            if piece.opcode == Opcode.CHUNK:
-                self._vouched = piece.end
-            self._ended = self._ended or piece.opcode == Opcode.DATA_END
-            yield Sound(piece, records)
+    Yields:
+        Intact and damaged parts up to the end of the data. If only the checksum of all data is
+        wrong, the Data End record with it is lost.
+    """
+    begin: int | None = len(MAGIC)
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        while begin is not None:
+            begin = yield from _until_damage(file, stream, begin, threads)
 
 
-def _in_order(
-    pieces: Iterator[Piece | Exception], threads: ThreadPoolExecutor
-) -> Iterator[tuple[Piece, Callable[[], list[Any]]]]:
-    """Each record with a function that opens it; threads open the next chunks in advance."""
-    waiting: deque[tuple[Piece, Callable[[], list[Any]]]] = deque()
-    bytes_ahead = 0
-    for piece in pieces:
-        if isinstance(piece, Exception):
-            yield from waiting
-            raise piece
-        open_it = partial(opened, piece)
-        is_chunk = piece.opcode == Opcode.CHUNK
-        bytes_ahead += unpacked_size(piece)
+def may_be_written(file: Path) -> bool:
+    """Whether a file ends after or within a record before the end of its data, all others intact.
+
+    Args:
+        file: MCAP file, perhaps empty.
+    """
+    with file.open("rb") as stream:
+        if (first := stream.read(len(MAGIC))) != MAGIC:
+            return MAGIC.startswith(first)
+        for part in walk(file, stream):
+            if isinstance(part, Lost):
+                return part.opcode == 0 and isinstance(part.reason, EndOfFile) and part.is_last
+    return False
+
+
+def _until_damage(
+    file: Path, stream: BinaryIO, begin: int, threads: ThreadPoolExecutor
+) -> Generator[Sound | Lost, None, int | None]:
+    """Records from `begin` to the first damaged one; return where to go on, None at the end."""
+    checksum, reached, vouched = zlib.crc32(MAGIC), begin, begin
+    for piece, open_it in _in_advance(_pieces(stream, begin), threads):
+        try:
+            records = open_it()
+        except DAMAGED as wrong:
+            if piece is not None and _is_intact(stream, piece.end):
+                yield Lost(piece.place, piece.end, piece.opcode, wrong)
+                return piece.end
+            resumed = next_chunk(stream, vouched) or end_of_data(file)
+            if resumed is None or resumed < vouched:
+                yield Lost(reached, file.stat().st_size, 0, wrong, is_last=True)
+                return None
+            yield Lost(reached if reached <= resumed else vouched, resumed, 0, wrong)
+            return resumed
+        assert piece is not None
+        if piece.opcode == Opcode.DATA_END and begin == len(MAGIC):
+            (end,) = records
+            if end.data_section_crc not in (0, checksum):
+                reason = CRCValidationError(end.data_section_crc, checksum, end)
+                yield Lost(piece.place, piece.end, piece.opcode, reason, is_last=True)
+                return None
+        yield Sound(piece, records)
+        checksum = zlib.crc32(piece.content, zlib.crc32(piece.head, checksum))
+        reached = piece.end
+        if piece.opcode not in (Opcode.MESSAGE, Opcode.MESSAGE_INDEX):  # whose bytes are unchecked
+            vouched = piece.end
+    return None
+
+
+def _is_intact(stream: BinaryIO, place: int) -> bool:
+    """Whether an intact record is at a position."""
+    stream.seek(place)
+    try:
+        piece = piece_at(stream)
+        opened(piece), record_of(piece.opcode, piece.content)
+    except DAMAGED:
+        return False
+    return True
+
+
+Opening = tuple[Piece | None, Callable[[], list[Any]]]
+"""A record, or None where there is none, and a function that opens it."""
+
+
+def _in_advance(pieces: Iterator[Opening], threads: ThreadPoolExecutor) -> Iterator[Opening]:
+    """The same, while threads open the next chunks."""
+    waiting, ahead = deque[Opening](), 0
+    for piece, open_it in pieces:
+        is_chunk = piece is not None and piece.opcode == Opcode.CHUNK
         waiting.append((piece, threads.submit(open_it).result if is_chunk else open_it))
-        while len(waiting) > _AHEAD or (waiting and bytes_ahead > _BYTES_AHEAD):
-            bytes_ahead -= unpacked_size(waiting[0][0])
+        ahead += _size(piece)
+        while ahead > _AHEAD or len(waiting) > _MOST_AHEAD:
+            ahead -= _size(waiting[0][0])
             yield waiting.popleft()
     yield from waiting
 
 
-def _pieces(stream: BinaryIO, begin: int) -> Iterator[Piece | Exception]:
-    """Every record from `begin` to the footer; last the exception if the file is truncated.
+def _size(piece: Piece | None) -> int:
+    """Bytes of a chunk when it is unpacked, as its header states them; 0 for other records."""
+    if piece is None or piece.opcode != Opcode.CHUNK:
+        return 0
+    return min(int.from_bytes(piece.content[16:24], "little"), LONGEST_RECORD)
 
-    The checksum of the data covers all records, so it is verified if all were read.
-    """
-    stream.seek(begin)
-    checksum = zlib.crc32(MAGIC)
-    try:
-        while True:
+
+def _pieces(stream: BinaryIO, place: int) -> Iterator[Opening]:
+    """Records from a position to the end of the data, or to where there is none."""
+    while True:
+        stream.seek(place)
+        try:
             piece = piece_at(stream)
-            yield piece
-            if piece.opcode == Opcode.DATA_END and begin == len(MAGIC):
-                _check(piece, checksum)
-            if piece.opcode == Opcode.FOOTER:
-                break
-            checksum = zlib.crc32(piece.content, zlib.crc32(piece.head, checksum))
-        if (magic := stream.read(len(MAGIC))) != MAGIC:
-            raise InvalidMagic(magic)
-    except DAMAGED as reason:
-        yield reason
+        except DAMAGED as reason:
+            yield None, partial(_fail, reason)
+            return
+        yield piece, partial(opened, piece)
+        if piece.opcode in (Opcode.DATA_END, Opcode.FOOTER):
+            return
+        place = piece.end
 
 
-def _check(piece: Piece, checksum: int) -> None:
-    """Raise `CRCValidationError` if the checksum of a Data End record is wrong."""
-    if len(piece.content) != 4:
-        return  # damaged, which is detected when it is opened
-    expected = int.from_bytes(piece.content, "little")
-    if expected not in (0, checksum):
-        raise CRCValidationError(expected, checksum, DataEnd(expected))
+def _fail(reason: Exception) -> list[Any]:
+    raise reason

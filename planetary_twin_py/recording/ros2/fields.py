@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,35 +14,56 @@ ROOM = 7  # largest number of planets in a message
 TURN = 2.0 * np.pi  # [rad]
 
 
-def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
-    """Statistic and first mesh of a per-mesh field of GearboxState; None for other fields."""
-    for side, first in zip(SIDES, (0, planets), strict=True):
-        if name.startswith(f"{side}_"):
-            return name.removeprefix(f"{side}_"), first
-    return None
+class MeshField(NamedTuple):
+    """A field of GearboxState with a value for each mesh of one kind."""
+
+    name: str
+    statistic: str
+    first: int
+    """Number of the first mesh."""
+
+
+def mesh_fields(names: Iterable[str], planets: int) -> list[MeshField]:
+    """Per-mesh fields among the `names` of fields of GearboxState."""
+    return [
+        MeshField(name, name.removeprefix(f"{side}_"), first)
+        for name in names
+        for side, first in zip(SIDES, (0, planets), strict=True)
+        if name.startswith(f"{side}_")
+    ]
+
+
+def state_numbers(window: Window) -> dict[str, float]:
+    """Fields of GearboxState that are numbers."""
+    numbers = {"simulated_time": window.end, "interval": window.end - window.start}
+    numbers |= {name: float(getattr(window, name)) for name in TRAIN}
+    for member in MEMBERS:
+        body = window.bodies.index(member)
+        numbers[f"{member}_angle"] = float(window.angle[body])
+        numbers[f"{member}_speed"] = float(window.mean_speed[body])
+    return numbers
+
+
+def state_of_planets(window: Window, meshes: Iterable[MeshField]) -> dict[str, np.ndarray]:
+    """Fields of GearboxState with a value for each planet, and those of `meshes`."""
+    planets = len(window.meshes) // 2
+    first = window.bodies.index("planet_1")
+    return {
+        "planet_angle": window.angle[first : first + planets],
+        "planet_speed": window.mean_speed[first : first + planets],
+        **{name: window.mesh[statistic][mesh : mesh + planets] for name, statistic, mesh in meshes},
+    }
 
 
 def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
     """Fields of GearboxState: the general ones, and the per-mesh fields among `names`."""
     planets = len(window.meshes) // 2
-    fields: dict[str, Any] = {
+    arrays = state_of_planets(window, mesh_fields(names, planets))
+    return {
         "planets": planets,
-        "simulated_time": window.end,
-        "interval": window.end - window.start,
+        **state_numbers(window),
+        **{name: with_room(values) for name, values in arrays.items()},
     }
-    fields |= {name: float(getattr(window, name)) for name in TRAIN}
-    for member in MEMBERS:
-        body = window.bodies.index(member)
-        fields[f"{member}_angle"] = float(window.angle[body])
-        fields[f"{member}_speed"] = float(window.mean_speed[body])
-    first = window.bodies.index("planet_1")
-    fields["planet_angle"] = with_room(window.angle[first : first + planets])
-    fields["planet_speed"] = with_room(window.mean_speed[first : first + planets])
-    for name in names:
-        if shown := mesh_field(name, planets):
-            statistic, mesh = shown
-            fields[name] = with_room(window.mesh[statistic][mesh : mesh + planets])
-    return fields
 
 
 def waveform_fields(window: Window) -> dict[str, Any]:
@@ -52,7 +74,7 @@ def waveform_fields(window: Window) -> dict[str, Any]:
         "sample_period": wave.period,
         "planets": len(window.meshes) // 2,
         "samples": len(wave.time),
-        **{name: getattr(wave, name).T.astype(np.float32).ravel() for name in WAVEFORM},
+        **{name: np.ravel(getattr(wave, name).T.astype(np.float32, "C")) for name in WAVEFORM},
     }
 
 

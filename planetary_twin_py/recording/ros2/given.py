@@ -18,22 +18,38 @@ def joint_names(scene: Scene) -> tuple[str, str]:
     return f"{scene.drive.input.member}_joint", f"{scene.drive.output.member}_joint"
 
 
-def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
-    """Efforts, velocities and positions of both shafts, by the arguments of `Twin.advance`.
+def values_by_joint(message: Any) -> dict[str, float]:
+    """Efforts, velocities and positions of a message, by joint and quantity: "JOINT/torque".
 
-    Other joints, missing values and NaN are ignored, as ros2_control does with interfaces that no
-    controller claims.
+    Missing values and NaN are ignored, as ros2_control does with interfaces that no controller
+    claims.
     """
-    values_by_name, names = {}, list(message.name)
-    for side, joint in zip(SIDES, joints, strict=True):
-        if joint not in names:
-            continue
-        joint_index = names.index(joint)
-        for field, quantity in FIELDS.items():
-            values = getattr(message, field)
-            if joint_index < len(values) and not math.isnan(values[joint_index]):
-                values_by_name[f"{side}_{quantity}"] = float(values[joint_index])
-    return values_by_name
+    return {
+        f"{joint}/{quantity}": float(value)
+        for field, quantity in FIELDS.items()
+        for joint, value in zip(message.name, getattr(message, field), strict=False)
+        if not math.isnan(value)
+    }
+
+
+def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
+    """Values of both shafts in a message, by the arguments of `Twin.advance`."""
+    return values_of_shafts(values_by_joint(message), joints)
+
+
+def values_of_shafts(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str, float]:
+    """Values of both shafts, by the arguments of `Twin.advance`; other joints are ignored.
+
+    Args:
+        values: by joint and quantity, from `values_by_joint`.
+        joints: joints of input and output.
+    """
+    return {
+        f"{side}_{quantity}": values[f"{joint}/{quantity}"]
+        for side, joint in zip(SIDES, joints, strict=True)
+        for quantity in FIELDS.values()
+        if f"{joint}/{quantity}" in values
+    }
 
 
 def fields_of(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str, Any]:

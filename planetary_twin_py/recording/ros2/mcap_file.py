@@ -6,15 +6,14 @@ import contextlib
 import errno
 import os
 import time
-from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 
-from mcap.writer import Writer
+from mcap.records import Attachment, Message, Metadata
 
-from ..container.chunk_indexes import ChunkIndexes
 from ..container.extent import Extent
-from ..container.storage import COMPRESSIONS, Storage
+from ..container.storage import Storage
+from ..container.writer import ChunkWriter
 from .metadata import Topic
 
 _LIBRARY = "planetary_twin"
@@ -29,20 +28,12 @@ class McapFile:
 
     def __init__(self, path: Path, storage: Storage) -> None:
         self.path = path
-        self.extent = Extent()
         self._unflushed = Extent()
-        self.counts: Counter[int] = Counter()
-        """Messages by channel."""
         self._storage = storage
         self._stream = path.open("xb")
-        self._writer = Writer(
-            self._stream,
-            chunk_size=storage.chunk_bytes,
-            compression=COMPRESSIONS[storage.compression],
-            enable_data_crcs=True,
-        )
-        self._indexes = ChunkIndexes.replace(self._writer, path.parent)
-        self._writer.start(profile="ros2", library=_LIBRARY)
+        self._writer = ChunkWriter(self._stream, storage, path.parent, _LIBRARY)
+        self.extent, self.counts = self._writer.extent, self._writer.counts
+        """Log times, and number of messages by channel."""
 
     @property
     def closed(self) -> bool:
@@ -64,21 +55,17 @@ class McapFile:
     def attach(self, name: str, data: bytes, media_type: str) -> None:
         """Add an attachment."""
         now = time.time_ns()
-        self._writer.add_attachment(now, now, name, media_type, data)
+        self._writer.attach(Attachment(now, now, name, media_type, data))
 
     def note(self, name: str, values: Mapping[str, str]) -> None:
         """Add a metadata record."""
-        self._writer.add_metadata(name, dict(values))
+        self._writer.note(Metadata(name, dict(values)))
 
     def add_topic(self, topic: Topic) -> int:
         """Open a channel; return its number, which counts from 1."""
-        schema = self._writer.register_schema(topic.type, "ros2msg", topic.definition.encode())
-        return self._writer.register_channel(
-            topic.name,
-            "cdr",
-            schema,
-            {"offered_qos_profiles": topic.qos_yaml, "topic_type_hash": topic.type_hash},
-        )
+        schema = self._writer.add_schema(topic.type, "ros2msg", topic.definition.encode())
+        metadata = {"offered_qos_profiles": topic.qos_yaml, "topic_type_hash": topic.type_hash}
+        return self._writer.add_channel(topic.name, "cdr", schema, metadata)
 
     def write(
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
@@ -88,9 +75,8 @@ class McapFile:
         A kill then loses messages of at most one flush period of log time, even if a timer is late.
         """
         # MCAP stores 32 bits of the sequence number.
-        self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
-        self.counts[channel] += 1
-        self.extent.include(log_time)
+        message = Message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
+        self._writer.add_message(message)
         self._unflushed.include(log_time)
         if self._unflushed.end - self._unflushed.start >= self._storage.unflushed:
             self.flush()
@@ -98,25 +84,26 @@ class McapFile:
     def flush(self) -> None:
         """Write all buffered data to the disk (fsync)."""
         self._unflushed = Extent()
-        self._writer.flush()  # type: ignore[no-untyped-call]
+        self._writer.end_chunk()
+        self._stream.flush()
         self._check_path()
         os.fsync(self._stream.fileno())
 
     def finish(self) -> None:
         """Write the indexes and close the file."""
-        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._writer.finish()
         self._stream.flush()
         self._check_path()
         os.fsync(self._stream.fileno())
         self._stream.close()
-        self._indexes.close()
+        self._writer.close()
 
     def abandon(self) -> None:
         """Close a file that is no longer writable, e.g. on a full disk."""
         # Closing the buffered stream would write again; the descriptor must not leak.
         self._stream.raw.close()
         with contextlib.suppress(OSError):
-            self._indexes.close()
+            self._writer.close()
 
     def _check_path(self) -> None:
         """Raise `FileNotFoundError` if the file was deleted or moved, but is still writable."""

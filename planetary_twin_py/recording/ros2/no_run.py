@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..container.integrity import damaged_summary, end_of_data
-from ..container.progress import may_be_written
+from ..container.integrity import end_of_data
 from ..container.records import files_of, records_of
+from ..container.walk import may_be_written
 from .definitions import KINDS, OF_PORTS
 from .topics import ORIGIN, STATE
 
@@ -40,8 +40,6 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
     finished = all(end_of_data(file) is not None for file in files)
     if finished or STATE in with_messages:
         return _lost(path, missing) if any(map(_is_damaged, files)) else None
-    if not any(map(damaged_summary, files)):
-        return None
     if not any(map(may_be_written, files)):
         return _lost(path, missing)
     return (

@@ -14,7 +14,7 @@ from ...text.escaping import one_line
 from ..container.extent import Extent
 from ..container.log_order import DISORDER
 from ..container.records import RecordingError, files_of
-from ..container.segment import open_segment
+from ..container.segment import Segment
 from .metadata import Topic, read_offered_qos
 from .no_run import no_run_yet
 from .repeats import Repeats
@@ -55,7 +55,7 @@ class Playback:
         self.counts: Counter[str] = Counter()
         extent = Extent()
         files = files_of(path, self.remarks)
-        self._segments = [open_segment(file, self._add_remark) for file in files]
+        self._segments = [Segment(file, self._add_remark) for file in files]
         recorded = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
         for name in chosen:
             if name not in recorded:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..container.records import RecordingError
-from .waveform import Source, read_stored, times
+from .waveform import Source, Stored, read_stored, stored_at, times
 
 CENTRAL = 3  # sun, ring, carrier
 Vectors = NDArray[np.float32]
@@ -38,20 +37,11 @@ class AxesBlocks(Protocol):
         """Samples of all blocks that overlap the time span [s]; None if there are none."""
 
 
-class _Batch(NamedTuple):
-    """Successive messages in one section of a file."""
-
-    source: Source
-    place: int
-    begin: float  # simulated time of the first sample [s]
-    end: float  # and of the last
-
-
 class AxesInFile:
     """The recorded blocks in a file, in its order."""
 
     def __init__(self) -> None:
-        self._batches: list[_Batch] = []
+        self._stored: list[Stored] = []
 
     def add(self, source: Source, place: int, rows: NDArray[Any]) -> None:
         """Add messages from the section at position `place` of a file.
@@ -60,20 +50,13 @@ class AxesInFile:
             RecordingError: samples are missing in a message.
         """
         rows = rows[rows["samples"] > 0]
-        if not len(rows):
-            return
-        for name, bodies in _bodies(rows).items():
-            if (2 * bodies * rows["samples"] != rows.dtype[name].shape[0]).any():
-                raise RecordingError(
-                    f"{source.file}: {source.topic}: samples are missing in a message"
-                )
-        last = rows["start_time"] + (rows["samples"] - 1) * rows["sample_period"]
-        begin, end = float(rows["start_time"].min()), float(last.max())
-        self._batches.append(_Batch(source, place, begin, end))
+        if len(rows):
+            series = {name: 2 * bodies for name, bodies in _bodies(rows).items()}
+            self._stored.append(stored_at(source, place, rows, series))
 
     def samples(self, begin: float, end: float) -> AxesSamples | None:
         """Samples of all blocks that overlap the time span [s]; None if there are none."""
-        return axes_samples_of(read_stored(self._batches, begin, end))
+        return axes_samples_of(read_stored(self._stored, begin, end))
 
 
 @dataclass

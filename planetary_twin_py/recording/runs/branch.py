@@ -77,7 +77,7 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     origin = Origin(scene, run.origin.begins, makers_here())
     later = [interval for interval in intervals if interval.begin / TICKS >= begins]
     sides = {PORT_FIELDS[name] for name in values if name in PORT_FIELDS}
-    given = run.given | commanded(run.given, later, sides, branch.commands or NO_COMMANDS)
+    given = dict(run.given) | commanded(run.given, later, sides, branch.commands or NO_COMMANDS)
     given = {stamp: commands for stamp, commands in given.items() if commands}
     return begins, RecordedRun(origin, intervals, before + after, given)
 

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..container.records import files_of, records_of
-from ..ros2.decode import Decoder
+from .schedule import messages_of, stamp_of
 
 Array = NDArray[np.float64]
 
@@ -68,36 +67,28 @@ def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followe
     Raises:
         RecordingError: a message does not match its definition.
     """
-    wanted = {f"{namespace}/{name}": name for name in (ESTIMATE, RESIDUALS, EVENT)}
     if f"{namespace}/{ESTIMATE}" not in topics:
         return None
-    messages_of: dict[str, list[Any]] = {name: [] for name in wanted.values()}
-    for file in files_of(path):
-        decoder = Decoder(file, wanted.__contains__)
-        for record in records_of(file, []):  # the remarks are those of the reader of the twin
-            if (message := decoder.read(record)) is not None:
-                messages_of[wanted[message[0]]].append(message[1])
-    if not messages_of[ESTIMATE]:
+    found: dict[str, list[Any]] = {name: [] for name in (ESTIMATE, RESIDUALS, EVENT)}
+    # The remarks are those of the reader of the twin.
+    for name, message in messages_of(path, namespace, tuple(found), []):
+        found[name].append(message)
+    if not found[ESTIMATE]:
         return None
     # An event is published again if its size changes: the last message counts.
-    events = {event.number: event for event in messages_of[EVENT]}
+    events = {event.number: event for event in found[EVENT]}
     return Followed(
-        _columns(messages_of[ESTIMATE], ESTIMATED),
-        _columns(messages_of[RESIDUALS], BALANCE),
-        tuple((_stamp(event), f"{event.what}: {event.evidence}") for event in events.values()),
+        _columns(found[ESTIMATE], ESTIMATED),
+        _columns(found[RESIDUALS], BALANCE),
+        tuple((stamp_of(event), f"{event.what}: {event.evidence}") for event in events.values()),
     )
 
 
 def _columns(messages: Sequence[Any], names: Sequence[str]) -> MessageColumns:
     """Convert messages to columns in the order of their stamps."""
-    stamps = np.array([_stamp(message) for message in messages], dtype=np.int64)
+    stamps = np.array([stamp_of(message) for message in messages], dtype=np.int64)
     order = np.argsort(stamps, kind="stable")
     columns = {
         name: np.array([getattr(message, name) for message in messages], float) for name in names
     }
     return MessageColumns(stamps[order], {name: values[order] for name, values in columns.items()})
-
-
-def _stamp(message: Any) -> int:
-    stamp = message.header.stamp
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)

@@ -10,18 +10,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mcap.records import Channel, Message, Metadata, Schema
-
 from ...text.escaping import one_line
 from ..container.message_index import UNSOUND, Index, LogTimes
-from ..container.progress import may_be_written
 from ..container.records import files_of
+from ..container.walk import may_be_written
 from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
-from ..ros2.repeats import Repeats, unrepeated
+from ..ros2.repeats import Repeats
 from ..ros2.topics import POINT, REAL_TIME, STATE, is_status
 from .schedule import stamp_of
 
@@ -129,9 +127,9 @@ def read_info(*paths: Path) -> Info:
     for file in collected.info.files:
         attempt = deepcopy(collected)
         try:
-            attempt.look_up(file, Index(file))
+            attempt.add(file, Index.of_summary(file))
         except UNSOUND:  # truncated without an index, or damaged
-            collected.read(file)
+            collected.add(file, Index.of_records(file, collected.info.remarks))
         else:
             collected = attempt
     info = collected.info
@@ -154,33 +152,7 @@ class _Collector:
         self._missing: Counter[str] = Counter()
         self._repeats = Repeats()
 
-    def read(self, file: Path) -> None:
-        """Read every record of a file."""
-        decoder = Decoder(file, _is_decoded)
-        schemas: dict[int, Schema] = {}
-        names: dict[int, str] = {}
-        times: dict[str, list[int]] = {}
-        accounts: list[Mapping[str, str]] = []
-        for record in unrepeated(file, self.info.remarks, self._repeats):
-            if isinstance(record, Schema):
-                schemas[record.id] = record
-            elif isinstance(record, Channel):
-                names[record.id] = record.topic
-                kind = schemas[record.schema_id].name
-                self.info.topics.setdefault(record.topic, TopicInfo(type=kind))
-            elif isinstance(record, Message):
-                times.setdefault(names[record.channel_id], []).append(record.log_time)
-            elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
-                accounts.append(record.metadata)
-            if decoded := decoder.read(record):
-                self._add_message(*decoded)
-        counts = Counter(self._repeats.counts)
-        for name, log_times in times.items():
-            self.info.topics[name].add(log_times)
-            counts[name] += len(log_times)
-        self._add_losses(file, accounts, counts)
-
-    def look_up(self, file: Path, index: Index) -> None:
+    def add(self, file: Path, index: Index) -> None:
         """Add the contents of a file from its index and the few messages that are needed."""
         decoder = Decoder(file, _is_decoded)
         self._repeats.next_file()
@@ -212,7 +184,7 @@ class _Collector:
             elif channel.topic == REPORT:
                 self.info.report |= _newest_report(messages)
         for _, name, message in sorted(changes, key=lambda change: change[0]):
-            self._add_message(name, message)
+            self._add_change(name, message)
         accounts = [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
         counts = {
             channel.topic: index.times[number].recorded
@@ -283,20 +255,13 @@ class _Collector:
                 f"{file.name}: {which} of losses cannot be read: {first}{wrong[0]}"
             )
 
-    def _add_message(self, topic: str, message: Any) -> None:
-        """Add the contents of a message."""
-        if topic.endswith(f"/{STATE}"):
-            self.info.simulated += message.interval
-            self._count_missing(topic, message)
-        elif topic == REPORT:
-            self.info.report |= _report_values(message)
-        else:
-            last = self._points.get(topic)
-            values = values_of_point(message)
-            new = {k: v for k, v in values.items() if last is None or v != last[k]}
-            self._points[topic] = values
-            namespace = topic.removesuffix(f"/{POINT}")
-            self.info.changes.append(Changed(message.simulated_time, namespace, new))
+    def _add_change(self, topic: str, message: Any) -> None:
+        """Add the values in a message of an operating point that differ from the last ones."""
+        last = self._points.get(topic)
+        self._points[topic] = values = values_of_point(message)
+        new = {k: v for k, v in values.items() if last is None or v != last[k]}
+        namespace = topic.removesuffix(f"/{POINT}")
+        self.info.changes.append(Changed(message.simulated_time, namespace, new))
 
 
 class _Messages(Sequence[Any]):

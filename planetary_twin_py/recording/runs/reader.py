@@ -29,7 +29,9 @@ from .origin import scene_of_origin
 from .waveform import Blocks, InMemory, Ranges, Samples, Source, TimeSpan, Waveform, joined, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
-TOPICS = (STATE, WAVEFORM, POINT, AXES_STATE, AXES_WAVEFORM)
+SERIES = (STATE, POINT, AXES_STATE)
+"""Topics whose messages are kept in memory, as columns."""
+TOPICS = (*SERIES, WAVEFORM, AXES_WAVEFORM)
 _LONGEST = 300  # characters of a remark
 
 
@@ -161,14 +163,14 @@ def read_recording(
     counts = collected.counts()
     namespace = choose_namespace(counts, namespace, path)
     collected.remarks += filter(None, [no_run_yet(Path(path), counts)])
-    rows = {name: collected.rows(f"{namespace}/{name}") for name in (STATE, POINT, AXES_STATE)}
-    if not rows[STATE]:
+    series = {name: series_of(name, collected.taken(f"{namespace}/{name}")) for name in SERIES}
+    if not len(series[STATE]):
         raise RecordingError(f"{path}: has no state from {span[0]:g} to {span[1]:g} s")
     blocks = collected.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
     axes_blocks = collected.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
-    recording = assemble(rows, blocks, axes_blocks, Path(path), namespace)
+    recording = assemble(series, blocks, axes_blocks, Path(path), namespace)
     scene = collected.scene_yaml or _scene(
-        collected.rows(f"{namespace}/{ORIGIN}"), collected.remarks
+        collected.taken(f"{namespace}/{ORIGIN}"), collected.remarks
     )
     topics = frozenset(collected.topics)
     return replace(
@@ -191,7 +193,7 @@ def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
 
 
 def assemble(
-    rows: Mapping[str, list[NDArray[Any]]],
+    series: Mapping[str, Series],
     blocks: Samples,
     axes_blocks: AxesBlocks,
     path: Path,
@@ -200,7 +202,7 @@ def assemble(
     """Make a recording from messages.
 
     Args:
-        rows: structured arrays by topic, with at least one state.
+        series: messages of each of `SERIES`, with at least one state.
         blocks: blocks of the waveform.
         axes_blocks: blocks of the waveform of axes that move.
         path: path of the recording, for error messages.
@@ -209,7 +211,7 @@ def assemble(
     Raises:
         RecordingError: the number of planets is invalid or changes.
     """
-    state = _series(rows[STATE], KINDS[STATE])
+    state = series[STATE]
     planets = np.unique(state["planets"])
     room = state["planet_angle"].shape[1]
     if len(planets) != 1 or not 1 <= planets[0] <= room:
@@ -223,17 +225,12 @@ def assemble(
         namespace=namespace,
         planets=int(planets[0]),
         state=state,
-        operating_point=_series(rows[POINT], KINDS[POINT]),
+        operating_point=series[POINT],
         blocks=blocks,
-        axes_state=axes_of(rows[AXES_STATE]),
+        axes_state=series[AXES_STATE],
         axes_blocks=axes_blocks,
         scene_yaml=None,
     )
-
-
-def axes_of(rows: list[NDArray[Any]]) -> Series:
-    """States of axes that move, from structured arrays; without rows where they are held."""
-    return _series(rows, KINDS[AXES_STATE])
 
 
 def _is_read(topic: str) -> bool:
@@ -289,9 +286,9 @@ class _Collector:
                 self.complete = False
                 return
 
-    def rows(self, topic: str) -> list[NDArray[Any]]:
-        """The messages of a topic, in the order of the log times of their sections."""
-        parts = sorted(self._parts.get(topic, []), key=lambda part: part[0])
+    def taken(self, topic: str) -> list[NDArray[Any]]:
+        """The messages of a topic, in the order of log times; they are no longer kept here."""
+        parts = sorted(self._parts.pop(topic, []), key=lambda part: part[0])
         return [rows for _, rows in parts]
 
     def counts(self) -> dict[str, int]:
@@ -343,18 +340,43 @@ class _Collector:
         return rows[(first <= self._end) & (last >= self._begin)]
 
 
-def _series(parts: list[NDArray[Any]], kind: str) -> Series:
-    """Columns of messages; fields of the twin's type `kind` that some lack are `absent` there."""
+def series_of(topic: str, parts: list[NDArray[Any]]) -> Series:
+    """Make columns of the messages of a topic; fields that some messages lack are `absent` there.
+
+    Args:
+        topic: one of `SERIES`.
+        parts: structured arrays of messages; the list is emptied, so that each is freed when it is
+            copied.
+
+    Returns:
+        The columns, without rows if there are no parts.
+
+    Raises:
+        RecordingError: the shapes of a field differ, or a text is not UTF-8.
+    """
     if not parts:
         return Series(np.empty(0), np.empty(0, np.int64), {})
-    empty = absent(kind, ())
+    empty = absent(KINDS[topic], ())
     everywhere = set.intersection(*(set(rows.dtype.names or ()) for rows in parts))
-    columns = {
-        name: column(name, [_values(rows, name, empty) for rows in parts])
+    names = [
+        name
         for name in dict.fromkeys([*(parts[0].dtype.names or ()), *empty])
         if name != "header" and (name in everywhere or name in empty)
-    }
-    stamp = np.concatenate([stamps(rows) for rows in parts])
+    ]
+    layouts = list({rows.dtype: rows[:0] for rows in parts}.values())
+    end = sum(map(len, parts))
+    stamp, values = np.empty(end, np.int64), dict[str, NDArray[Any]]()
+    for name in names:
+        samples = [_values(rows, name, empty) for rows in layouts]
+        column(name, samples)  # raises an error if their shapes differ
+        values[name] = np.empty((end, *samples[0].shape[1:]), np.result_type(*samples))
+    while parts:  # from the last one, so that the allocator can return the memory
+        rows = parts.pop()
+        into, end = slice(end - len(rows), end), end - len(rows)
+        stamp[into] = stamps(rows)
+        for name in names:
+            values[name][into] = _values(rows, name, empty)
+    columns = {name: column(name, [values.pop(name)]) for name in names}
     return Series(columns["simulated_time"], stamp, columns)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -16,13 +16,14 @@ from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
-from ..ros2.given import causality, joint_names, values_of
+from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
-from .intervals import Interval, Intervals
+from .commands_by_stamp import CommandsByStamp
+from .intervals import Interval, Intervals, in_ticks
 from .origin import Origin, read_origin
 
 # For measured runs, which have no such settings: the defaults of `planetary-twin simulate`.
@@ -47,7 +48,7 @@ class RecordedRun:
     origin: Origin
     intervals: Intervals = field(default_factory=Intervals)
     changes: list[Change] = field(default_factory=list)
-    given: dict[int, dict[str, float]] = field(default_factory=dict)
+    given: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
     """Commands at the ports in an interval, by its stamp [ns]."""
 
 
@@ -142,7 +143,7 @@ class _Collector:
         self._origins: dict[int, Origin] = {}
         self._changes: list[Change] = []
         self._intervals = Intervals()
-        self._commands: list[tuple[int, Any]] = []  # by stamp [ns]
+        self._commands = CommandsByStamp()  # by joint
 
     def origin(self, message: Any) -> None:
         try:
@@ -165,20 +166,19 @@ class _Collector:
                     f"{STATE} has no field {name} in this recording: nothing of it can be "
                     "simulated again"
                 )
-        end = round(message.simulated_time * TICKS)
+        number, before = message.sequence, self._intervals[-1] if self._intervals else None
         self._intervals.append(
             Interval(
-                message.sequence,
+                number,
                 stamp_of(message),
-                end - round(message.interval * TICKS),
-                end,
+                *in_ticks(number, message.simulated_time, message.interval, before),
                 _value_or_default(message.tolerance, TOLERANCE),
                 _value_or_default(message.sample_rate, SAMPLE_RATE),
             )
         )
 
     def command(self, message: Any) -> None:
-        self._commands.append((stamp_of(message), message))
+        self._commands.add(stamp_of(message), values_by_joint(message))
 
     def runs(self, path: Path, remarks: list[str]) -> list[RecordedRun]:
         found = {ORIGIN: len(self._origins), STATE: len(self._intervals)}
@@ -226,9 +226,13 @@ class _Collector:
 
     def _assign_commands(self, runs: list[RecordedRun]) -> None:
         """Assign commands to runs by their stamps, which are those of the intervals."""
-        for stamp, message in self._commands:
+        given = {run.origin.begins: CommandsByStamp() for run in runs}
+        for stamp, values in self._commands.items():
             if run := self._run_at(stamp, runs):
-                run.given[stamp] = values_of(message, joint_names(run.origin.scene))
+                of_shafts = values_of_shafts(values, joint_names(run.origin.scene))
+                given[run.origin.begins].add(stamp, of_shafts)
+        for run in runs:
+            run.given = given[run.origin.begins]
 
     def _run_at(self, stamp: int, runs: list[RecordedRun]) -> RecordedRun | None:
         """The run in progress at `stamp` [ns]; None after an origin that another one replaced.

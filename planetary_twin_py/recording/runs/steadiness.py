@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ...model.clock import TICKS
-from ...model.speed_loop import bandwidth
+from ...model.gearbox import Gearbox
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.playback import Playback
@@ -59,7 +59,7 @@ def settling(run: RecordedRun, place: int) -> float:
     else:
         before = values | {"input_speed": control.start_speed}
     ramp = max(abs(values[k] - before[k]) for k in ("input_speed", "second_input_speed"))
-    return ramp / control.slew_rate + SETTLING / bandwidth(run.origin.scene)
+    return ramp / control.slew_rate + SETTLING / Gearbox(run.origin.scene).bandwidth
 
 
 def between(run: RecordedRun, begin: float, end: float) -> list[Interval]:

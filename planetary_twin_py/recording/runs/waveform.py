@@ -5,7 +5,7 @@ A minute has 18 million samples of each quantity, so a long recording does not f
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
@@ -71,38 +71,16 @@ class Source(NamedTuple):
             raise RecordingError(f"{self.file}: {self.topic}: a message {reason}") from None
 
 
-class Stored(Protocol):
+class Stored(NamedTuple):
     """Messages with samples in one section of a file."""
-
-    @property
-    def source(self) -> Source:
-        """Where they are."""
-
-    @property
-    def place(self) -> int:
-        """Position of the section in the file."""
-
-    @property
-    def begin(self) -> float:
-        """Simulated time of the first sample [s]."""
-
-    @property
-    def end(self) -> float:
-        """Simulated time of the last sample [s]."""
-
-
-class _Batch(NamedTuple):
-    """Successive messages in one section: its position, and their times and ranges."""
 
     source: Source
     place: int
-    time: NDArray[np.float64]
-    stamp: NDArray[np.int64]
-    period: NDArray[np.float64]
-    begin: float  # simulated time of the first sample [s]
-    end: float  # and of the last
-    lowest: list[NDArray[np.float32]]  # in the order of QUANTITIES
-    highest: list[NDArray[np.float32]]
+    """Position of the section."""
+    begin: float
+    """Simulated time of the first sample [s]."""
+    end: float
+    """Simulated time of the last sample [s]."""
 
 
 class Samples(Protocol):
@@ -154,7 +132,8 @@ class Blocks:
     """The recorded blocks of one gearbox, in file order."""
 
     def __init__(self) -> None:
-        self._batches: list[_Batch] = []
+        self._stored: list[Stored] = []
+        self._ranges: list[Ranges] = []
 
     def add(self, source: Source, place: int, rows: NDArray[Any]) -> None:
         """Add messages from the section at position `place` of a file.
@@ -165,53 +144,63 @@ class Blocks:
         rows = rows[rows["samples"] > 0]
         if not len(rows):
             return
-        expected = 2 * rows["planets"].astype(int) * rows["samples"]
-        if any((expected != rows.dtype[name].shape[0]).any() for name in QUANTITIES):
-            raise RecordingError(f"{source.file}: {source.topic}: samples are missing in a message")
-        samples = [_samples(rows, name) for name in QUANTITIES]
-        last = rows["start_time"] + (rows["samples"] - 1) * rows["sample_period"]
-        self._batches.append(
-            _Batch(
-                source,
-                place,
-                rows["start_time"].astype(np.float64),
-                stamps(rows),
-                rows["sample_period"].astype(np.float64),
-                float(rows["start_time"].min()),
-                float(last.max()),
-                [np.fmin.reduce(values, axis=2) for values in samples],
-                [np.fmax.reduce(values, axis=2) for values in samples],
-            )
+        meshes = 2 * rows["planets"].astype(int)
+        self._stored.append(stored_at(source, place, rows, dict.fromkeys(QUANTITIES, meshes)))
+        lowest, highest = (
+            {name: end.reduce(_samples(rows, name), axis=2) for name in QUANTITIES}
+            for end in (np.fmin, np.fmax)
         )
+        time, period = (rows[name].astype(np.float64) for name in ("start_time", "sample_period"))
+        self._ranges.append(Ranges(time, stamps(rows), period, lowest, highest))
 
     def ranges(self) -> Ranges | None:
         """Ranges of all blocks; None if there are none."""
-        if not self._batches:
+        if not self._ranges:
             return None
-        ends = [
-            {
-                name: np.concatenate([getattr(batch, end)[k] for batch in self._batches])
-                for k, name in enumerate(QUANTITIES)
-            }
-            for end in ("lowest", "highest")
-        ]
         time, stamp, period = (
-            np.concatenate([getattr(batch, name) for batch in self._batches])
+            np.concatenate([getattr(each, name) for each in self._ranges])
             for name in ("time", "stamp", "period")
         )
-        return Ranges(time, stamp, period, *ends)
+        lowest, highest = (
+            {
+                name: np.concatenate([getattr(each, end)[name] for each in self._ranges])
+                for name in QUANTITIES
+            }
+            for end in ("lowest", "highest")
+        )
+        return Ranges(time, stamp, period, lowest, highest)
 
     def waveform(self, begin: float, end: float) -> Waveform | None:
         """Samples of all blocks that overlap the time span [s]; None if there are none."""
-        return waveform_of(list(read_stored(self._batches, begin, end)))
+        return waveform_of(list(read_stored(self._stored, begin, end)))
 
 
-def read_stored(batches: Iterable[Stored], begin: float, end: float) -> Iterator[NDArray[Any]]:
+def stored_at(
+    source: Source, place: int, rows: NDArray[Any], series: Mapping[str, NDArray[np.int64]]
+) -> Stored:
+    """Where messages are, to read them again with `read_stored`.
+
+    Args:
+        source: topic and file.
+        place: position of their section.
+        rows: the messages, all with samples.
+        series: number of series in each message, by quantity.
+
+    Raises:
+        RecordingError: samples are missing in a message.
+    """
+    if any((n * rows["samples"] != rows.dtype[name].shape[0]).any() for name, n in series.items()):
+        raise RecordingError(f"{source.file}: {source.topic}: samples are missing in a message")
+    last = rows["start_time"] + (rows["samples"] - 1) * rows["sample_period"]
+    return Stored(source, place, float(rows["start_time"].min()), float(last.max()))
+
+
+def read_stored(stored: Iterable[Stored], begin: float, end: float) -> Iterator[NDArray[Any]]:
     """Read again the messages whose blocks overlap a time span [s]."""
     wanted = {
-        (batch.source, batch.place): None
-        for batch in batches
-        if batch.begin <= end and batch.end >= begin
+        (part.source, part.place): None
+        for part in stored
+        if part.begin <= end and part.end >= begin
     }
     for source, place in wanted:
         records = section_at(source.file, place)

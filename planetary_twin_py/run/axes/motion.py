@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model.bodies import CENTRAL
+from ...model.planar_rows import CENTRAL
 from ..samples import Waves
 from .load_shares import CycleShares
 from .statistics import AxesStatistics

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ...model.bodies import CENTRAL, body_names
+from ...model.gearbox import Gearbox
+from ...model.planar_rows import CENTRAL
 from ...scene import Scene
 from ..samples import AxesWaves, BodyWaves
 from .load_shares import CycleShares
@@ -30,14 +31,14 @@ class AxesSums:
     """Sums over the samples of a run.
 
     Args:
-        scene: scene of the run, whose axes move.
+        gearbox: of the run, whose axes move.
     """
 
-    def __init__(self, scene: Scene) -> None:
-        bodies, self._planets = body_names(scene).names, scene.gearset.planets
+    def __init__(self, gearbox: Gearbox) -> None:
+        bodies, self._planets = gearbox.body_names.names, gearbox.scene.gearset.planets
         self._sun, self._carrier = bodies.index("sun"), bodies.index("carrier")
-        self._teeth, self._axes = scene.gearset.tooth_numbers.sun, len(axes_names(self._planets))
-        self._shares = CycleShares(self._planets)
+        self._teeth = gearbox.scene.gearset.tooth_numbers.sun
+        self._axes, self._shares = len(axes_names(self._planets)), CycleShares(self._planets)
         self._count = 0
         self._moved, self._tilting = np.zeros(()), np.zeros(())
         self._sizes, self._peaks = np.zeros(()), np.zeros(())  # magnitudes: sum, and largest

@@ -19,14 +19,12 @@ from ..._core import (
     State,
     WindowEnd,
 )
-from ...model.bodies import MOTOR
 from ...model.clock import TICKS, delay, instant, sampling
-from ...model.library import library, record_in
+from ...model.gearbox import Gearbox
+from ...model.layout import MOTOR
+from ...model.library import record_in
 from ...model.oil import build_oil
 from ...model.planet_bearings import check_planet_bearings
-from ...model.start import build_load
-from ...model.static_load import mesh_force
-from ...model.train import build_train
 from ...scene import OperatingPoint, Scene
 from ..limits import Limits, RunawayError
 from ..samples import Samples, Waves, new_samples
@@ -50,12 +48,14 @@ class QuasiStaticEngine:
     def __init__(self, scene: Scene, tolerance: float) -> None:
         check_tolerance(tolerance)
         self.scene = scene
-        self._core = library(scene)
+        self.gearbox = Gearbox(scene)
+        check_planet_bearings(self.gearbox, scene.operating_point)
+        self._core = self.gearbox.core
         # Nothing vibrates, so damping has no effect.
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
-        self.train = build_train(still)
+        self.train = Gearbox(still).train
         self.start_warning = ""  # without equilibrium there is no run
-        self._limits = Limits(scene, self.train)
+        self._limits = Limits(self.gearbox)
         self.control = Control()
         self.reached = Fraction(0)
         self.repeats = False  # mesh cycles are never repeated
@@ -80,12 +80,11 @@ class QuasiStaticEngine:
 
         If there is no equilibrium, nothing changes.
         """
-        load: Load = record_in(self._core, build_load(self.scene, point, self.train))
+        load: Load = record_in(self._core, self.gearbox.load(point))
         oil: Oil = record_in(self._core, build_oil(self.scene, point))
         model: Model = self._core.Model(train=self.train, oil=oil, load=load)
-        closing_side = (
-            DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
-        )
+        force = self.gearbox.mesh_force(float(load.torque[MOTOR]))
+        closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
         check_second_coupling(self._core, model, tolerance, closing_side, origin)
         ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy)
         self.model, self.tolerance, self._closing_side, self._ledger = (
@@ -153,7 +152,7 @@ class QuasiStaticEngine:
         Raises:
             ValueError: there is no equilibrium; nothing has changed.
         """
-        check_planet_bearings(self.scene, point)
+        check_planet_bearings(self.gearbox, point)
         energy = self._ledger.at(instant(time))[0][ENERGY]
         self._load(point, tolerance, self._standing(time), energy)
 

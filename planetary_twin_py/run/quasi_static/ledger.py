@@ -22,8 +22,8 @@ from ..._core import (
     Model,
     State,
 )
-from ...model.bodies import MOTOR
 from ...model.clock import Instant, delay
+from ...model.layout import MOTOR
 
 # Entries of the totals, in this order: the ledger, integrals of the meshes (SUMS, room),
 # and the time.

@@ -14,7 +14,7 @@ import math
 from types import ModuleType
 
 from ..._core import Model, State
-from ...model.bodies import SECOND_MOTOR
+from ...model.layout import SECOND_MOTOR
 
 MOST_FEEDBACK = 0.5  # |g dT/dc|; the rest is for runout and faults, which change T elsewhere
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...run.counters import Course
-from ..local import Threads
+from ...simulation.threads import Threads
 from .estimate import Estimate, conclude
 from .excerpt import Excerpt, read_excerpt
 from .least_squares import Minimum, explained, minimise, with_initial_magnitudes

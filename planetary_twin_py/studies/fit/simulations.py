@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...scene import Scene
-from ..local import Threads
+from ...simulation.threads import Threads
 from .least_squares import Residuals
 from .misfit import WeightedReadings
 from .model import Model, ModelOutput

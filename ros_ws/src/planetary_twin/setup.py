@@ -23,16 +23,14 @@ setup(
         (f"lib/{NAME}", glob("scripts/*")),
     ],
     entry_points={
-        "planetary_twin.live": ["follow = planetary_twin.watching:follow"],
+        "planetary_twin.live": ["follow = planetary_twin.clients.live_view:follow"],
         "planetary_twin.commands": [
-            "run = planetary_twin.commands:run",
-            "replay = planetary_twin.replay_command:replay",
-            "bench-live = planetary_twin.benchmark.command:bench_live",
-            "bench-recorder = planetary_twin.benchmark.recorder_command:bench_recorder",
-            "monitor = planetary_twin.steering:monitor",
-            "param = planetary_twin.steering:param",
-            "op = planetary_twin.steering:op",
+            "run = planetary_twin.running.command:run",
+            "replay = planetary_twin.clients.replay_command:replay",
+            "monitor = planetary_twin.clients.commands:monitor",
+            "param = planetary_twin.clients.commands:param",
+            "op = planetary_twin.clients.commands:op",
         ],
-        "planetary_twin.checks": ["ros = planetary_twin.checks:check"],
+        "planetary_twin.checks": ["ros = planetary_twin.clients.doctor:check"],
     },
 )

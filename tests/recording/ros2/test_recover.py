@@ -114,7 +114,7 @@ def test_a_file_that_grows_while_read_is_still_being_written(tmp_path):
     found = Damages(file)
     file.write_bytes(MAGIC + bytes(10))
     grown = file.stat().st_size
-    found.add_lost(Lost(grown, grown, 0, EndOfFile()))
+    found.add_lost(Lost(grown, grown, 0, EndOfFile(), is_last=True))
     assert found.remarks() == [
         "growing.mcap: has no end record: the recorder is still writing, or was killed; "
         "everything before is intact"

@@ -78,7 +78,7 @@ def test_the_index_of_a_file_agrees_with_all_its_records(tmp_path, monkeypatch):
 
     file = record(tmp_path / "bag", lose)
     by_index = read_info(file)
-    monkeypatch.setattr("planetary_twin_py.recording.runs.info.Index", without_index)
+    monkeypatch.setattr(Index, "of_summary", without_index)
     by_records = read_info(file)
     assert by_index.simulated == pytest.approx(by_records.simulated, rel=1e-12)
     by_index.simulated = by_records.simulated
@@ -97,7 +97,7 @@ def test_missing_states_are_counted_by_their_numbers(sound, tmp_path):
 
 
 def test_the_index_leads_to_every_message(sound):
-    index, found = Index(sound), {}
+    index, found = Index.of_summary(sound), {}
     for entry in records_of(sound, []):
         if isinstance(entry, Message):
             found.setdefault(entry.channel_id, []).append(entry)

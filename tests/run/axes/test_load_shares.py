@@ -7,11 +7,11 @@ from power_flows import FLOWS
 
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.turning import turning_warnings
-from planetary_twin_py.model.bodies import rigid_ratios
+from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.run.axes.load_shares import CycleShares
+from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.statics.error_turns import fewest_turns
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
 from planetary_twin_py.studies.turning import turning_of_study
@@ -32,7 +32,7 @@ def turning_scene(kind, **changes):
 def turn(scene, kind):
     """Time of the turn [s]."""
     speed = scene.operating_point.input_speed
-    ratio = rigid_ratios(scene)["carrier"][0]
+    ratio = Layout(scene).ratios["carrier"][0]
     return 2.0 * np.pi / abs(speed * (1.0 if kind == "runout" else float(ratio)))
 
 

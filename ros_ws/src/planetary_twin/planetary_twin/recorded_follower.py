@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 
-from .follower import Follower
-from .logger import Logger
-from .managed import run_nodes
+from .base.lifecycle_node import run_nodes
+from .follower.node import Follower
+from .logger.node import Logger
 
 
 def main(args: list[str] | None = None) -> int:

@@ -15,7 +15,7 @@ from rich.table import Table
 from planetary_twin_py.recording.ros2.definitions import definition_of
 from planetary_twin_py.recording.ros2.message_units import units_of
 
-from ..follower_messages import QUANTITIES
+from ..follower.messages import QUANTITIES
 
 _HEADINGS = "quantity", "estimate", "95 % interval", "unit", "status", "improved by"
 

@@ -8,16 +8,15 @@ from collections.abc import Callable
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
 from planetary_twin_msgs.msg import FollowerEstimate, FollowerEvent, FollowerTeeth, RecorderStatus
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py.recording.ros2.topics import status_name
 
-from ..client import Client
-from ..follower_reports import CONDITION
-from .children import RunError
+from ..base.qos import LATCHED
+from ..clients.client import Client
+from ..follower.diagnostics import CONDITION
+from .node_process import RunError
 
-_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SETTLED = 0.5  # [s] without a new estimate after which no further one is expected
 _TIMEOUT = 10.0  # [s] until the logger has counted the last estimate
 
@@ -45,7 +44,7 @@ class FollowerListener(Client):
         subscribe = self.node.create_subscription
         subscribe(FollowerEstimate, "follower/estimate", self._on_estimate, 100)
         subscribe(FollowerTeeth, "follower/teeth", self._on_teeth, 100)
-        subscribe(FollowerEvent, "follower/event", self._on_event, _LATCHED)
+        subscribe(FollowerEvent, "follower/event", self._on_event, LATCHED)
         subscribe(RecorderStatus, "logger/status", self._on_status, 10)
         subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 100)
         self._first = subscribe(JointState, "measured/joint_states", self._on_joints, 10)

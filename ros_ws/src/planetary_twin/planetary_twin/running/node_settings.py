@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from planetary_twin_py.scene.names import did_you_mean
 
-from ..simulation_parameters import SETTINGS
+from ..simulation.parameters import SETTINGS
 
 _OF_THE_RUN = ("rate_factor", "wait_for")  # set by the command itself
 _CLOCK = "use_sim_time"

@@ -14,11 +14,11 @@ from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.client import Client as Service
 from rclpy.parameter import Parameter
 
-from ..client import Client
-from ..heap import return_freed_memory
-from ..reports import real_time_figures
-from ..topics import UNKNOWN_NODE, wanted_topics
-from .children import RunError
+from ..base.topics import UNKNOWN_NODE, wanted_topics
+from ..clients.client import Client
+from ..clients.real_time_figures import real_time_figures
+from ..process.memory import return_freed_memory
+from .node_process import RunError
 from .sums import Sums
 
 _NODE = "simulation"

@@ -10,11 +10,11 @@ from pathlib import Path
 from planetary_twin_msgs.msg import FollowerEstimate
 from rich.console import Console
 
-from ..network import stay_on_this_machine
-from .alone import alone
-from .children import Child, RunError
+from ..clients.loopback import stay_on_this_machine
 from .followed import Followed, event_line
 from .follower_listener import FollowerListener
+from .lock import alone
+from .node_process import Child, RunError
 from .session import undisturbed
 
 _POLL = 0.2  # [s]

@@ -14,13 +14,13 @@ from rich.console import Console
 
 from planetary_twin_py.run.tolerance import AUTOMATIC
 
-from ..network import stay_on_this_machine
-from ..telemetry import STALL
-from .alone import alone, conflict
-from .children import Child, RunError
+from ..clients.loopback import stay_on_this_machine
+from ..simulation.publishing.publishers import STALL
+from .lock import alone, conflict
+from .node_process import Child, RunError
 from .operator import Operator
 from .outcome import Outcome, read_outcome
-from .show import Show
+from .progress import Show
 from .tour import Stop
 
 _START = 60.0  # [s] longest wait for the nodes to discover each other

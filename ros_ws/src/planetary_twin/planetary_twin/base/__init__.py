@@ -1,0 +1,1 @@
+"""Base of the nodes: life cycle, parameters, topics, clocks."""

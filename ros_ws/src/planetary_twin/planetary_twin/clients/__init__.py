@@ -1,0 +1,1 @@
+"""Programs that read and change running nodes, from the command line."""

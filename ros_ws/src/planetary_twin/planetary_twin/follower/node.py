@@ -1,0 +1,245 @@
+"""The follower node: estimates the state of a gearbox from measured topics."""
+
+from __future__ import annotations
+
+import time
+import traceback
+
+from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin_msgs import msg
+from rclpy.duration import Duration
+from rclpy.lifecycle import LifecyclePublisher
+from rclpy.qos import QoSProfile
+from rclpy.timer import Timer
+from std_srvs.srv import Trigger
+
+from planetary_twin_py.following.estimate import Event
+from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.train import followed_train
+
+from ..base.clock import STEADY, StrictClock, set_stamp
+from ..base.diagnostics import diagnostics
+from ..base.lifecycle_node import ManagedNode, run_node
+from ..base.qos import LATCHED
+from ..process.memory import return_large_blocks
+from .diagnostics import Feed, Limits, key_of, rows
+from .live_follower import LiveFollower
+from .messages import (
+    baseline_message,
+    estimate_message,
+    event_message,
+    residuals_message,
+    teeth_message,
+)
+from .parameters import declare_options, options_of
+from .services import BaselineServices
+from .simulation_client import TwinBeside
+from .subscriptions import Intake
+
+_REPORT_PERIOD = 1.0  # [s]
+_QUEUED = QoSProfile(depth=1000)  # an overloaded computer publishes many messages at once
+_LAST = 10.0  # [s] longest wait until the last messages have arrived
+_KINDS = {
+    "estimate": msg.FollowerEstimate,
+    "residuals": msg.FollowerResiduals,
+    "teeth": msg.FollowerTeeth,
+    "event": msg.FollowerEvent,
+    "baseline": msg.FollowerBaseline,
+}
+_KEPT = {"event", "baseline"}  # for late subscribers
+
+
+class Follower(ManagedNode):
+    """
+    Estimates the state of a measured gearbox.
+
+    `activate` starts without readings; `deactivate` processes waiting messages and publishes the
+    last estimate. A thread receives, processes and publishes, so that services respond while
+    tables are computed.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("follower")
+        return_large_blocks()
+        declare_options(self)
+        self._options = options_of(self)
+        self._intake: Intake | None = None
+        self._beside: TwinBeside | None = None
+        self._live: LiveFollower | None = None
+        self._outlets: dict[str, LifecyclePublisher] = {}
+        self._sequence: dict[str, int] = {}
+        self._events: dict[tuple[str, float], tuple[int, Event]] = {}
+        self._periods, self._learned, self._jumps = 0, "", 0
+        self._teeth: list[int] = []
+        self._timer: Timer | None = None
+        self._now = StrictClock(self.get_clock())
+        self.create_service(Trigger, "~/reset", self._reset)
+        self._acknowledged: set[tuple[str, float]] = set()
+        BaselineServices(self, self._active, self._acknowledge)
+
+    def configure(self) -> None:
+        """Load the scene and the sensors, and create publishers and subscriptions."""
+        self._options = options_of(self)
+        self._options.follower()  # refuses a scene that cannot be followed
+        train = followed_train(self._options.scene)
+        self._teeth = list(train.teeth.values())
+        if self._options.twin:
+            self._beside = TwinBeside(self, self._options.twin, train)
+        for name, kind in _KINDS.items():
+            qos = LATCHED if name in _KEPT else _QUEUED
+            self._outlets[name] = self.create_lifecycle_publisher(kind, f"~/{name}", qos)
+        self._outlets["diagnostics"] = self.create_lifecycle_publisher(
+            DiagnosticArray, "/diagnostics", 10
+        )
+        self._sequence = dict.fromkeys(_KINDS, 0)
+        self._intake = Intake(self)
+        for kind in self._intake.missing:
+            self.get_logger().info(f"{kind} is not installed: there is no subscription")
+
+    def activate(self) -> None:
+        """Start to follow, without readings."""
+        if self._intake is None:
+            raise ValueError("the node is not configured")
+        self._live = LiveFollower(self._options, self._intake, self)
+        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
+        self.get_logger().info(f"following {self._options.scene.name}")
+
+    def deactivate(self) -> None:
+        """Process the waiting messages, and publish the last estimate."""
+        self._end()
+        self._diagnose()
+        self._live = None
+        self._deliver()
+
+    def close(self) -> None:
+        """Release the subscriptions and the publishers."""
+        self._end()
+        self._live = None
+        if self._intake is not None:
+            self._intake.close()
+            self._intake = None
+        if self._beside is not None:
+            self._beside.close()
+            self._beside = None
+        for publisher in self._outlets.values():
+            self.destroy_lifecycle_publisher(publisher)
+        self._outlets = {}
+
+    # Called by the live follower, in its thread.
+
+    def started(self) -> None:
+        """Count events and hunting periods from one again."""
+        self._events, self._periods, self._learned = {}, 0, ""
+        self._acknowledged = set()
+
+    def estimated(self, following: Following) -> None:
+        """Publish a new estimate."""
+        frame = self._options.frame
+        self._send("estimate", estimate_message(following, frame, self._next("estimate")))
+        self._send("residuals", residuals_message(following, frame, self._next("residuals")))
+        self._announce(following)
+        if self._beside is not None:
+            self._beside.follow(following)
+        periods = following.counters.get("hunting_periods", 0)
+        if periods != self._periods:
+            self._periods = periods
+            number = self._next("teeth")
+            self._send("teeth", teeth_message(following, frame, number, self._teeth))
+        learned = repr([cell[2:] for cell in following.cells])
+        if learned != self._learned and following.cells:
+            self._learned = learned
+            self._send("baseline", baseline_message(following, frame, self._next("baseline")))
+
+    def refused(self, reason: str) -> None:
+        """Report readings that contradict the scene."""
+        self.get_logger().error(f"{reason}; following has ended until ~/reset")
+
+    def jumped(self, seconds: float) -> None:
+        """Report stamps that have jumped back."""
+        self._jumps += 1
+        restarts = self._options.reset_on_time_jump
+        what = "restarts" if restarts else "readings are late until stamps are newer than before"
+        self.get_logger().warning(f"stamps have jumped back by {seconds:.1f} s: {what}")
+
+    def broke(self, defect: Exception) -> None:
+        """Report the reason, unless a signal has shut down ROS."""
+        if not self.context.ok():
+            return
+        if not isinstance(defect, (ValueError, ArithmeticError)):
+            self.get_logger().error("".join(traceback.format_exception(defect)))
+        self.fail(f"following stopped: {defect}")
+
+    def _active(self) -> LiveFollower:
+        """Return the live follower; raises `ValueError` if there is none."""
+        if self._live is None:
+            raise ValueError("the follower is not active")
+        return self._live
+
+    def _acknowledge(self) -> int:
+        """Acknowledge all events; return how many are new to it."""
+        before = len(self._acknowledged)
+        self._acknowledged.update(key_of(event) for event in self._active().latest.events)
+        return len(self._acknowledged) - before
+
+    def _announce(self, following: Following) -> None:
+        """Publish events that are new or have changed."""
+        for event in following.events:
+            key = key_of(event)
+            number, before = self._events.get(key, (len(self._events) + 1, None))
+            if event == before:
+                continue
+            if before is None:
+                self.get_logger().warning(f"{event.what}: {event.evidence}")
+            self._events[key] = number, event
+            sequence = self._next("event")
+            self._send("event", event_message(event, self._options.frame, sequence, number))
+
+    def _next(self, name: str) -> int:
+        self._sequence[name] += 1
+        return self._sequence[name]
+
+    def _send(self, name: str, message: object) -> None:
+        self._outlets[name].publish(message)
+
+    def _end(self) -> None:
+        if self._timer is not None:
+            self.destroy_timer(self._timer)
+            self._timer = None
+        if self._live is not None:
+            self._live.stop()
+
+    def _deliver(self) -> None:
+        """Wait until subscribers have received all: a logger may end at once after this node."""
+        deadline = time.monotonic() + _LAST
+        for publisher in self._outlets.values():
+            left = max(deadline - time.monotonic(), 0.0)
+            publisher.wait_for_all_acked(Duration(seconds=left))
+
+    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        live = self._live
+        response.success = live is not None
+        response.message = "restarts" if live else "the follower is not active"
+        if live is not None:
+            live.reset()
+        return response
+
+    def _diagnose(self) -> None:
+        live, intake = self._live, self._intake
+        if live is None or intake is None:
+            return
+        timeout = self._options.sensor_timeout
+        feed = Feed(
+            live.silent, timeout, live.refusal, self._jumps, live.behind, intake.shared,
+            frozenset(self._acknowledged),
+        )  # fmt: skip
+        limits = Limits(*(self.get_parameter(f"{n}_limit").value for n in ("friction", "tooth")))
+        message = diagnostics(
+            rows(live.latest, feed, limits), self.get_namespace(), self._options.hardware
+        )
+        set_stamp(message.header.stamp, self._now.now())
+        self._send("diagnostics", message)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until a signal ends it; returns the exit code."""
+    return run_node(Follower, args)

@@ -1,0 +1,7 @@
+"""Run the plant node."""
+
+import sys
+
+from .node import main
+
+sys.exit(main())

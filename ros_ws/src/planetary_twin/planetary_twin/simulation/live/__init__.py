@@ -1,0 +1,1 @@
+"""The thread that advances the twin, paced by the steady clock."""

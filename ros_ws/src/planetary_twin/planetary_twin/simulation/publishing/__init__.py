@@ -1,0 +1,1 @@
+"""The messages of the simulation, and their stamps."""

@@ -1,0 +1,108 @@
+"""Services that pause, step and reset simulated time."""
+
+from __future__ import annotations
+
+import contextlib
+from concurrent.futures import Future
+from typing import Protocol
+
+from planetary_twin_msgs.srv import Step
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool, Trigger
+
+from planetary_twin_py import Twin
+from planetary_twin_py.recording.ros2.given import joint_names
+
+from ..base.clock import set_stamp
+from ..base.command_queue import answer
+from .live.live_twin import LiveTwin
+
+
+class TimeControl(Protocol):
+    """The part of a simulation that its services use."""
+
+    def running(self) -> LiveTwin:
+        """Return the live twin; raises `ValueError` if there is none."""
+
+    def reset(self) -> Future[float]:
+        """Start again at simulated time zero; the future returns the instant [s]."""
+
+    def command(self, message: JointState) -> dict[str, float]:
+        """Return what a command gives at the ports, as arguments of `Twin.advance`."""
+
+    def stamp(self, instant: float) -> int:
+        """Return the ROS time [ns] of a simulated instant [s]."""
+
+
+def show_ports(twin: Twin, message: JointState) -> None:
+    """Fill `message` with angles, speeds and torques of the input and the output shaft."""
+    ports = twin.port_states
+    message.name = list(joint_names(twin.scene))
+    message.position = [ports.input_angle, ports.output_angle]
+    message.velocity = [ports.input_speed, ports.output_speed]
+    message.effort = [ports.input_torque, ports.output_torque]
+
+
+class TimeServices:
+    """The services `~/pause`, `~/step` and `~/reset` of `node` for `control`."""
+
+    def __init__(self, node: Node, control: TimeControl) -> None:
+        self._control = control
+        node.create_service(SetBool, "~/pause", self._pause)
+        node.create_service(Step, "~/step", self._step)
+        node.create_service(Trigger, "~/reset", self._reset)
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        word = "paused" if request.data else "runs"
+        return answer(
+            response,
+            lambda: self._control.running().pause(request.data),
+            lambda instant: f"{word} from {instant:.9g} s",
+        )
+
+    def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
+        states: list[JointState] = []
+
+        def show(twin: Twin) -> None:
+            states.append(self._state(twin))
+            response.state = states[-1]
+            self._date(response, twin.time)
+
+        def step() -> Future[float]:
+            if request.commands and request.command.name:
+                raise ValueError("command: must be empty if there are commands")
+            each = [
+                self._control.command(every) for every in request.commands or [request.command]
+            ]
+            return self._control.running().step(request.duration, each, show)
+
+        answer(response, step, lambda instant: "")
+        if not states:
+            self._date_refusal(response)
+        if request.commands:
+            response.states = states
+        return response
+
+    def _date(self, response: Step.Response, instant: float) -> None:
+        """Set the time of a response to a simulated instant [s]."""
+        response.simulated_time = instant
+        set_stamp(response.stamp, self._control.stamp(instant))
+
+    def _date_refusal(self, response: Step.Response) -> None:
+        """Set the time of a response to the present one, which exists if the node is active."""
+        with contextlib.suppress(ValueError):
+            self._date(response, self._control.running().progress.simulated)
+
+    def _state(self, twin: Twin) -> JointState:
+        """Return the present state of the shafts."""
+        message = JointState()
+        set_stamp(message.header.stamp, self._control.stamp(twin.time))
+        if not twin.scene.quasi_static:
+            show_ports(twin, message)
+        return message
+
+    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        return answer(
+            response, self._control.reset, lambda instant: f"starts again at {instant:.9g} s"
+        )

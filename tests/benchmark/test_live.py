@@ -1,0 +1,75 @@
+"""The live benchmark measures a separate process correctly."""
+
+from __future__ import annotations
+
+import math
+import mmap
+import os
+import time
+
+import numpy as np
+import pytest
+from planetary_twin_live.figures import Quantiles, Slope
+from planetary_twin_live.measure import Bench
+from planetary_twin_live.process import processor_time, resident_memory
+
+
+def test_quantiles_are_those_of_the_sample() -> None:
+    assert Quantiles.of(list(range(101))) == (50.0, 99.0, 100.0)
+    assert all(math.isnan(value) for value in Quantiles.of([]))
+
+
+def test_a_slope_is_found_within_its_error() -> None:
+    time = np.linspace(0.0, 1.0, 200)
+    noise = np.random.default_rng(1).normal(0.0, 0.1, 200)
+    slope = Slope.of(time, 250.0 + 3.0 * time + noise)
+    assert abs(slope.value - 3.0) < 4.0 * slope.error < 0.3
+
+
+@pytest.mark.parametrize("correlation", [0.0, 0.5, 0.9])
+def test_the_error_of_a_slope_is_its_scatter(
+    correlation: float,
+) -> None:
+    time, random, slopes = np.linspace(0.0, 1.0, 500), np.random.default_rng(2), []
+    for _ in range(200):
+        noise = np.zeros(500)
+        for n, step in enumerate(random.normal(0.0, 0.1, 499), start=1):
+            noise[n] = correlation * noise[n - 1] + step
+        slopes.append(Slope.of(time, noise))
+    scatter = np.std([slope.value for slope in slopes])
+    assert np.mean([slope.error for slope in slopes]) == pytest.approx(scatter, rel=0.25)
+
+
+def test_processor_time_is_that_used_by_the_process() -> None:
+    before, wall = processor_time(os.getpid()), time.process_time()
+    while time.process_time() - wall < 0.3:
+        pass
+    assert processor_time(os.getpid()) - before == pytest.approx(0.3, abs=0.05)
+
+
+def test_resident_memory_grows_by_the_memory_written() -> None:
+    before = resident_memory(os.getpid())
+    # A new mapping: an array could reuse memory that the process has freed but not returned.
+    with mmap.mmap(-1, 50_000_000, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS) as block:
+        block[:: mmap.PAGESIZE] = b"1" * (len(block) // mmap.PAGESIZE + 1)
+        grown = resident_memory(os.getpid()) - before
+    assert grown == pytest.approx(50.0, abs=5.0)
+
+
+@pytest.mark.exhaustive
+def test_a_short_measurement_gives_plausible_figures(
+    domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("planetary_twin_live.measure.SETS", 5)
+    monkeypatch.setattr("planetary_twin_live.measure.SETTLING", 1.5)
+    said: list[str] = []
+    found = Bench(2.0, said.append).punctuality(100.0)
+    assert found.messages > 0 and found.lost == 0
+    assert 0.0 < found.sent.p50 <= found.sent.p99 <= found.sent.max
+    # A value appears at the end of the interval after the one in which it was set.
+    assert found.answer.p50 < found.shown.p50
+    assert found.shown.p50 > 0.01
+    cost = Bench(2.0, said.append).cost("paper", 1e-3, 2)
+    assert cost.tolerance == 1e-3 and cost.listeners == 2
+    assert 0.01 < cost.cores < 2.0
+    assert said

@@ -1,0 +1,168 @@
+"""A twin is read, changed and watched on a machine without the `ros2` command."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from subprocess import CompletedProcess
+
+import pytest
+from planetary_twin.clients.monitor import FIGURES, sparkline
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+
+from ..peer import Peer
+from ..programs import Forked
+
+Command = Callable[..., CompletedProcess[str]]
+
+
+@pytest.fixture
+def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Command:
+    """The result of `planetary-twin` with arguments, which must not take long."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+    def run(*arguments: str) -> CompletedProcess[str]:
+        process = Forked("planetary_twin_py.cli", *arguments, cwd=tmp_path)
+        output, errors = process.communicate(60.0)
+        return CompletedProcess(arguments, process.wait(), output, errors)
+
+    return run
+
+
+def test_values_may_have_units_and_the_result_is_printed(
+    command: Command, user: Peer, points: list[OperatingPoint]
+) -> None:
+    answer = command("param", "set", "backlash", "0.3 um")
+    assert (answer.returncode, answer.stdout.strip()) == (
+        0,
+        "backlash = 3e-07 m (0.3 um)",
+    ), answer.stderr
+    user.until(lambda: points[-1].backlash == pytest.approx(3e-7))
+    assert command("param", "get", "backlash").stdout.strip() == "3e-07"
+    answer = command("op", "input_speed=2000 rpm", "lambda_ratio=1.5")
+    assert answer.returncode == 0 and answer.stdout.startswith("input_speed, lambda_ratio from ")
+    user.until(lambda: points[-1].lambda_ratio == 1.5)
+    assert points[-1].input_speed == pytest.approx(2000 * math.pi / 30)
+    assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
+    assert answer.stderr == ""
+    answer = command("op", "input_speed=100", "lambda_ratio=1.5")
+    echo = "input_speed = 100 rad/s (954.9 rpm): no unit is given, so this is SI"
+    assert answer.stderr.strip() == f"planetary-twin: {echo}"
+
+
+def test_without_a_twin_in_the_namespace_others_are_named(
+    command: Command, points: list[OperatingPoint]
+) -> None:
+    assert points
+    answer = command("param", "get", "backlash", "--namespace", "/elsewhere")
+    assert answer.returncode != 0 and answer.stderr.count("\n") == 1
+    assert "there is one in /planetary_twin: choose with --namespace" in answer.stderr
+
+
+def test_a_mistyped_name_is_refused_with_a_similar_one(
+    command: Command, points: list[OperatingPoint]
+) -> None:
+    assert points
+    answer = command("param", "set", "backlas", "1")
+    assert answer.returncode != 0 and answer.stderr.count("\n") == 1
+    assert "backlas: no such parameter; did you mean backlash?" in answer.stderr
+
+
+def test_values_may_be_negative(command: Command, points: list[OperatingPoint]) -> None:
+    for typed in ("-104 rad/s", "-104", "-1e2"):
+        answer = command("param", "set", "input_speed", typed)
+        assert answer.returncode == 0, answer.stderr
+    assert answer.stdout == "input_speed = -100 rad/s (-954.9 rpm)\n"
+
+
+def test_every_parameter_is_listed_with_its_range(
+    command: Command, points: list[OperatingPoint]
+) -> None:
+    listed = command("param", "list").stdout
+    for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
+        assert words in listed
+    assert "qos_overrides" not in listed
+    names = [line.split()[0] for line in listed.splitlines()[1:] if line[0] != " "]
+    # Those that may change now are first.
+    assert names.index("torque_ripple") < names.index("autostart")
+    assert names.index("backlash") < names.index("torque_ripple")
+    (line,) = [line for line in listed.splitlines() if line.startswith("backlash ")]
+    assert "0 to 0.001" in line and line.rstrip().endswith("[m]")
+
+
+def test_invalid_arguments_end_in_one_line(command: Command, points: list[OperatingPoint]) -> None:
+    for arguments, reason in (
+        (("param", "set", "backlash", "3"), "backlash"),
+        (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
+        (("param", "set", "backlash", "3 kg"), "backlash"),
+        (("param", "set", "scene", "other"), "scene"),
+        (("param", "get", "gap"), "gap: no such parameter"),
+        (("op", "gap=1"), "gap: no such quantity"),
+        (("op", "drive.input.port=torque"), "planetary-twin param set drive.input.port VALUE"),
+        (("op", "backlash"), "NAME=VALUE"),
+        (("op", "input_torque=1e9"), "input_torque"),
+        (
+            ("op", "input_speed=20000 rpm"),
+            "input_speed = 2094.4 rad/s: must be a number within -1100 and 1100 rad/s "
+            "(-10504.2 rpm to 10504.2 rpm)",
+        ),
+        (("op", "input_speed=1100.0000001"), "input_speed = 1100.0000001 rad/s: must be"),
+    ):
+        answer = command(*arguments)
+        assert answer.returncode == 2, answer.stdout
+        assert len(answer.stderr.strip().splitlines()) == 1 and reason in answer.stderr
+    assert len(points) == 1
+
+
+def test_a_command_reports_that_no_twin_runs(command: Command, domain: int) -> None:
+    for arguments in (("param", "list"), ("monitor",)):
+        answer = command(*arguments)
+        assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
+
+
+def test_a_duration_too_short_to_watch_is_refused_in_one_line(command: Command) -> None:
+    for duration in ("0.01", "-1", "nan"):
+        answer = command("monitor", "--duration", duration)
+        assert answer.returncode == 2
+        (line,) = answer.stderr.splitlines()
+        assert line.endswith(f"--duration = {float(duration):g} s: must be at least 0.1 s")
+
+
+def test_the_monitor_shows_every_figure(command: Command, points: list[OperatingPoint]) -> None:
+    answer = command("monitor", "--duration", "2.5")
+    assert answer.returncode == 0, answer.stderr
+    for figure in FIGURES:
+        assert figure.title in answer.stdout
+    assert answer.stdout.count("Speed of the motor") >= 2
+    assert "1000 " in answer.stdout and "Mesh cycles" in answer.stdout
+
+
+def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan() -> None:
+    assert sparkline([0.0, 7.0, math.nan, 3.5]) == "▁█ ▅"
+    assert sparkline([2.0, 2.0]) == "▁▁"
+    assert sparkline([0.0, 0.0]) == "▁▁"
+    assert sparkline([1000.0, 1000.0 + 1e-9, 1000.0]) == "▁▁▁"  # rounding is not a swing
+    assert sparkline([-1000.0, -995.0, -990.0]) == "▁▅█"  # 1 % of the largest magnitude is one
+    assert sparkline([math.nan]) == ""
+
+
+def test_figures_are_numbers_also_for_gearsets_with_few_planets() -> None:
+    state = GearboxState(planets=2)
+    for name, kind in state.get_fields_and_field_types().items():
+        if kind == "double[7]":
+            getattr(state, name)[2:] = math.nan
+    assert all(math.isfinite(figure.value(state)) for figure in FIGURES)
+
+
+def test_every_figure_of_one_kind_of_mesh_names_it() -> None:
+    for kind in ("sun_planet", "planet_ring"):
+        states = []
+        for level in (1.0, 2.0):
+            state = GearboxState(planets=3)
+            for name in state.get_fields_and_field_types():
+                if name.startswith(kind):
+                    getattr(state, name)[:] = level
+            states.append(state)
+        moved = [figure.title for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
+        assert moved and all(kind.replace("_", "-") in name for name in moved)

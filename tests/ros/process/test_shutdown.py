@@ -1,0 +1,190 @@
+"""A node ends cleanly at any signal and during any work, and its peers continue."""
+
+from __future__ import annotations
+
+import itertools
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import rclpy
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from planetary_twin.base.lifecycle_node import shut_down
+from planetary_twin_msgs.msg import GearboxState, RecorderStatus
+from planetary_twin_msgs.srv import Step
+from rclpy.context import Context
+from std_srvs.srv import SetBool
+from tiers import first
+
+from ..conftest import Start
+from ..peer import TWIN, Peer
+from ..processes import holding
+from ..recordings import counts, unfinished_states
+from ..reported import recorded
+
+NODE = f"{TWIN}/simulation"
+STATES = f"{TWIN}/gearbox_state"
+QUICK = 60.0  # [s] on a busy machine; shorter than an interval, a step or a build
+
+
+def ended_well(process: subprocess.Popen[str]) -> str:
+    """Its output, after it has ended in time, with exit code 0 and no traceback."""
+    _, errors = process.communicate(timeout=QUICK)
+    assert process.returncode == 0, errors
+    assert "Traceback" not in errors
+    return errors
+
+
+def twice(process: subprocess.Popen[str], number: signal.Signals) -> None:
+    """Send a signal twice, as a user who presses Ctrl-C twice."""
+    process.send_signal(number)
+    process.send_signal(number)
+
+
+@pytest.fixture
+def start(execute: Start) -> Start:
+    """Start nodes as users do: the start and the end of the interpreter matter here."""
+    return execute
+
+
+def running(peer: Peer, start: Start, *options: str) -> subprocess.Popen[str]:
+    """A simulation that publishes."""
+    process = start("planetary_twin.simulation", *options)
+    states = peer.listen(GearboxState, STATES)
+    peer.until(lambda: states)
+    return process
+
+
+def ask(peer: Peer, kind: type, service: str, request: object) -> None:
+    """Send a request whose response may never arrive."""
+    client = peer.node.create_client(kind, service)
+    peer.until(client.service_is_ready)
+    client.call_async(request)
+
+
+@pytest.mark.parametrize("name", first(1, ["simulation", "logger"]))
+def test_a_signal_while_a_node_loads_ends_it_without_output(
+    domain: int, tmp_path: Path, name: str
+) -> None:
+    for library in ("numpy", "_rclpy", "fastrtps"):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen(
+                [Path(sys.prefix, "lib/planetary_twin", name)],
+                cwd=tmp_path,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            deadline = time.monotonic() + 60.0
+            while not holding(process.pid, library):
+                assert time.monotonic() < deadline and process.poll() is None
+            twice(process, number)
+            ended_well(process)
+
+
+def test_two_signals_at_any_moment_end_a_running_node_cleanly(peer: Peer, start: Start) -> None:
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = running(peer, start)
+        twice(process, number)
+        ended_well(process)
+
+
+def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer: Peer, start: Start) -> None:
+    slow = ("--ros-args", "-p", "rate_factor:=0.01", "-p", "publish_rate:=10.0")
+    process = start("planetary_twin.simulation", *slow)
+    client = peer.node.create_client(SetBool, f"{NODE}/pause")
+    peer.until(client.service_is_ready)
+    process.send_signal(signal.SIGINT)
+    ended_well(process)
+    paused = running(peer, start)
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    paused.send_signal(signal.SIGINT)
+    ended_well(paused)
+
+
+@pytest.mark.exhaustive
+def test_a_signal_during_a_call_or_transition_ends_the_node(peer: Peer, start: Start) -> None:
+    process = running(peer, start)
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    states = peer.listen(GearboxState, STATES)
+    ask(peer, Step, f"{NODE}/step", Step.Request(duration=10.0))
+    peer.until(lambda: states)
+    process.send_signal(signal.SIGINT)
+    ended_well(process)
+    for label in ("deactivate", "cleanup", "shutdown"):
+        process = running(peer, start)
+        if label == "cleanup":
+            stop = ChangeState.Request(transition=Transition(label="deactivate"))
+            assert peer.call(ChangeState, f"{NODE}/change_state", stop).success
+        request = ChangeState.Request(transition=Transition(label=label))
+        ask(peer, ChangeState, f"{NODE}/change_state", request)
+        process.send_signal(signal.SIGTERM)
+        ended_well(process)
+
+
+def test_both_nodes_end_on_one_ctrl_c(peer: Peer, start: Start, tmp_path: Path) -> None:
+    logger = start("planetary_twin.logger", name="bag")
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
+    peer.until(lambda: recorded(status, STATES) > 50)
+    for process in (logger, simulation):  # as Ctrl-C reaches the group
+        twice(process, signal.SIGINT)
+    ended_well(simulation)
+    assert "lost none" in ended_well(logger)
+    assert counts(tmp_path / "recordings/bag")[STATES] > 50
+
+
+@pytest.mark.exhaustive
+def test_each_node_may_be_killed_and_restarted(peer: Peer, start: Start, tmp_path: Path) -> None:
+    states = peer.listen(GearboxState, STATES)
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    simulation = running(peer, start)
+    first = start("planetary_twin.logger", name="first")
+    peer.until(lambda: recorded(status, STATES) > 50)
+    first.kill()
+    first.wait(QUICK)
+    status.clear()
+    second = start("planetary_twin.logger", name="second")
+    peer.until(lambda: recorded(status, STATES) > 50)
+    assert [b.sequence - a.sequence for a, b in itertools.pairwise(states)] == [1] * (
+        len(states) - 1
+    )
+    assert len(unfinished_states(tmp_path / "recordings/first/first_0.mcap")) > 50
+
+    simulation.kill()
+    simulation.wait(QUICK)
+    before = recorded(status, STATES)
+    received = len(states)
+    running(peer, start)
+    peer.until(lambda: recorded(status, STATES) > before + 50)
+    assert any(state.sequence < states[received - 1].sequence for state in states[received:])
+    second.terminate()
+    ended_well(second)
+    assert counts(tmp_path / "recordings/second")[STATES] > before + 50
+
+
+@pytest.mark.parametrize("faster", [True, False])
+def test_a_faster_signal_is_no_failure_of_rcl(
+    monkeypatch: pytest.MonkeyPatch, faster: bool
+) -> None:
+    context = Context()
+    rclpy.init(context=context)
+
+    def refused(context: Context) -> None:
+        if faster:
+            context.try_shutdown()
+        raise RuntimeError("rcl_shutdown failed")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(rclpy, "try_shutdown", refused)
+        if faster:
+            shut_down(context)
+        else:
+            with pytest.raises(RuntimeError, match="rcl_shutdown failed"):
+                shut_down(context)
+    shut_down(context)
+    assert not context.ok()

@@ -1,0 +1,146 @@
+"""`planetary-twin run --plant` plays a plant, follows it, records both and shows what was found."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from intervals import agrees
+from planetary_twin.running.command import _plant_plan
+from tiers import first_rows
+
+from ..peer import LONG, TWIN, Peer
+from ..recordings import counts
+from .test_run import COMMAND
+
+HIDDEN = """
+sensors:
+  input_torque: {noise: 0.1 N m}
+  output_torque: {noise: 0.25 N m}
+  speed_noise: 0.02 rad/s
+  vibration: {rate: 4 kHz, packet: 40}
+changes: [{at: 6 s, friction: 1.5}]
+"""
+
+CRACK = """
+duty: {torque_wander: 0.02}
+sensors:
+  input_torque: {noise: 0.1 N m, zero: 0.03 N m, gain: 5e-4}
+  output_torque: {noise: 0.25 N m}
+  speed_noise: 0.02 rad/s
+  encoders: {rate: 20 kHz, lost: 0.003}
+changes:
+  - at: 25 s
+    faults: [{kind: crack, gear: sun, tooth: 7, stiffness_loss: 0.01}]
+"""
+
+Run = Callable[..., subprocess.Popen[str]]
+
+
+@pytest.fixture
+def run(domain: int, tmp_path: Path) -> Run:
+    """Start `planetary-twin run --plant paper` with options."""
+    (tmp_path / "hidden.yaml").write_text(HIDDEN)
+
+    def start(*options: str) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, *COMMAND, "--plant", "paper", *options],
+            cwd=tmp_path,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    return start
+
+
+@pytest.mark.exhaustive
+def test_a_hidden_change_is_found_shown_and_recorded(run: Run, tmp_path: Path) -> None:
+    process = run("--hidden", "hidden.yaml", "--duration", "10", "--record", "rig",
+                  "--json", "out.json")  # fmt: skip
+    output, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 0, errors
+    assert "loss torque stepped" in output and "IDENTIFIABLE" in output
+    figures = json.loads((tmp_path / "out.json").read_text())
+    (step,) = (one for one in figures["events"] if one["what"] == "loss torque stepped")
+    assert 6.0 < step["found"] < 10.0 and step["since"] < step["found"]
+    assert figures["estimates"]["input_torque"]["status"] == "ESTIMATED"
+    recorded = counts(tmp_path / "recordings" / "rig")
+    assert recorded[f"{TWIN}/measured/joint_states"] == 1000
+    assert recorded[f"{TWIN}/measured/vibration"] == 1000
+    assert recorded[f"{TWIN}/follower/estimate"] > 50
+    assert recorded[f"{TWIN}/follower/event"] >= 1
+
+
+@pytest.mark.exhaustive
+def test_a_crack_of_one_percent_is_found_in_four_seconds(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "crack.yaml").write_text(CRACK)
+    process = run("--hidden", "crack.yaml", "--duration", "33", "--json", "out.json")
+    _, errors = process.communicate(timeout=5 * LONG)
+    assert process.returncode == 0, errors
+    (crack,) = json.loads((tmp_path / "out.json").read_text())["events"]
+    assert crack["what"] == "sun tooth 7 changed"
+    assert 25.0 < crack["found"] < 29.0
+    assert agrees(crack["low"], 0.01, crack["high"])
+
+
+@pytest.mark.release
+def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "healthy.yaml").write_text(CRACK.partition("changes:")[0])
+    process = run("--hidden", "healthy.yaml", "--duration", "120", "--json", "out.json")
+    _, errors = process.communicate(timeout=5 * LONG)
+    assert process.returncode == 0, errors
+    figures = json.loads((tmp_path / "out.json").read_text())
+    assert figures["events"] == [] and figures["teeth"] == []
+
+
+@pytest.mark.exhaustive
+def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path: Path) -> None:
+    from planetary_twin_msgs.msg import FollowerEstimate
+
+    estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")
+    (tmp_path / "unchanged.yaml").write_text(HIDDEN.partition("changes:")[0])
+    process = run("--hidden", "unchanged.yaml", "--duration", "600", "--record", "rig")
+    peer.until(lambda: any(one.input_torque_status == "ESTIMATED" for one in estimates))
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 0, errors
+    assert "no change in the torque balance; not judged: vibration" in output
+    assert counts(tmp_path / "recordings" / "rig")[f"{TWIN}/measured/joint_states"] > 0
+
+
+def test_changes_after_the_end_are_named_before_it_runs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "late.yaml"
+    path.write_text("changes: [{at: 90 s, friction: 1.5}]")
+    _plant_plan("paper", 20.0, None, (path, None))
+    assert "changes: those at 90 s or later have no effect" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    first_rows(
+        1,
+        [
+            (("--hidden", "none.yaml"), "none.yaml: No such file or directory"),
+            (
+                ("--set", "backlash=1e-7"),
+                "--plant: --set, --param, --rate-factor, --tolerance are options",
+            ),
+            (("--duration", "inf"), "--duration = inf s: must be at most 86400 s"),
+        ],
+    ),
+)
+def test_invalid_options_are_refused_in_one_line(
+    run: Run, options: tuple[str, ...], line: str
+) -> None:
+    process = run(*options)
+    _, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 2
+    assert line in errors.strip().splitlines()[-1]

@@ -1,0 +1,70 @@
+"""An overloaded twin gives up tolerance, then waveform, then real time, and reports it."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
+
+import planetary_twin_py as pt
+from planetary_twin_py.run.quality_control import HALVINGS, Setting
+from planetary_twin_py.run.tolerance import LADDER
+
+from ...conftest import Start
+from ...peer import LATCHED, LONG, TWIN, Peer
+from ...reported import assert_simulated_again, figures, reported_settings
+
+NODE = f"{TWIN}/simulation"
+SAMPLE_RATE = 50e3
+FLOOR = SAMPLE_RATE / 2**HALVINGS
+# Its first windows last some hundred times longer than there is at 100 times real time.
+MOVING_AXES = "{base: floating_sun, operating_point: {input_speed: 1000.0}}"
+
+
+def test_an_overloaded_twin_degrades_in_order_and_reports_it(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    scene = tmp_path / "moving_axes.yaml"
+    scene.write_text(MOVING_AXES)
+    given = {"rate_factor": 100, "publish_rate": 10, "tolerance": 0.0}
+    process = start("planetary_twin.simulation", autostart="false", scene=scene, **given)
+    waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    peer.change_state(NODE, "configure")
+    peer.change_state(NODE, "activate")
+    peer.until(lambda: len(reports) >= 2 and len(waves) > 20)
+    peer.change_state(NODE, "deactivate")
+    peer.until(lambda: figures(reports)["state"] == "stopped")
+    process.terminate()
+    _, log = process.communicate(timeout=LONG)
+
+    reported = figures(reports)
+    settings = list(reported_settings(reported).values())
+    # Once mesh cycles repeat, a fast machine may improve the waveform again.
+    down = settings[: settings.index(Setting(LADDER[0], FLOOR)) + 1]
+    given_up = [(-setting.tolerance, setting.sample_rate) for setting in down]
+    assert given_up == sorted(given_up, reverse=True)
+    assert int(reported["tolerance_changes"]) >= 1 and int(reported["sample_rate_changes"]) >= 1
+    assert "thinned" in {figures([report]).get("waveform") for report in reports}
+    assert int(reported["overruns"]) > 0
+    # The first report may precede the end of the first interval.
+    late = [s for report in reports for s in report.status if " behind: " in s.message]
+    assert late and {s.level for s in late} <= {DiagnosticStatus.WARN, DiagnosticStatus.ERROR}
+    assert log.count("waveform at") == len(settings) - 1
+    assert 1 <= log.count("behind: ") <= len(reports)
+
+    by_number = {wave.sequence: wave for wave in waves}
+    pairs = [(state, by_number[state.sequence]) for state in states if state.sequence in by_number]
+    assert len(pairs) > len(waves) - 3  # the first messages of the two topics may differ
+    for state, wave in pairs:
+        begin, end = state.simulated_time - state.interval, state.simulated_time
+        numbers = [round(time / wave.sample_period, 6) for time in (begin, end)]
+        assert round(wave.start_time / wave.sample_period, 6) == numbers[0] // 1 + 1
+        assert wave.samples == numbers[1] // 1 - numbers[0] // 1
+    for before, after in itertools.pairwise(waves):
+        assert after.sequence == before.sequence + 1
+    assert_simulated_again(pt.load_scene(scene), waves, points, reported, SAMPLE_RATE)

@@ -1,0 +1,208 @@
+"""Users change the ports of a running twin by parameters; the recording repeats the run."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from planetary_twin_msgs.msg import OperatingPoint
+from planetary_twin_msgs.srv import Step
+from rcl_interfaces.srv import GetParameters
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+import planetary_twin_py as pt
+from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.schedule import read_runs
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.recording.runs.what_if import resimulate
+
+from ..conftest import Start
+from ..peer import LATCHED, TWIN, Peer
+from ..reported import check_verified
+from .test_shaft_commands import RING, SUN, received, torque
+
+NODE = f"{TWIN}/simulation"
+INPUT, OUTPUT = "drive.input.port", "drive.output.port"
+PAPER = pt.load_scene("paper")
+
+
+def ports(point: OperatingPoint) -> tuple[str, str]:
+    return point.input_port, point.output_port
+
+
+def ports_of(peer: Peer) -> list[str]:
+    """The ports by the parameters."""
+    request = GetParameters.Request(names=[INPUT, OUTPUT])
+    answer = peer.call(GetParameters, f"{NODE}/get_parameters", request)
+    return [value.string_value for value in answer.values]
+
+
+def test_ports_change_while_the_node_runs_and_verify(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    """Two machines, then torque and motion from outside, then machines again."""
+    logger = start("planetary_twin.logger", name="changed")
+    start("planetary_twin.simulation", wait_for="logger")
+    joints = peer.listen(JointState, f"{TWIN}/joint_states")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
+    peer.until(lambda: len(joints) > 20 and points and publisher.get_subscription_count() == 1)
+    assert ports(points[-1]) == ("machine", "machine")
+    changes = {INPUT: "torque", OUTPUT: "motion", "lambda_ratio": 1.5}
+    assert peer.set(NODE, atomically=True, **changes).successful
+    peer.until(lambda: ports(points[-1]) == ("torque", "motion"))
+    assert set(points[-1].changed.split(",")) == {"input_port", "output_port", "lambda_ratio"}
+    assert points[-1].lambda_ratio == 1.5
+    given = JointState(name=[SUN, RING], effort=[66.0, math.nan], velocity=[math.nan, -44.5])
+
+    def follows() -> bool:
+        publisher.publish(given)
+        return torque(joints[-1], SUN) == pytest.approx(66.0)
+
+    peer.until(follows)
+    assert torque(joints[-1], RING) == pytest.approx(147.0, rel=0.2)  # of the shaft, a result
+    for side in (INPUT, OUTPUT):
+        assert peer.set(NODE, **{side: "machine"}).successful
+    peer.until(lambda: ports(points[-1]) == ("machine", "machine"))
+    count = len(joints)
+    peer.until(lambda: len(joints) > count + 20)
+    check_verified(logger, folder := tmp_path / "recordings/changed")
+    (run,) = read_runs(folder, TWIN, [])
+    inputs = [change.values[INPUT] for change in run.changes]
+    assert inputs[:2] == ["machine", "torque"] and inputs[-1] == "machine"
+    assert {"input_torque", "output_speed"} <= {k for each in run.given.values() for k in each}
+    sun = read_recording(folder).state["sun_speed"]
+    assert np.abs(np.diff(sun)).max() < 0.1 * pt.rpm(1000)
+    made = resimulate(folder, TWIN, Branch({"lambda_ratio": 2.0}, 0.1), tmp_path / "branch")
+    assert verify(made.file.parent, TWIN).identical
+
+
+def test_ports_that_cannot_be_are_refused_in_one_line(
+    user: Peer, points: list[OperatingPoint]
+) -> None:
+    for values, reason in (
+        (
+            {INPUT: "pedal"},
+            "drive.input.port = 'pedal': must be 'machine', 'torque', 'motion' or 'brake'",
+        ),
+        ({INPUT: 3.0}, "drive.input.port = 3.0: must be of type STRING"),
+        ({INPUT: "torque", "input_speed": 1e5}, "input_speed = 100000.0 rad/s: must be"),
+        ({INPUT: "torque", OUTPUT: "pedal"}, "drive.output.port = 'pedal': must be"),
+    ):
+        result = user.set(NODE, atomically=True, **values)
+        assert not result.successful
+        assert result.reason.startswith(reason) and "\n" not in result.reason
+    assert ports_of(user) == ["machine", "machine"]
+    joints = user.listen(JointState, f"{TWIN}/joint_states")
+    user.until(lambda: len(joints) > 5)
+    assert len(points) == 1 and ports(points[-1]) == ("machine", "machine")
+
+
+def test_a_quasi_static_twin_has_no_other_ports(peer: Peer, start: Start, tmp_path: Path) -> None:
+    path = tmp_path / "slow.yaml"
+    path.write_text("base: paper\nname: slow\ndynamics: quasi_static\n")
+    start("planetary_twin.simulation", scene=path)
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: points)
+    result = peer.set(NODE, **{INPUT: "torque"})
+    assert result.reason == "drive.input.port = 'torque': requires dynamics other than quasi-static"
+
+
+def test_changes_of_ports_before_the_first_step_are_recorded(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
+    logger = start("planetary_twin.logger", name="lockstep")
+    start("planetary_twin.simulation", wait_for="logger", rate_factor=0.0, tolerance=0.0)
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: points)
+    peer.pause(NODE)
+    assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
+    assert peer.set(NODE, backlash=4e-7).successful
+    assert peer.set(NODE, **{INPUT: "torque"}).successful
+    request = Step.Request(duration=0.01, command=JointState(name=[SUN], effort=[60.0]))
+    answer = peer.call(Step, f"{NODE}/step", request)
+    assert answer.success, answer.message
+    twin = pt.Twin(PAPER)
+    twin.set(backlash=4e-7, **{INPUT: "torque"})
+    shown = twin.step(0.01, input_torque=60.0)
+    assert list(answer.state.effort) == pytest.approx(
+        [shown.input_torque, shown.output_torque], rel=1e-9
+    )
+    assert peer.set(NODE, **{INPUT: "machine"}).successful
+    peer.until(lambda: points[-1].simulated_time > 0.0)
+    assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05)).success
+    check_verified(logger, folder := tmp_path / "recordings/lockstep")
+    run = read_runs(folder, TWIN, [])[-1]
+    assert run.changes[-1].values[INPUT] == "machine"
+    assert "torque" in [change.values[INPUT] for change in run.changes]
+
+
+def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
+    return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
+
+
+def test_a_command_for_the_port_before_is_counted() -> None:
+    """One that the new port takes acts, also if it came just before the change."""
+    changed = twin("motion", "torque")
+    commands = received(JointState(name=[SUN], velocity=[90.0]))
+    changed.set(**{INPUT: "torque"})
+    assert commands.given(changed, 0.01) == {}
+    assert commands.ignored == {f"{SUN}: drive.input.port = torque": 1}
+    early = received(JointState(name=[SUN], effort=[50.0]))
+    assert early.given(changed, 0.01) == {"input_torque": 50.0}
+
+
+def test_no_command_is_missing_at_a_machine(clock: list[float]) -> None:
+    """The timeout of a port that is given again begins with its first command."""
+    changed = twin("torque", "torque")
+    message = JointState(name=[SUN, RING], effort=[63.0, 147.0])
+    commands = received(message, timeout=0.5, silence="zero")
+    commands.given(changed, 0.01)
+    changed.set(**{OUTPUT: "machine"})
+    commands.given(changed, 0.01)
+    clock[0] = 0.6
+    assert commands.given(changed, 0.01) == {"input_torque": 0.0}
+    changed.set(**{OUTPUT: "torque"})
+    assert commands.given(changed, 0.01) == {"input_torque": 0.0}
+
+
+def test_a_brake_begins_again_from_new_ports(
+    clock: list[float],
+) -> None:
+    changed = twin("torque", "torque")
+    commands = received(
+        JointState(name=[SUN, RING], effort=[63.0, 147.0]), timeout=0.5, silence="brake"
+    )
+    commands.given(changed, 0.01)
+    clock[0] = 0.6
+    changed.advance(0.01, **commands.given(changed, 0.01))
+    assert changed.ports == ("brake", "torque")
+    commands.release(changed)
+    changed.set(**{OUTPUT: "machine"})
+    assert changed.ports == ("torque", "machine")
+    assert commands.given(changed, 0.01) == {}
+    assert changed.ports == ("brake", "machine")
+    commands.receive(JointState(name=[SUN], effort=[20.0]))
+    assert commands.given(changed, 0.01) == {"input_torque": 20.0}
+    assert changed.ports == ("torque", "machine")
+
+
+def test_efforts_are_those_of_the_present_ports() -> None:
+    """Of a machine or a given torque, the torque on its rotor; of a motion, that of the shaft."""
+    by_window, by_steps = twin(), twin()
+    for each in (by_window, by_steps):
+        each.advance(0.1)
+        each.set(**{INPUT: "torque", OUTPUT: "motion"})
+    window = by_window.advance(0.01, input_torque=50.0)
+    sun, ring = (window.shaft_torque[window.bodies.index(name)] for name in ("sun", "ring"))
+    assert sun == pytest.approx(50.0, rel=1e-12)
+    shaft = [by_steps.step(1e-5, input_torque=50.0).output_torque for _ in range(1000)]
+    assert ring == pytest.approx(np.mean(shaft), rel=1e-3)
+    by_window.set(**{INPUT: "machine", OUTPUT: "machine"})
+    load = by_window.advance(0.01).shaft_torque[window.bodies.index("ring")]
+    assert load == pytest.approx(147.0, rel=0.03)

@@ -1,0 +1,166 @@
+"""Users change the operating point by parameters and a service; invalid values change nothing."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from planetary_twin_msgs.msg import OperatingPoint
+from planetary_twin_msgs.srv import SetOperatingPoint
+
+import planetary_twin_py as pt
+
+from ..conftest import Start
+from ..peer import LATCHED, LONG, TWIN, Peer
+
+ROOT = Path(__file__).parents[3]
+NODE = f"{TWIN}/simulation"
+
+
+def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoint]) -> None:
+    for typed in ("3e-7", 0, 2.5e-7):
+        assert user.set(NODE, backlash=typed).successful
+        assert user.get(NODE, "backlash") == float(typed)
+        user.until(lambda value=typed: points[-1].backlash == float(value))
+    assert user.set(NODE, lambda_ratio=2).successful
+    user.until(lambda: points[-1].lambda_ratio == 2.0)
+    assert points[-1].changed == "lambda_ratio"
+
+
+def test_invalid_values_are_refused_with_the_reason(
+    user: Peer, points: list[OperatingPoint]
+) -> None:
+    before = {name: user.get(NODE, name) for name in ("backlash", "lambda_ratio")}
+    for values in (
+        {"backlash": "wide"},
+        {"backlash": 1.0},
+        {"backlash": -1e-9},
+        {"backlash": math.nan},
+        {"lambda_ratio": "inf"},
+        {"lambda_ratio": True},
+        {"tolerance": 5e-09},
+        {"tolerance": -1e-3},
+        {"tolerance": math.nan},
+        {"tolerance": "tight"},
+    ):
+        result = user.set(NODE, **values)
+        assert not result.successful
+        ((name, value),) = values.items()
+        assert name in result.reason
+        assert str(value).lower() in result.reason.lower()
+    assert not user.set(NODE, backlash_typo=1.0).successful
+    assert not user.set(NODE, scene="other").successful
+    assert not user.set(NODE, atomically=True, backlash=3e-7, lambda_ratio=99.0).successful
+    assert {name: user.get(NODE, name) for name in before} == before
+    assert len(points) == 1
+
+
+def test_values_set_atomically_apply_from_one_instant(
+    user: Peer, points: list[OperatingPoint]
+) -> None:
+    values = {"backlash": "3e-7", "lambda_ratio": 2, "input_speed": 200.0}
+    assert user.set(NODE, atomically=True, **values).successful
+    user.until(lambda: len(points) == 2)
+    point = points[-1]
+    assert set(point.changed.split(",")) == set(values)
+    assert (point.backlash, point.lambda_ratio, point.input_speed) == (3e-7, 2.0, 200.0)
+    assert point.simulated_time > points[0].simulated_time
+
+
+def test_the_service_answers_with_the_instant_of_the_change(
+    user: Peer, points: list[OperatingPoint]
+) -> None:
+    service = f"{NODE}/set_operating_point"
+    request = SetOperatingPoint.Request(names=["backlash", "lambda_ratio"], values=[3e-7, 1.5])
+    answer = user.call(SetOperatingPoint, service, request)
+    assert answer.success
+    user.until(lambda: len(points) == 2)
+    assert answer.simulated_time == points[-1].simulated_time
+    assert answer.stamp == points[-1].header.stamp
+    assert user.get(NODE, "backlash") == 3e-7
+    for names, values in ((["backlash"], [1.0]), (["gap"], [1.0]), (["backlash"], []), ([], [])):
+        request = SetOperatingPoint.Request(names=names, values=values)
+        answer = user.call(SetOperatingPoint, service, request)
+        assert not answer.success
+        assert answer.message
+    assert user.get(NODE, "backlash") == 3e-7
+    assert len(points) == 2
+
+
+def test_a_ramp_reaches_the_values_in_the_requested_time(
+    user: Peer, points: list[OperatingPoint]
+) -> None:
+    request = SetOperatingPoint.Request(
+        names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=0.5
+    )
+    answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    assert answer.success, answer.message
+    user.until(lambda: points[-1].lambda_ratio == 2.0)
+    settled = len(points)
+    on_the_way = points[1:]
+    assert 45 <= len(on_the_way) <= 55
+    for point in on_the_way:
+        # A window uses, from its start, the value that the ramp has at its end.
+        share = min((point.simulated_time + 0.01 - answer.simulated_time) / 0.5, 1.0)
+        assert math.isclose(point.lambda_ratio, 1.0 + share, abs_tol=1e-9)
+        assert math.isclose(point.backlash, 2e-7 + 2e-7 * share, abs_tol=1e-15)
+    assert user.get(NODE, "lambda_ratio") == 2.0
+    assert user.set(NODE, lambda_ratio=1.0).successful
+    user.until(lambda: len(points) == settled + 1)
+
+
+def test_setting_a_quantity_ends_its_ramp(user: Peer, points: list[OperatingPoint]) -> None:
+    request = SetOperatingPoint.Request(
+        names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=2.0
+    )
+    assert user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request).success
+    user.until(lambda: len(points) > 5)
+    assert user.set(NODE, lambda_ratio=0.5).successful
+    user.until(lambda: points[-1].lambda_ratio == 0.5)
+    user.until(lambda: points[-1].backlash == 4e-7)
+    assert points[-1].lambda_ratio == 0.5
+
+
+@pytest.mark.parametrize("ramp", [-1.0, math.nan, 1e6])
+def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ramp: float) -> None:
+    request = SetOperatingPoint.Request(names=["backlash"], values=[4e-7], ramp=ramp)
+    answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    assert not answer.success and answer.message.startswith("ramp = ")
+    assert len(points) == 1
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "backlash:=7",
+        "rate_factor:=0.005",
+        "scene:=nowhere",
+    ],
+)
+def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given: str) -> None:
+    process = start("planetary_twin.simulation", "--ros-args", "-p", given)
+    _, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 1
+    assert len(errors.strip().splitlines()) == 1
+    assert given.split(":=")[1] in errors
+
+
+def test_the_default_parameter_file_leaves_values_to_the_scene(peer: Peer, start: Start) -> None:
+    file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"
+    given = ("--ros-args", "--params-file", str(file))
+    start("planetary_twin.simulation", *given, scene="lightly_loaded")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    point = peer.until(lambda: points, 120.0)[0]
+    scene = pt.load_scene("lightly_loaded").operating_point
+    assert {name: getattr(point, name) for name in pt.TUNABLES} == scene.model_dump()
+
+
+def test_the_shipped_parameter_file_is_the_packaged_scene(peer: Peer, start: Start) -> None:
+    file = ROOT / "ros_ws/src/planetary_twin/config/paper.yaml"
+    start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    point = peer.until(lambda: points, 120.0)[0]
+    shipped = pt.load_scene("paper").operating_point
+    for name in pt.TUNABLES:
+        assert math.isclose(getattr(point, name), getattr(shipped, name), rel_tol=1e-6)
