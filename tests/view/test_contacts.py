@@ -1,6 +1,8 @@
 """Tooth pairs in contact are where both flanks and the line of action meet."""
 
 import math
+from types import SimpleNamespace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -13,7 +15,9 @@ from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.robot.parts import carrier_radius, gear_of
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.view.contacts import contacts, forces, newtons
+from planetary_twin_py.view.contacts import contacts, forces, log_contacts, newtons
+from planetary_twin_py.view.motion import motion
+from planetary_twin_py.view.timeline import columns
 
 PAPER = load_scene("paper")
 FIVE = PAPER.replace(**{"gearset.planet_angles": tuple(2 * np.pi * k / 5 for k in range(5))})
@@ -164,6 +168,26 @@ def test_forces_are_samples_or_means_where_there_is_a_gap(tmp_path):
     assert np.array_equal(found[1], recording.per_mesh("mesh_force_mean")[2])
     recording.waveform = None
     assert np.all(forces(recording, np.array([0.01, 0.04])) > 0.0)
+
+
+def test_contacts_are_sent_in_blocks_that_miss_no_time(tmp_path, monkeypatch):
+    """So that a recording of hours needs little memory."""
+    recording, block = read_recording(write_recording(tmp_path / "a.mcap", 0.3)), 7
+    monkeypatch.setattr("planetary_twin_py.view.contacts._BLOCK", block)
+    sent = {}
+
+    def keep(path, index, strips):
+        times = index[0].as_arrow_array().to_numpy(zero_copy_only=False).tolist()
+        assert len(times) <= block
+        sent.setdefault(path, []).extend(times)
+
+    moved = motion(recording)
+    log_contacts(SimpleNamespace(send_columns=keep, log=Mock()), PAPER, recording, moved)
+    assert sorted(sent) == sorted(f"gears/carrier/contact/{mesh}" for mesh in recording.meshes)
+    expected = (
+        columns(moved.time, moved.stamp)[0].as_arrow_array().to_numpy(zero_copy_only=False).tolist()
+    )
+    assert len(expected) > 3 * block and all(times == expected for times in sent.values())
 
 
 def test_loads_have_readable_labels():

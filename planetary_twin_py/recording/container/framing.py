@@ -123,7 +123,7 @@ def next_chunk(stream: BinaryIO, begin: int) -> int | None:
 
 
 def _unpacked(chunk: Chunk) -> list[Any]:
-    """The records of a chunk; several times as fast as mcap's `breakup_chunk`."""
+    """The records of a chunk, in two thirds of the time of mcap's `breakup_chunk`."""
     _check_size(chunk)
     stream, size = get_chunk_data_stream(chunk, validate_crc=True)
     data, end, found = stream.read(size), 0, list[Any]()

@@ -8,7 +8,7 @@ from __future__ import annotations
 import struct
 from array import array
 from bisect import bisect_right
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,13 +17,14 @@ from typing import BinaryIO
 
 import numpy as np
 from mcap.opcode import Opcode
-from mcap.records import Channel, Message, Metadata, Schema
+from mcap.records import Message
 from numpy.typing import NDArray
 
+from .extent import Extent
 from .framing import DAMAGED
 from .integrity import damaged_data
-from .records import section_at, sections_of
-from .summary import ChunkPlace, read_summary
+from .records import section_at
+from .summary import ChunkPlace, Summary, read_summary, summary_of_records
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
@@ -47,7 +48,7 @@ class LogTimes:
             return
         if not self.recorded:
             self.first = self.last = int(times[0])
-        self.first = min(self.first, int(min(times)))
+        self.first = min(self.first, int(np.min(times)))
         newest = np.maximum.accumulate(np.concatenate(([self.last], times)))
         self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
         self.last = int(newest[-1])
@@ -74,12 +75,10 @@ class _Chunks:
 
 
 class Index:
-    """Schemas, channels and metadata of a file, and `times[channel]` of the messages."""
+    """A `summary` of a file, and `times[channel]` of the messages."""
 
     def __init__(self, file: Path) -> None:
-        self.schemas: dict[int, Schema] = {}
-        self.channels: dict[int, Channel] = {}
-        self.metadata: list[Metadata] = []
+        self.summary = Summary({}, {}, Counter(), Extent(), [], [])
         self.times: defaultdict[int, LogTimes] = defaultdict(LogTimes)
         self._chunks: defaultdict[int, _Chunks] = defaultdict(_Chunks)
         self._section = lru_cache(_KEPT)(lambda place: section_at(file, place))
@@ -91,16 +90,15 @@ class Index:
         Raises:
             one of `UNSOUND`: there is no index, or it is inconsistent.
         """
-        index, summary = cls(file), read_summary(file)
+        index = cls(file)
+        index.summary = summary = read_summary(file)
         if damaged_data(file):
             raise ValueError("checksum error")
-        index.schemas, index.channels = summary.schemas, summary.channels
-        index.metadata = summary.metadata
         with file.open("rb") as stream:
             for chunk in summary.chunks:
                 for channel, times in _entries(stream, chunk):
                     index._add(channel, chunk.place, times)
-        if any(summary.counts[c] != index.times[c].recorded for c in index.channels):
+        if any(summary.counts[c] != index.times[c].recorded for c in summary.channels):
             raise ValueError("messages are missing in the index")
         return index
 
@@ -112,19 +110,7 @@ class Index:
             RecordingError: nothing can be read.
         """
         index = cls(file)
-        for place, records in sections_of(file, remarks):
-            times: defaultdict[int, list[int]] = defaultdict(list)
-            for record in records:
-                if isinstance(record, Schema):
-                    index.schemas[record.id] = record
-                elif isinstance(record, Channel):
-                    index.channels[record.id] = record
-                elif isinstance(record, Metadata):
-                    index.metadata.append(record)
-                elif isinstance(record, Message):
-                    times[record.channel_id].append(record.log_time)
-            for channel, of_channel in times.items():
-                index._add(channel, place, np.array(of_channel, np.int64))
+        index.summary = summary_of_records(file, remarks, index._add)
         return index
 
     def message(self, channel: int, number: int) -> Message:

@@ -5,25 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
-from mcap.records import Channel, Message, Schema
+from mcap.records import Message
 
-from .extent import Extent
 from .framing import DAMAGED
 from .log_order import merged
 from .records import section_at
-from .summary import ChunkPlace, Summary, read_summary, summary_of_records
+from .summary import ChunkPlace, read_summary, summary_of_records
 
 Warn = Callable[[str], None]
-
-
-class Contents(NamedTuple):
-    """Contents of a file: channels with their schemas (None if missing), counts, and times."""
-
-    channels: dict[int, tuple[Channel, Schema | None]]
-    counts: Counter[str]
-    extent: Extent
 
 
 class Segment:
@@ -46,7 +36,13 @@ class Segment:
         self._warn = warn
         self._chunks = sorted(summary.chunks)
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
-        self.contents = _contents(summary)
+        self.extent = summary.extent
+        self.channels = [(c, summary.schemas.get(c.schema_id)) for c in summary.channels.values()]
+        """Channels and their schemas; None for a missing one."""
+        self.counts = Counter[str]()
+        """Messages by topic."""
+        for number, count in summary.counts.items():
+            self.counts[self._topics[number]] += count
 
     def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
         """Messages at or after log time `begin` [ns] with their topics, in order of log time."""
@@ -81,7 +77,7 @@ class Segment:
         try:
             records = section_at(self._file, chunk.place)
         except DAMAGED as reason:
-            begin = self.contents.extent.start
+            begin = self.extent.start
             first, last = chunk.start - begin, chunk.end - begin
             self._warn(
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
@@ -91,11 +87,3 @@ class Segment:
         for record in records:
             if isinstance(record, Message) and record.channel_id in self._topics:
                 yield record
-
-
-def _contents(summary: Summary) -> Contents:
-    counts: Counter[str] = Counter()
-    for number, count in summary.counts.items():
-        counts[summary.channels[number].topic] += count
-    channels = {n: (c, summary.schemas.get(c.schema_id)) for n, c in summary.channels.items()}
-    return Contents(channels, counts, summary.extent)

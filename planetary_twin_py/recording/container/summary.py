@@ -5,10 +5,12 @@ A day of a twin has 200 000 chunks.
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from mcap.records import (
     Channel,
     ChunkIndex,
@@ -19,11 +21,14 @@ from mcap.records import (
     Statistics,
 )
 from mcap.stream_reader import StreamReader
+from numpy.typing import NDArray
 
 from .extent import Extent
 from .framing import LONGEST_RECORD
 from .integrity import start_of_summary
 from .records import section_at, sections_of
+
+Adding = Callable[[int, int, NDArray[np.int64]], None]
 
 
 class ChunkPlace(NamedTuple):
@@ -91,18 +96,20 @@ def read_summary(file: Path) -> Summary:
     return Summary(schemas, channels, counts, extent, chunks, metadata)
 
 
-def summary_of_records(file: Path, remarks: list[str]) -> Summary:
+def summary_of_records(file: Path, remarks: list[str], add: Adding | None = None) -> Summary:
     """Make a summary of what can be read in a file, with a place for each section of messages.
 
     Args:
         file: MCAP file.
         remarks: a line is appended for each damaged part.
+        add: called with channel, place and log times [ns] of the messages in each section.
 
     Raises:
         RecordingError: nothing can be read.
     """
     found = Summary({}, {}, Counter[int](), Extent(), [], [])
     for place, records in sections_of(file, remarks):
+        times: defaultdict[int, list[int]] = defaultdict(list)
         for record in records:
             if isinstance(record, Schema):
                 found.schemas[record.id] = record
@@ -110,15 +117,17 @@ def summary_of_records(file: Path, remarks: list[str]) -> Summary:
                 found.channels[record.id] = record
             elif isinstance(record, Metadata):
                 found.metadata.append(record)
-        messages = [record for record in records if isinstance(record, Message)]
-        if messages:
-            times = [message.log_time for message in messages]
-            channels = [message.channel_id for message in messages]
-            found.counts.update(channels)
-            found.extent.include(min(times))
-            found.extent.include(max(times))
-            part = ChunkPlace(min(times), max(times), place, place, 0, frozenset(channels))
-            found.chunks.append(part)
+            elif isinstance(record, Message):
+                times[record.channel_id].append(record.log_time)
+        for channel, of_channel in times.items():
+            found.counts[channel] += len(of_channel)
+            if add is not None:
+                add(channel, place, np.array(of_channel, np.int64))
+        if times:
+            first, last = min(map(min, times.values())), max(map(max, times.values()))
+            found.extent.include(first)
+            found.extent.include(last)
+            found.chunks.append(ChunkPlace(first, last, place, place, 0, frozenset(times)))
     return found
 
 

@@ -56,18 +56,18 @@ class Playback:
         extent = Extent()
         files = files_of(path, self.remarks)
         self._segments = [Segment(file, self._add_remark) for file in files]
-        recorded = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
+        recorded = {channel.topic for segment in self._segments for channel, _ in segment.channels}
         for name in chosen:
             if name not in recorded:
                 raise RecordingError(f"topics: {name}: {path} has {', '.join(sorted(recorded))}")
         for segment in self._segments:
-            for channel, schema in segment.contents.channels.values():
+            for channel, schema in segment.channels:
                 if not chosen or channel.topic in chosen:
                     self._add(channel, schema, path)
-            self.counts += segment.contents.counts
-            if segment.contents.extent.start:
-                extent.include(segment.contents.extent.start)
-                extent.include(segment.contents.extent.end)
+            self.counts += segment.counts
+            if segment.extent.start:
+                extent.include(segment.extent.start)
+                extent.include(segment.extent.end)
         self.counts.update(dict.fromkeys(recorded, 0))
         no_run = no_run_yet(path, self.counts)
         if not extent.start:
@@ -95,7 +95,7 @@ class Playback:
     def _read(self, begin: int, repeats: Repeats) -> Iterator[TimedMessage]:
         """Messages from `begin`, file by file, without those that `repeats` knows."""
         for segment in self._segments:
-            if segment.contents.extent.end >= self.start + begin:
+            if segment.extent.end >= self.start + begin:
                 for topic, message in segment.messages(self.start + begin):
                     if topic not in self.topics:
                         continue

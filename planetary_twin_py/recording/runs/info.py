@@ -156,12 +156,12 @@ class _Collector:
         """Add the contents of a file from its index and the few messages that are needed."""
         decoder = Decoder(file, _is_decoded)
         self._repeats.next_file()
-        for schema in index.schemas.values():
+        for schema in index.summary.schemas.values():
             decoder.read(schema)
         changes = []
-        for number, channel in index.channels.items():
+        for number, channel in index.summary.channels.items():
             decoder.read(channel)
-            kind = index.schemas[channel.schema_id].name
+            kind = index.summary.schemas[channel.schema_id].name
             topic = self.info.topics.setdefault(channel.topic, TopicInfo(type=kind))
             new = self._new(index, number)
             if self._repeats.is_latched(number):
@@ -185,17 +185,19 @@ class _Collector:
                 self.info.report |= _newest_report(messages)
         for _, name, message in sorted(changes, key=lambda change: change[0]):
             self._add_change(name, message)
-        accounts = [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
+        accounts = [
+            record.metadata for record in index.summary.metadata if record.name == ACCOUNT_RECORD
+        ]
         counts = {
             channel.topic: index.times[number].recorded
-            for number, channel in index.channels.items()
+            for number, channel in index.summary.channels.items()
         }
         self._add_losses(file, accounts, counts)
 
     def _new(self, index: Index, channel: int) -> Sequence[int]:
         """Numbers of the messages of a channel that are not in the previous files."""
         count = range(index.times[channel].recorded)
-        self._repeats.repeated(index.channels[channel])
+        self._repeats.repeated(index.summary.channels[channel])
         if not self._repeats.is_latched(channel):
             return count
         return [k for k in count if not self._repeats.repeated(index.message(channel, k))]

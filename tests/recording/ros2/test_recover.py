@@ -2,6 +2,7 @@
 
 import random
 import re
+import tracemalloc
 from collections import Counter
 
 import pytest
@@ -139,6 +140,22 @@ def test_damage_is_reported_with_its_time_and_messages(sound, tmp_path):
     start = first.message_start_time
     assert begin <= (index.message_start_time - start) * 1e-9 + 5e-4
     assert end >= (index.message_end_time - start) * 1e-9 - 5e-4
+
+
+@pytest.mark.parametrize("field", [1, 25])  # length of a chunk in the file, and unpacked
+def test_an_absurd_size_is_refused_before_memory_is_taken(sound, tmp_path, field):
+    with sound.open("rb") as stream:
+        _, index, *_ = make_reader(stream).get_summary().chunk_indexes
+    place, data = index.chunk_start_offset, bytearray(sound.read_bytes())
+    data[place + field : place + field + 8] = (2**36).to_bytes(8, "little")
+    file = tmp_path / "absurd.mcap"
+    file.write_bytes(data)
+    expected = Counter(keys(records_of(sound, []))) - lost_chunks(sound, place, place + 1)
+    tracemalloc.start()
+    found = Counter(keys(records_of(file, remarks := [])))
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert found == expected and len(remarks) == 1 and most < 100e6
 
 
 def test_an_undamaged_recording_is_left_unchanged(sound, tmp_path):

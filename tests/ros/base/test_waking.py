@@ -8,7 +8,7 @@ import os, signal, threading, time
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
-from planetary_twin.base.lifecycle_node import wake_after_shutdown
+from planetary_twin.base.spin import wake_after_shutdown
 from planetary_twin.process.signals import SIGNALS
 
 def as_rclpy_does(executor):

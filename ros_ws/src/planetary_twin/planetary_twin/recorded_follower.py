@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from .base.lifecycle_node import run_nodes
+from .base.spin import run_nodes
 from .follower.node import Follower
 from .logger.node import Logger
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from functools import partial
 
-from .base.lifecycle_node import run_nodes
+from .base.spin import run_nodes
 from .logger.node import Logger
 from .simulation.node import Simulation
 

@@ -7,10 +7,11 @@ from rclpy.node import Node
 from .clock import STEADY
 
 _PERIOD = 1.0  # [s]
+_LOG_PERIOD = 60.0  # [s] discovery on a busy machine may lose a node and find it again
 
 
 class Namesakes:
-    """Counts the nodes with the name of `node` once a second, and logs each new one."""
+    """Counts the nodes with the name of `node` once a second, and logs new ones."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -25,5 +26,6 @@ class Namesakes:
         if self._count > before:
             node.get_logger().warning(
                 f"another node is named {node.get_fully_qualified_name()}: either may answer a "
-                "service, and both publish on its topics; give each a namespace, -r __ns:=/NAME"
+                "service, and both publish on its topics; give each a namespace, -r __ns:=/NAME",
+                throttle_duration_sec=_LOG_PERIOD,
             )

@@ -10,7 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn
 
 from planetary_twin_py.terminal.console import make_console
 
-from ..base.lifecycle_node import run_node
+from ..base.spin import run_node
 from ..replay.node import Replay
 from .loopback import stay_on_this_machine
 

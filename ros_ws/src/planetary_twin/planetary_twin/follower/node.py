@@ -19,8 +19,9 @@ from planetary_twin_py.following.train import followed_train
 
 from ..base.clock import STEADY, StrictClock, set_stamp
 from ..base.diagnostics import diagnostics
-from ..base.lifecycle_node import ManagedNode, run_node
+from ..base.lifecycle_node import ManagedNode
 from ..base.qos import LATCHED
+from ..base.spin import run_node
 from ..process.memory import return_large_blocks
 from .diagnostics import Feed, Limits, key_of, rows
 from .live_follower import LiveFollower

@@ -15,8 +15,9 @@ from rclpy.timer import Timer
 
 from ..base.clock import STEADY, StrictClock, set_stamp
 from ..base.diagnostics import Row, diagnostics
-from ..base.lifecycle_node import ManagedNode, NodeError, run_node
+from ..base.lifecycle_node import ManagedNode, NodeError
 from ..base.parameters import brief
+from ..base.spin import run_node
 from ..base.trigger import serve_triggers
 from ..process.memory import return_large_blocks
 from .diagnostics import RecordingReport, failure_row

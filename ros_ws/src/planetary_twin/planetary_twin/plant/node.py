@@ -21,8 +21,9 @@ from planetary_twin_py.plant.readings import Plant as Played
 from planetary_twin_py.plant.timeline import Measured, timeline
 
 from ..base.clock import CLOCK_AWAITED, has_time
-from ..base.lifecycle_node import ManagedNode, run_node, shut_down
+from ..base.lifecycle_node import ManagedNode, shut_down
 from ..base.parameters import declare
+from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
 from .player import PlantMessages, PlantPlayer
 

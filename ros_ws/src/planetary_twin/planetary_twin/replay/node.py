@@ -15,9 +15,10 @@ from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
 from planetary_twin_py.recording.ros2.playback import Playback, TimedMessage
 from planetary_twin_py.recording.ros2.renaming import moved
 
-from ..base.lifecycle_node import ManagedNode, NodeError, run_node, shut_down
+from ..base.lifecycle_node import ManagedNode, NodeError, shut_down
 from ..base.parameters import AT_ONCE, declare
 from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
+from ..base.spin import run_node
 from .player import Excerpt, Player
 from .publishers import Outlets
 from .services import PlayingServices

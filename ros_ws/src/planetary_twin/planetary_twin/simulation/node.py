@@ -25,8 +25,9 @@ from planetary_twin_py.run.twin import Change
 
 from ..base.clock import CLOCK_AWAITED, STEADY
 from ..base.diagnostics import Row, diagnostics
-from ..base.lifecycle_node import ManagedNode, NodeError, run_node
+from ..base.lifecycle_node import ManagedNode, NodeError
 from ..base.polled_subscription import PolledSubscription
+from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
 from . import standard_services
 from .diagnostics.intervals import IntervalReports, dynamics_row

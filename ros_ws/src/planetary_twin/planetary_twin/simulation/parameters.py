@@ -160,8 +160,9 @@ class SimulationParameters:
             changed = scene.replace(**self._chosen | changing(parameters))
             if "scene" in values or any(name in _CONTROLLED for name in values):
                 check_point(changed, changed.operating_point)
-            for name in _CHECKS.keys() & values.keys():
-                _CHECKS[name](values[name])
+            for name, check in _CHECKS.items():
+                if name in values:
+                    check(values[name])
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
         self._wanted = scene

@@ -83,51 +83,37 @@ class Telemetry:
             self._continue(before)
 
     def _open(self, given: SimulationParameters) -> None:
-        create = self._node.create_lifecycle_publisher
+        self._topics: dict[LifecyclePublisher, str] = {}
+        self._streams: list[LifecyclePublisher] = []  # one message per interval
         kept = round(STALL * given.rate)
+
+        def create(kind: type, topic: str, qos: QoSProfile | int) -> LifecyclePublisher:
+            publisher = self._node.create_lifecycle_publisher(kind, topic, qos)
+            self._topics[publisher] = publisher.topic_name
+            return publisher
+
+        def stream(kind: type, topic: str) -> LifecyclePublisher:
+            self._streams.append(create(kind, topic, kept))
+            return self._streams[-1]
+
         # Late subscribers receive these, too, in order.
         latched = QoSProfile(depth=kept, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         newest = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self._state = create(msg.GearboxState, "gearbox_state", kept)
-        self._waveform = create(msg.MeshWaveform, "mesh_waveform", kept)
-        self._joints = create(JointState, "joint_states", kept)
+        self._state = stream(msg.GearboxState, "gearbox_state")
+        self._waveform = stream(msg.MeshWaveform, "mesh_waveform")
+        self._joints = stream(JointState, "joint_states")
         self._point = create(msg.OperatingPoint, "operating_point", latched)
         self._description = create(String, "robot_description", newest)
         self._origin_of_run = create(String, "run_origin", latched)
         self._diagnostics = create(DiagnosticArray, "/diagnostics", _reports_kept(given))
-        self._tf = create(TFMessage, "/tf", kept) if given.tf else None
-        self._clock = create(Clock, "/clock", kept) if given.clock else None
-        moving = given.scene.moving_axes
-        self._axes = create(msg.AxesState, AXES_STATE, kept) if moving else None
-        self._axes_waveform = create(msg.AxesWaveform, AXES_WAVEFORM, kept) if moving else None
+        self._tf = stream(TFMessage, "/tf") if given.tf else None
+        self._clock = stream(Clock, "/clock") if given.clock else None
         drivable = not given.scene.quasi_static  # ports may be given later
         self._given = create(JointState, GIVEN, kept) if drivable else None
+        moving = given.scene.moving_axes
+        self._axes = stream(msg.AxesState, AXES_STATE) if moving else None
+        self._axes_waveform = stream(msg.AxesWaveform, AXES_WAVEFORM) if moving else None
         self._shafts = joint_names(given.scene)
-        publishers = (
-            self._state,
-            self._waveform,
-            self._joints,
-            self._point,
-            self._description,
-            self._origin_of_run,
-            self._diagnostics,
-            self._tf,
-            self._clock,
-            self._given,
-            self._axes,
-            self._axes_waveform,
-        )
-        self._topics = {p: p.topic_name for p in publishers if p is not None}
-        each = (
-            self._clock,
-            self._axes,
-            self._axes_waveform,
-            self._state,
-            self._joints,
-            self._waveform,
-            self._tf,
-        )
-        self._streams = [publisher for publisher in each if publisher is not None]
 
     def _continue(self, before: Telemetry) -> None:
         earlier = before._counts()
