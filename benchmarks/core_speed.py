@@ -78,17 +78,19 @@ def scene_of(case: Case) -> Any:
 
 def timed(case: Case, sampled: bool) -> Timed:
     """Run a case in this process."""
+    from planetary_twin_benchmark.samples import samples_until
+
     from planetary_twin_py.run.start import start
 
     engine = start(scene_of(case).scene(), case.tolerance, "march")
-    engine.advance(case.lead, 1, SAMPLE_RATE, 0)
+    engine.sample(case.lead)
     before, windows = engine.control.steps, round(case.timed / WINDOW) if sampled else 1
     ends = [case.lead + (n + 1) * case.timed / windows for n in range(windows)]
     seconds, done = 0.0, round(case.lead * SAMPLE_RATE)
     for end in ends:
         due = round(end * SAMPLE_RATE)
         begin = time.thread_time()
-        engine.advance(end, done + 1, SAMPLE_RATE, due - done if sampled else 0)
+        samples_until(engine, end, done + 1, SAMPLE_RATE, due - done if sampled else 0)
         seconds += time.thread_time() - begin
         done = due
     return Timed(seconds, engine.control.steps - before)
@@ -96,6 +98,8 @@ def timed(case: Case, sampled: bool) -> Timed:
 
 def errors(case: Case) -> tuple[float, float]:
     """Error of the DTE over its rms, and over that of its alternating part, of the worst mesh."""
+    from planetary_twin_benchmark.samples import samples_until
+
     from planetary_twin_py._core import DTE
     from planetary_twin_py.run.start import start
 
@@ -104,7 +108,7 @@ def errors(case: Case) -> tuple[float, float]:
 
     def dte(tolerance: float) -> Any:
         engine = start(compared.compared(), tolerance, "march")
-        return engine.advance(compared.duration, 1, SAMPLE_RATE, room).mesh[:, DTE]
+        return samples_until(engine, compared.duration, 1, SAMPLE_RATE, room).mesh[:, DTE]
 
     def rms(values: Any) -> Any:
         return np.sqrt(np.mean(values**2, axis=0))
@@ -129,7 +133,7 @@ class Build:
 
     def __init__(self, checkout: Path) -> None:
         self.name = checkout.resolve().name
-        paths = [str(checkout.resolve()), str(HERE)]
+        paths = [str(checkout.resolve()), str(checkout.resolve() / "benchmarks")]  # its own calls
         code = f"import sys; sys.path[:0] = {paths}; import core_speed; core_speed.serve()"
         self._process = subprocess.Popen(
             [sys.executable, "-c", code],

@@ -44,8 +44,9 @@ if TYPE_CHECKING:
     from .plots.study import plot_study
     from .run.commands import Commands
     from .run.dynamics_choice import DynamicsChoice
+    from .run.energy import Energy
     from .run.limits import RunawayError
-    from .run.result import Energy, Result, Stats
+    from .run.result import Result, Stats
     from .run.twin import Change, Twin
     from .run.twins import Twins
     from .run.window import Waveform, Window
@@ -100,7 +101,8 @@ _EXPORTS = {
     "statics.load_sharing": ("LoadSharing",),
     "checks.load_sharing": ("load_sharing",),
     "plots.study": ("plot_study",),
-    "run.result": ("Energy", "Result", "Stats"),
+    "run.energy": ("Energy",),
+    "run.result": ("Result", "Stats"),
     "run.limits": ("RunawayError",),
     "scene": (
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "friction_table",

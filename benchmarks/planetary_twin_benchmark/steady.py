@@ -15,6 +15,7 @@ from planetary_twin_py.scene import Scene
 
 from .cases import Case
 from .markdown import markdown_table, speed_cell
+from .samples import samples_until
 from .table import TOLERANCES, errors
 from .timing import METHOD, SAMPLE_RATE, Speed, affordable, run, speed
 
@@ -87,7 +88,7 @@ def repeats_from(scene: Scene, tolerance: float) -> float:
     """Simulated time [s] from which mesh cycles repeat; NaN if they do not by BY."""
     engine = Engine(scene, tolerance)
     for look in range(1, round(BY / LOOKED) + 1):
-        engine.advance(look * LOOKED, 1, SAMPLE_RATE, 0)
+        engine.sample(look * LOOKED)
         if engine.repeats:
             return look * LOOKED
     return math.nan
@@ -104,7 +105,7 @@ def _settled(scene: Scene, tolerance: float, method: str) -> _Settled:
     first = round((BY - COMPARED) * SAMPLE_RATE) + 1
     room = round(COMPARED * SAMPLE_RATE)
     engine = Engine(scene, tolerance, method)
-    samples, train = engine.advance(BY, first, SAMPLE_RATE, room), engine.train
+    samples, train = samples_until(engine, BY, first, SAMPLE_RATE, room), engine.train
     motor = train.coupling.ends[0, 0]
     turns = samples.turns[:, 0] + samples.angle[:, motor] / (2.0 * math.pi)
     return _Settled(samples.mesh, turns * float(train.cycle.per_turn[0]))

@@ -10,10 +10,15 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from planetary_twin_py.run.start import start
+from planetary_twin_py.model.clock import TICKS
+from planetary_twin_py.run.engine import Engine
+from planetary_twin_py.run.window_jobs import run_alone
+from planetary_twin_py.run.windows import Windows
 from planetary_twin_py.scene import Scene
 from planetary_twin_py.simulation.simulate import simulate
 from planetary_twin_py.text.warning_types import AccuracyWarning
+
+from .samples import samples_until
 
 METHOD = "march"  # every mesh cycle is computed
 SAMPLE_RATE = 50_000.0
@@ -37,7 +42,7 @@ class Speed(NamedTuple):
 class Run(NamedTuple):
     """Samples and times of one run."""
 
-    mesh: np.ndarray  # (samples, QUANTITIES, meshes)
+    mesh: np.ndarray  # (samples, QUANTITIES, meshes), or empty
     seconds: float  # processor time of the run in its thread
     setup_s: float  # wall time of building and starting the model
 
@@ -45,13 +50,19 @@ class Run(NamedTuple):
 def run(scene: Scene, duration: float, method: str, tolerance: float, *, sampled: bool) -> Run:
     """Run a scene from its start for `duration` [s], with samples of all meshes or without."""
     begin = time.perf_counter()
-    engine = start(scene, tolerance, method)
-    setup = time.perf_counter() - begin
-    room = round(duration * SAMPLE_RATE) if sampled else 0
+    windows = Windows(scene, tolerance, method)
+    engine, setup = windows.run, time.perf_counter() - begin
+    room = round(duration * SAMPLE_RATE)
+    plan, mesh = windows.plan(round(duration * TICKS), SAMPLE_RATE, sampled=False), np.empty(0)
     # Not of the process: threads of the linear algebra wait actively for a while after their work.
     begin = time.thread_time()
-    samples = engine.advance(duration, 1, SAMPLE_RATE, room)
-    return Run(samples.mesh, time.thread_time() - begin, setup)
+    if not sampled:
+        run_alone(windows.jobs(plan))
+    elif isinstance(engine, Engine):
+        mesh = samples_until(engine, duration, 1, SAMPLE_RATE, room).mesh
+    else:
+        raise ValueError(f"dynamics = {scene.dynamics!r}: must have steps to be sampled")
+    return Run(mesh, time.thread_time() - begin, setup)
 
 
 def speed(scene: Scene, duration: float, method: str, tolerance: float, *, sampled: bool) -> Speed:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..run.result import ROUNDING, Energy
+from ..run.energy import ROUNDING, Energy
 from ..run.tolerance import TOLERANCES
 from ..run.window import Window
 

@@ -78,15 +78,17 @@ def simulate(
             _check(out)
         changes = settings(set_ or [])
         loaded = changed_scene(scene, changes)
-        with console.status(f"simulating {duration:g} s of {shown(loaded.name)}"):
-            result = interruptible(
-                lambda: run(loaded, duration, sample_rate, tolerance=tolerance, settling=settling)
-            )
+        how = duration, sample_rate
+        if out is not None and out.suffix in _RECORDINGS:
+            result = _record(console, out, loaded, *how, tolerance, settling)
+        else:
+            with console.status(f"simulating {duration:g} s of {shown(loaded.name)}"):
+                result = interruptible(
+                    lambda: run(loaded, *how, tolerance=tolerance, settling=settling)
+                )
         if result.choice is not None:
             loaded = result.choice.scene
-        if out is not None and out.suffix in _RECORDINGS:
-            _record(console, out, loaded, settling + duration, sample_rate, tolerance)
-        elif out is not None:
+        if out is not None and out.suffix in _WRITERS:
             _WRITERS[out.suffix](result, loaded, out)
     except (ValueError, OSError) as error:
         fail(error)
@@ -128,15 +130,22 @@ def _check(out: Path) -> None:
         fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or be a folder")
 
 
-def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
+def _record(console: Console, out: Path, scene: Scene, *how: float) -> Result:
+    """Simulate and record; for `how` see `recording.runs.offline.Plan`."""
+    from dataclasses import replace
+
     from rich.progress import Progress
 
-    from ..recording.runs.offline import Plan, record
+    from ..recording.runs.offline import Plan, record_run
+    from ..simulation.simulate import check_run, selected
 
+    scene, choice = selected(scene)
     plan = Plan(scene, *how)
+    check_run(plan.duration, plan.sample_rate, "auto", plan.tolerance, plan.settling)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("recording", total=plan.duration)
-        record(plan, out, lambda time: progress.update(task, completed=time))
+        task = progress.add_task("recording", total=plan.settling + plan.duration)
+        _, result = record_run(plan, out, lambda time: progress.update(task, completed=time))
+    return replace(result, choice=choice)
 
 
 _SOURCES = ("tooth_friction_W", "bearing_loss_W", "churning_loss_W")  # of the power loss

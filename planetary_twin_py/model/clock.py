@@ -74,13 +74,3 @@ def run_on(begin: State, end: State, h: float) -> None:
     whole = math.floor(time)
     end.seconds = begin.seconds + whole
     end.time = time - whole
-
-
-def samples_until(time: float, sample_rate: float) -> int:
-    """Number of sample times up to `time`, which are integer multiples of the sample period.
-
-    Args:
-        time: [s].
-        sample_rate: [Hz].
-    """
-    return math.floor(time * sample_rate + 1e-6)

@@ -15,9 +15,9 @@ import numpy as np
 
 from .. import _core
 from .._core import (
+    DTE,
     EXCEEDED,
     IMPULSE,
-    LEDGER,
     NO_FINITE_STATE,
     NOT_FINITE,
     Control,
@@ -33,7 +33,6 @@ from ..model.clock import (
     NEVER,
     TICKS,
     Instant,
-    Sampling,
     delay,
     instant,
     instant_of_ticks,
@@ -43,13 +42,11 @@ from ..model.cycle import common_cycles, turns_per_cycle
 from ..model.error_scale import POINTS, StepScale, new_integrator
 from ..model.gearbox import Gearbox
 from ..model.library import record_in
-from ..model.mesh_sums import MeshSums, clear, mesh_sums
 from ..model.oil import build_oil
 from ..model.planet_bearings import check_planet_bearings
 from ..model.speed_loop_check import SpeedLoopCheck
 from ..model.start import start_state
 from ..scene import OperatingPoint, Scene
-from .energy import EnergyBooks
 from .limits import Limits, RunawayError
 from .samples import Samples, Waves, new_samples, wave_rows
 from .tolerance import check_tolerance
@@ -108,12 +105,10 @@ class Engine:
         self._prepare()
 
     def _prepare(self) -> None:
-        """Call all functions of a window once; at time zero this changes nothing."""
+        """Call functions of a window once; at time zero this changes nothing."""
         self._core.begin_step(self.model, self.integrator)
         self.integrator.end = self.integrator.begin  # tooth pairs may have started to stick
-        self.advance(0.0, 1, 1.0, 0)
-        self.books(0.0)
-        self.pop_mesh_sums(0.0)
+        self.sample(0.0)
         self._core.cut(self.model, self.integrator, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
@@ -157,29 +152,6 @@ class Engine:
             periodic.numerator, periodic.denominator = turns.numerator, turns.denominator
         periodic.cycles = cycles
         periodic.pause = self._pause
-
-    def advance(
-        self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
-    ) -> Samples:
-        """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
-
-        Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
-        at any age of the run.
-
-        Raises:
-            RunawayError: no step is possible, or a limit is exceeded, see `runaway`.
-        """
-        samples, done = new_samples(self.train, room + 1), 0
-        for stop in (*self._stops(until, instant(until)), until):
-            # All that are due by then, and one at the stop, which the next of them overwrites.
-            part = room
-            if stop != until:
-                part = min(max(_due(stop, sample_rate, first_sample), done), room)
-            at = sampling(first_sample + done, sample_rate)
-            self._run(stop, at, _rows(samples, done, part + 1))
-            done = part
-            self._pass(stop)
-        return _rows(samples, 0, room)
 
     def window(
         self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
@@ -252,6 +224,20 @@ class Engine:
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
         self._core.begin_window(self.model, self.integrator, instant_of_ticks(time), end)
+        self._put_position(time, end)
+
+    def exact_end(self, time: int, end: WindowEnd) -> None:
+        """Fill `end` as if the last step ended at `time` [ticks], the end of the last window.
+
+        That step is made again in a copy: the run itself is not changed.
+        """
+        ended, now = self.integrator.copy(), instant_of_ticks(time)
+        self._core.cut(self.model, ended, now)
+        self._core.begin_window(self.model, ended, now, end)
+        self._put_position(time, end)
+
+    def _put_position(self, time: int, end: WindowEnd) -> None:
+        """Fill turns and angles of `end` at `time` [ticks]."""
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
@@ -266,35 +252,35 @@ class Engine:
     def _pass(self, stop: float | Fraction) -> None:
         """Continue after a stop."""
 
-    def _run(self, until: float | Fraction, at: Sampling, samples: Samples) -> None:
-        """Fill all `samples`; the last one is at `until`."""
+    def sample(self, time: float | Fraction) -> Samples:
+        """One sample at `time` [s], to which the run is advanced if it has not reached it.
+
+        Raises:
+            RunawayError: no step is possible, or a limit is exceeded, see `runaway`.
+        """
+        if self._shown is not None and self._shown[0] == time:
+            return self._shown[1]
         if self._failure is not None:
             raise self._failure
+        samples, at = new_samples(self.train, 1), sampling(1, 1.0)
         try:
-            self._core.advance(self.model, self.integrator, instant(until), NEVER, at, samples)
+            self._core.advance(self.model, self.integrator, instant(time), NEVER, at, samples)
             self._check(samples)
         except KeyboardInterrupt:
             self._end_interrupted()
             raise
         except ArithmeticError as reason:
             self._fail(reason)
-        self._shown = until, _rows(samples, len(samples.turns) - 1, None)
+        self._shown = time, samples
+        return samples
 
     def _check(self, samples: Samples) -> None:
         """Raise an `ArithmeticError` if the train exceeds a limit."""
-        limits = self._limits
-        limits.check_deflection(samples, self.model.operation)
+        limits, power = self._limits, np.array(self._last.power)
+        limits.check_deflection(np.abs(samples.mesh[0, DTE]), self.model.operation)
         limits.check_displacements(samples.moved, samples.tilting)
         limits.speed.check(samples.speed)
-        limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
-
-    def sample(self, time: float | Fraction) -> Samples:
-        """One sample at `time` [s], the end of the last window."""
-        if self._shown is not None and self._shown[0] == time:
-            return self._shown[1]
-        samples = new_samples(self.train, 1)
-        self._run(time, sampling(1, 1.0), samples)
-        return samples
+        limits.torque.check(power[None, IMPULSE : IMPULSE + int(self.train.machines)])
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Continue with this point and tolerance from `time` [s], the end of the last window.
@@ -316,7 +302,7 @@ class Engine:
     def _end_step(self, time: float | Fraction) -> None:
         """End the last step at `time` [s], the end of the last window, and the ledger with it."""
         self._core.cut(self.model, self.integrator, instant(time))
-        clear(self.integrator.sums.total)
+        self.integrator.sums.total = self._core.MeshSums()
         self.integrator.sums.taken = self.integrator.control.step  # what lies before `time`
         self._shown = None
 
@@ -340,38 +326,7 @@ class Engine:
         """Whether mesh cycles are repeated, see core/integrators/periodic.hpp."""
         return bool(self._periodic.replaying)
 
-    @property
-    def powers(self) -> np.ndarray:
-        """Time derivative of the ledger [W] at `reached`."""
-        return np.array(self._last.power)
-
-    def books(self, time: float | Fraction) -> EnergyBooks:
-        """Energy at `time` [s], the end of the last window; the ledger is that since it was taken.
-
-        The last step ends after `time`: a copy of it is made again, so that it ends there. The
-        run itself goes on as if nothing had been asked.
-        """
-        ended, ledger = self.integrator.copy(), np.empty(LEDGER)
-        self._core.cut(self.model, ended, instant(time))
-        kinetic, elastic = self._core.stored(self.model, ended.end, ended.scratch)
-        self._core.pop_energy_ledger(ended, instant(time), ledger)
-        return EnergyBooks(ledger, float(kinetic), float(elastic))
-
-    def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:
-        """Integrals and extremes of the meshes from the previous call to `time` [s].
-
-        `time` is the end of the last window.
-        """
-        taken = self._core.MeshSums()
-        self._core.pop_mesh_sums(self.model, self.integrator, instant(time), taken)
-        return mesh_sums(taken, int(self.train.meshes))
-
 
 def _due(time: Fraction | float, rate: float, first: int) -> int:
     """Number of samples from number `first` on that lie before `time` [s] or at it."""
     return math.floor(Fraction(time) * Fraction(rate)) + 1 - first
-
-
-def _rows(samples: Samples, begin: int, end: int | None) -> Samples:
-    """Views of some of the samples, which share their memory."""
-    return Samples(*(each[begin:end] for each in samples))

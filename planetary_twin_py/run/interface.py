@@ -5,13 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Protocol
 
-import numpy as np
-
 from .._core import Control, Report, Train, WindowEnd
 from ..model.gearbox import Gearbox
-from ..model.mesh_sums import MeshSums
 from ..scene import OperatingPoint
-from .energy import EnergyBooks
 from .samples import Samples, Waves
 from .window_jobs import WindowJobs
 
@@ -37,19 +33,10 @@ class Run(Protocol):
     def repeats(self) -> bool:
         """Whether the motion is periodic, so that mesh cycles are not computed again."""
 
-    @property
-    def powers(self) -> np.ndarray:
-        """Rate of the ledger at `reached` [W]."""
-
-    def advance(
-        self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
-    ) -> Samples:
-        """Simulate until `until` [s]; sample times are integer multiples of 1/sample_rate."""
-
     def window(
         self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
     ) -> WindowJobs:
-        """Simulate until `until` [ticks of the clock]; fill the waveform, and the window's end.
+        """Simulate until `until` [ticks of the clock]; fill what `out` asks for, and the end.
 
         Sample `first` and all others are integer multiples of 1/rate. Energy ledger and mesh sums
         of `end` are those since the last window. The work is done as the jobs are.
@@ -58,17 +45,14 @@ class Run(Protocol):
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks of the clock], the end of the last one."""
 
+    def exact_end(self, time: int, end: WindowEnd) -> None:
+        """Fill `end` as if the last step ended at `time` [ticks], the end of the last window.
+
+        Its ledger is that since this window. The run itself is not changed.
+        """
+
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Change operating point and tolerance at `time` [s], the end of the last window."""
-
-    def books(self, time: float | Fraction) -> EnergyBooks:
-        """Energy at `time` [s], the end of the last window; it changes nothing."""
-
-    def pop_mesh_sums(self, time: float | Fraction) -> MeshSums:
-        """Integrals and extremes of the meshes since the last call.
-
-        Up to `time` [s], the end of the last window.
-        """

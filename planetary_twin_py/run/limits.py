@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _core
-from .._core import DTE, IMPULSE, Integrator, Operation, Train, WindowEnd
+from .._core import IMPULSE, Integrator, Operation, Train, WindowEnd
 from ..model.bodies import MeshNames
 from ..model.gearbox import Gearbox
 from ..model.layout import MACHINE_NAMES
 from ..model.limits import Limit, displacement_limit
-from .samples import Samples, Waves
+from .samples import Waves
 
 EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of the drive
 
@@ -89,19 +89,20 @@ class Limits:
         )
         """All of them for the core, which finds whether a window exceeds one."""
 
-    def check_deflection(self, samples: Samples, operation: Operation) -> None:
+    def check_deflection(self, largest: np.ndarray, operation: Operation) -> None:
         """Check the mesh deflection along the line of action.
 
         Its lower bound is |DTE| minus half the backlash and the largest form errors.
 
         Args:
-            samples: of the meshes.
+            largest: magnitudes of the transmission errors [m], (meshes,).
             operation: gives the backlash.
 
         Raises:
             ArithmeticError: a deflection exceeds its limit, or is NaN.
         """
-        self._check_dte(np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0), operation)
+        least = largest - operation.backlash.half - self._errors
+        self.deflection.check(np.maximum(least, 0.0)[None])
 
     def check_displacements(self, moved: np.ndarray, tilting: np.ndarray) -> None:
         """Check the displacements of axes, if these move.
@@ -124,10 +125,10 @@ class Limits:
         Args:
             waves: the samples.
         """
-        rows, bearings = len(waves.time), waves.displacement.shape[1] // 2
-        if rows and bearings:
-            moved = waves.displacement.reshape(rows, bearings, 2)
-            self.check_displacements(moved, waves.tilting.reshape(rows, bearings, -1))
+        rows, axes = len(waves.time), waves.axes
+        if rows and axes is not None:
+            moved = axes.displacement.reshape(rows, -1, 2)
+            self.check_displacements(moved, axes.tilting.reshape(rows, moved.shape[1], -1))
 
     def check_progress(self, integrator: Integrator, operation: Operation) -> None:
         """Check a run that the core has stopped: whether it runs away, or makes no progress.
@@ -145,7 +146,7 @@ class Limits:
         train, begin, end = self._train, integrator.begin, integrator.end
         meshes = int(train.meshes)
         motions = (train.mesh.sign[:meshes] * end.x[train.mesh.body[:meshes]]).sum(axis=1)
-        self._check_dte(np.abs(motions), operation)
+        self.check_deflection(np.abs(motions), operation)
         parted = np.flatnonzero(begin.side[:meshes] != end.side[:meshes])
         keeps = (
             f"flanks of {self.deflection.names[parted[0]]} engage and separate again and again; "
@@ -170,14 +171,9 @@ class Limits:
             ArithmeticError: one of them exceeds its limit, or is NaN.
         """
         machines = len(self.torque.largest)
-        self._check_dte(end.peaks.dte[: len(self._errors)], operation)
+        self.check_deflection(end.peaks.dte[: len(self._errors)], operation)
         self.speed.check(end.peaks.speed[None, : len(self.speed.largest)])
         self.torque.check(end.power[None, IMPULSE : IMPULSE + machines])
-
-    def _check_dte(self, largest: np.ndarray, operation: Operation) -> None:
-        """Check deflections by the largest |DTE|, (meshes,); NaN if there is one."""
-        least = largest - operation.backlash.half - self._errors
-        self.deflection.check(np.maximum(least, 0.0)[None])
 
 
 def _inertia(train: Train) -> float:

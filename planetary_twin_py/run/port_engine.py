@@ -57,6 +57,7 @@ class DrivenEngine(Engine):
         self.port_ranges = port_ranges(self.gearbox)
         self._linear = scene.drive.interpolation == "linear"
         self._ports_set = -1  # [ticks] time of the last change of ports
+        self._stepped = False  # since the last window, without sums of the meshes
         self._unlimited = self._core.PortRanges(
             torque=np.full(PORTS, np.inf), speed=np.full(PORTS, np.inf)
         )
@@ -194,6 +195,14 @@ class DrivenEngine(Engine):
             self.refuse(begin, end, command)
         self._shown = None
 
+    def begin_window(self, time: int, end: WindowEnd) -> None:
+        """Begin a window at `time` [ticks], the end of the last one or of steps."""
+        if self._stepped:
+            now = instant_of_ticks(time)
+            self._core.pop_mesh_sums(self.model, self.integrator, now, end.sums)
+            self._stepped = False
+        super().begin_window(time, end)
+
     def refuse(self, begin: int, end: int, command: Command) -> None:
         """Raise the error of a command that the ports do not accept.
 
@@ -254,7 +263,7 @@ class DrivenEngine(Engine):
             raise
         if outcome == REFUSED:
             return False
-        self._shown = None
+        self._shown, self._stepped = None, True
         if outcome != WITHIN_LIMITS:
             self._watch(outcome, reached)
         return True

@@ -7,85 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..text.object_repr import brief
 from .axes.motion import AxesMotion
+from .energy import Energy, efficiency
 
 if TYPE_CHECKING:
     from .dynamics_choice import DynamicsChoice
-
-
-ROUNDING = 1e-9  # of the stored energy: work below it is due to rounding
-
-
-@dataclass(frozen=True)
-class Energy:
-    """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work - weight +
-    residual."""
-
-    machines: tuple[float, ...]
-    """Work on the train by motor, load, and second motor of a differential [J], (machines,)."""
-    kinetic: float
-    """Increase of the kinetic energy [J]."""
-    elastic: float
-    """Increase of the elastic energy of meshes, couplings, bearings and tooth pairs before they
-    slide, and of the potential energy of the weight [J]."""
-    friction: float
-    """Dissipated by tooth friction [J]."""
-    damping: float
-    """Dissipated by the damping of meshes and couplings [J]."""
-    bearing: float
-    """Dissipated by bearings, seals and grease [J]."""
-    churning: float
-    """Dissipated by oil churning [J]."""
-    stiffness_work: float
-    """Work due to the change of stiffness: of the meshes with the tooth pairs in contact, and of
-    pairs that do not slide yet with their load [J]."""
-    stored: float
-    """Kinetic and elastic energy at the end [J]."""
-    weight: float = 0.0
-    """Work of the weight on displaced axes as they are turned with the carrier [J]."""
-    both_ways: float = 0.0
-    """Work that machines have both put in and taken out, as their power changed direction [J]."""
-
-    @property
-    def input(self) -> float:
-        """Work of the motors [J]."""
-        return self.machines[MOTOR] + sum(self.machines[SECOND_MOTOR:])
-
-    @property
-    def output(self) -> float:
-        """Work done on the load [J]."""
-        return -self.machines[LOAD_MACHINE]
-
-    @property
-    def driving_work(self) -> float:
-        """Work that machines have put in while they drove [J]."""
-        return sum(max(work, 0.0) for work in self.machines) + self.both_ways
-
-    @property
-    def put_in(self) -> float:
-        """Deprecated name of `driving_work` [J]."""
-        return self.driving_work
-
-    @property
-    def driven(self) -> bool:
-        """Whether work passes through the train, unlike at standstill.
-
-        What is only stored, as where a set-point at rest winds up a shaft, does not pass.
-        """
-        return self.driving_work - max(self.kinetic + self.elastic, 0.0) > ROUNDING * self.stored
-
-    @property
-    def residual(self) -> float:
-        """Residual of the balance, an error of the integration [J]."""
-        lost = self.loss + self.damping - self.stiffness_work - self.weight
-        return self.input - self.output - self.kinetic - self.elastic - lost
-
-    @property
-    def loss(self) -> float:
-        """Dissipated by tooth friction, bearings, seals and churning [J]."""
-        return self.friction + self.bearing + self.churning
 
 
 @dataclass(frozen=True)
@@ -122,8 +49,7 @@ class Result:
     """Samples, energy ledger and statistics of a run."""
 
     duration: float
-    """Time that the energy ledger covers [s]: from the end of the step in which settling ends to
-    the end of the last step."""
+    """Time that the samples, the energy ledger and the statistics cover [s]."""
     time: np.ndarray
     """Sample times [s], (samples,)."""
     bodies: tuple[str, ...]
@@ -188,9 +114,8 @@ class Result:
 
         Work counts where it is put in, at any shaft, so a reversal of the power does not cancel it.
         """
-        if not self.energy.driven:
-            return float("nan")
-        return 1.0 - self.energy.loss / self.energy.driving_work
+        energy = self.energy
+        return efficiency(energy.loss, energy.driving_work, energy.gained, energy.stored)
 
     def __repr__(self) -> str:
         """One line."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from .._core import AXES, QUANTITIES, WAVEFORM, Train
+from .._core import AXES, PUBLISHED, QUANTITIES, WAVEFORM, Report, Train
 
 MEMBERS = 3  # sun, ring, carrier
+SAMPLE_DRAGS = 2  # losses of bearings and of churning
 SAMPLE_AXES = 4  # components of what a bearing shows in the plane
 SAMPLE_TILTING = 6  # and beyond it
 
@@ -27,34 +29,113 @@ class Samples(NamedTuple):
     tilting: np.ndarray  # (room, bearings, 6 or 0)
 
 
-class Waves(NamedTuple):
-    """Every sample of the meshes that are reported, for `Run.window`."""
+class Asked(NamedTuple):
+    """Quantities of the samples of a window that its caller wants; others cost nothing."""
 
-    time: np.ndarray  # (rows,) [s]
-    mesh: tuple[np.ndarray, ...]  # of each of `WAVEFORM` (rows, meshes)
-    displacement: np.ndarray  # (rows, 2 bearings) of axes that move [m]
+    mesh: frozenset[str]
+    """Names of `WAVEFORM`."""
+    bodies: bool = False
+    """Whether also angles and speeds of bodies, and the losses of bearings and of churning."""
+
+
+PUBLISHED_ONES = Asked(frozenset(WAVEFORM[:PUBLISHED]))  # of messages and of a twin
+EVERYTHING = Asked(frozenset(WAVEFORM), bodies=True)
+
+
+class BodyWaves(NamedTuple):
+    """Samples of the reported bodies."""
+
+    angle: np.ndarray  # (rows, bodies) absolute [rad]
+    speed: np.ndarray  # (rows, bodies) absolute [rad/s]
+    drag: np.ndarray  # (rows, 2) power loss of bearings and of churning [W]
+
+
+class AxesWaves(NamedTuple):
+    """Samples of axes that move."""
+
+    displacement: np.ndarray  # (rows, 2 bearings) [m]
     bearing_force: np.ndarray  # (rows, 2 bearings), on the bearing [N]
     orbit: np.ndarray  # (rows, 6) of sun, ring and carrier in the housing [m]
     flank_force: np.ndarray  # (rows, 2 meshes) of drive, then of coast flanks [N]
-    tilting: np.ndarray  # (rows, 6 bearings) of axes that tilt, see `Samples`
+    tilting: np.ndarray  # (rows, 6 bearings or 0) of axes that tilt, see `Samples`
+
+
+class Waves(NamedTuple):
+    """Samples of what is reported, for `Run.window`; None: not asked for, or axes are held."""
+
+    time: np.ndarray  # (rows,) [s]
+    mesh: tuple[np.ndarray | None, ...]  # of each of `WAVEFORM` (rows, meshes)
+    bodies: BodyWaves | None
+    axes: AxesWaves | None
+
+    @property
+    def asked_of_meshes(self) -> list[np.ndarray]:
+        """Samples of the quantities of meshes that were asked for, (rows, meshes) each."""
+        return [each for each in self.mesh if each is not None]
+
+    @property
+    def arrays(self) -> list[np.ndarray]:
+        """All arrays that were asked for."""
+        return [self.time, *self.asked_of_meshes, *(self.bodies or ()), *(self.axes or ())]
+
+    def select(self, choose: Callable[[np.ndarray], np.ndarray]) -> Waves:
+        """Apply `choose` to each array of samples."""
+        return Waves(
+            choose(self.time),
+            tuple(None if each is None else choose(each) for each in self.mesh),
+            None if self.bodies is None else BodyWaves(*map(choose, self.bodies)),
+            None if self.axes is None else AxesWaves(*map(choose, self.axes)),
+        )
 
 
 def wave_rows(waves: Waves, begin: int, end: int) -> Waves:
     """Some of the samples; what is written there is written into them."""
-    time, mesh, *axes = waves
     part = slice(begin, end)
-    return Waves(time[part], tuple(each[part] for each in mesh), *(each[part] for each in axes))
+    return waves.select(lambda values: values[part])
 
 
-def new_waves(rows: int, meshes: int, bearings: int = 0, tilting: bool = False) -> Waves:
-    """Room for `rows` samples; without bearings, axes are held and have no columns."""
-    of_axes = (2 * bearings, 2 * bearings, 2 * MEMBERS, 2 * meshes) if bearings else (0,) * 4
-    of_tilting = SAMPLE_TILTING * bearings if tilting else 0
-    return Waves(
-        np.empty(rows),
-        tuple(np.empty((rows, meshes)) for _ in WAVEFORM),
-        *(np.empty((rows, columns)) for columns in (*of_axes, of_tilting)),
-    )
+def joined_waves(parts: Sequence[Waves]) -> Waves:
+    """Samples of consecutive windows, of which there is at least one."""
+    if len(parts) == 1:
+        return parts[0]
+    rows = sum(len(part.time) for part in parts)
+    whole, begin = parts[0].select(lambda values: np.empty((rows, *values.shape[1:]))), 0
+    for part in parts:
+        end = begin + len(part.time)
+        for room, values in zip(wave_rows(whole, begin, end).arrays, part.arrays, strict=True):
+            room[:] = values
+        begin = end
+    return whole
+
+
+class WaveRoom:
+    """Makes arrays for the samples of a run.
+
+    Args:
+        train: of the run.
+        report: number of the reported bodies and meshes.
+        asked: quantities that are wanted.
+    """
+
+    def __init__(self, train: Train, report: Report, asked: Asked) -> None:
+        self._meshes, self._bodies = int(report.meshes), int(report.bodies)
+        self._mesh = tuple(name in asked.mesh for name in WAVEFORM)
+        self._of_bodies = asked.bodies
+        self._bearings = bearings_of(train)
+        self._tilting = SAMPLE_TILTING * self._bearings if tilts(train) else 0
+
+    def new(self, rows: int) -> Waves:
+        """Arrays for `rows` samples."""
+        shape, bodies, axes = (rows, self._meshes), None, None
+        if self._of_bodies:
+            pairs = (self._bodies, self._bodies, SAMPLE_DRAGS)
+            bodies = BodyWaves(*(np.empty((rows, columns)) for columns in pairs))
+        if self._bearings:
+            plane = 2 * self._bearings
+            columns = (plane, plane, 2 * MEMBERS, 2 * self._meshes, self._tilting)
+            axes = AxesWaves(*(np.empty((rows, count)) for count in columns))
+        mesh = tuple(np.empty(shape) if asked else None for asked in self._mesh)
+        return Waves(np.empty(rows), mesh, bodies, axes)
 
 
 def bearings_of(train: Train) -> int:
@@ -75,7 +156,7 @@ def new_samples(train: Train, room: int) -> Samples:
         np.zeros((room, AXES)),
         np.zeros((room, bodies)),
         np.zeros((room, bodies)),
-        np.zeros((room, 2)),
+        np.zeros((room, SAMPLE_DRAGS)),
         np.zeros((room, bearings_of(train), SAMPLE_AXES)),
         np.zeros((room, bearings_of(train), SAMPLE_TILTING if tilts(train) else 0)),
     )

@@ -15,15 +15,12 @@ from ..scene.live import PORT_FIELDS, live_values, split_live
 from ..text.number_check import check_number
 from ..text.object_repr import brief
 from .commands import NOTHING, Command, CommandLog, Commands
-from .counters import Course, Settling, course_so_far, unsettled
 from .port_engine import DrivenEngine
-from .samples import bearings_of, new_waves, tilts
-from .start import start
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
 from .window_jobs import WindowJobs, run_alone
-from .window_plan import Plan, check_sample_rate, samples_until, window_end
-from .window_results import WindowResults
+from .window_plan import Plan, check_sample_rate, window_end
+from .windows import Windows
 
 LONGEST_STEP = 1.0  # [s] of `Twin.step`, which cannot be interrupted
 
@@ -78,28 +75,19 @@ class Twin:
         """Scene at the start of the run."""
         self.scene = scene
         """Scene with the present ports."""
-        self._engine = start(scene, tolerance)
+        self._windows = Windows(scene, tolerance)
+        self._engine = self._windows.run
         gearbox = self._engine.gearbox
         self._names, self._mesh_names = gearbox.body_names, gearbox.mesh_names
-        self._core, self._report = gearbox.core, gearbox.report
-        self._results = WindowResults(gearbox)
-        self._ticks = 0
         first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
         self.log = [first]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
-        self._ends = (
-            self._core.WindowEnd(),
-            self._core.WindowEnd(),
-        )  # of the last window, and of the next one
-        self._begin_window()
-        self._forgetting, self._settled = Settling(gearbox), 0.0
-        self._settling = self._forgetting.rate(scene.operating_point)
-        self._course = course_so_far(self._engine.control, 0.0)
         linear = scene.drive.interpolation == "linear"
         self._kept = CommandLog(linear) if keep_commands else None
         self._given = scene.drive.ports.given
-        self._stepped = False  # since the last window, without sums of the meshes
-        self._shown, self._reached = self._core.PortStates(), self._core.WindowEnd()
+        self._stepped = False  # since the last window
+        core = gearbox.core
+        self._shown, self._reached = core.PortStates(), core.WindowEnd()
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -114,7 +102,7 @@ class Twin:
     @property
     def time(self) -> float:
         """Simulated time [s]: the end of the last window."""
-        return self._ticks / TICKS
+        return self._windows.ticks / TICKS
 
     @property
     def operating_point(self) -> OperatingPoint:
@@ -154,7 +142,7 @@ class Twin:
         Raises:
             ValueError: the scene is quasi-static.
         """
-        return self._driven().port_states(self._ticks)
+        return self._driven().port_states(self._windows.ticks)
 
     @property
     def speed_limits(self) -> tuple[float, float]:
@@ -290,7 +278,7 @@ class Twin:
                 has changed.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
-        begin, engine = self._ticks, self._engine
+        begin, engine = self._windows.ticks, self._engine
         try:
             if not 0.0 < dt <= LONGEST_STEP:
                 raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
@@ -308,7 +296,7 @@ class Twin:
             self._driven().refuse(begin, end, command)
         if self._kept is not None:
             self._kept.keep(begin, end, command)
-        self._ticks, self._stepped = end, True
+        self._windows.ticks, self._stepped = end, True
         return self._shown
 
     def _driven(self) -> DrivenEngine:
@@ -322,8 +310,7 @@ class Twin:
     def _end_steps(self) -> None:
         """Begin a window after steps, which have no sums of the meshes."""
         if self._stepped:
-            self._engine.pop_mesh_sums(Fraction(self._ticks, TICKS))
-            self._begin_window()
+            self._windows.begin()
             self._stepped = False
 
     def advance(
@@ -375,15 +362,14 @@ class Twin:
 
     def _apply_command(self, command: Command, end: int) -> None:
         """Apply a command from the present time to `end` [ticks]."""
-        self._driven().apply_command(self._ticks, end, command)
+        begin = self._windows.ticks
+        self._driven().apply_command(begin, end, command)
         if self._kept is not None:
-            self._kept.keep(self._ticks, end, command)
+            self._kept.keep(begin, end, command)
 
     def _jobs(self, plan: Plan) -> WindowJobs:
         """Jobs of the core for a window."""
-        return self._engine.window(
-            plan.end, plan.first, self.sample_rate, self._report, plan.waves, self._ends[1]
-        )
+        return self._windows.jobs(plan)
 
     def _change(self, **inputs: Any) -> float:
         """Continue with other inputs, fields of `Change`; returns the present time [s]."""
@@ -394,9 +380,9 @@ class Twin:
             self._set_ports(change)
         else:
             self._end_steps()
-            self._engine.change(change.point, change.tolerance, Fraction(self._ticks, TICKS))
-        self._begin_window()  # a change of backlash is not work of this window
-        self._settling = self._forgetting.rate(change.point)
+            self._engine.change(change.point, change.tolerance, self._instant)
+        self._windows.begin()  # a change of backlash is not work of this window
+        self._windows.set_point(change.point)
         self.log.append(change)
         return self.time
 
@@ -405,38 +391,23 @@ class Twin:
         ports = {name: getattr(change.ports, side) for name, side in PORT_FIELDS.items()}
         scene = self.scene.replace(**ports)
         self._end_steps()
-        self._driven().set_ports(scene, change.point, Fraction(self._ticks, TICKS))
+        self._driven().set_ports(scene, change.point, self._instant)
         self.scene, self._given = scene, change.ports.given
 
-    def _begin_window(self) -> None:
-        """Begin a window at the present time."""
-        self._engine.begin_window(self._ticks, self._ends[0])
+    @property
+    def _instant(self) -> Fraction:
+        """Simulated time [s], exactly."""
+        return Fraction(self._windows.ticks, TICKS)
 
     def _plan(self, duration: float) -> Plan:
         """Plan a window of `duration` seconds from the present time on."""
-        begin, rate, train = self._ticks, self.sample_rate, self._engine.train
-        end = window_end(begin, duration, rate)
-        first = samples_until(begin, rate) + 1
-        rows = samples_until(end, rate) - first + 1
-        waves = new_waves(rows, len(self.meshes), bearings_of(train), tilts(train))
-        return Plan(begin, end, first, waves, self._engine.repeats)
+        rate = self.sample_rate
+        return self._windows.plan(window_end(self._windows.ticks, duration, rate), rate)
 
     def _close(self, plan: Plan) -> Window:
         """Results of the window that the engine has run through."""
-        begin, end = self._ends
-        self._results.evaluate(begin, end, plan)
-        self._ticks, self._ends = plan.end, (end, begin)
-        course = self._follow((plan.end - plan.begin) / TICKS)
-        if plan.begin == 0:
-            course = course._replace(start_warning=self._engine.start_warning)
-        return self._results.window(plan, self.tolerance, self.sample_rate, course)
-
-    def _follow(self, duration: float) -> Course:
-        """Counters of the last `duration` [s]."""
-        self._settled += duration * self._settling
-        missing, before = unsettled(self._settled, self._settling), self._course
-        self._course = course_so_far(self._engine.control, missing)
-        return self._course.since(before)
+        self._windows.close(plan)
+        return self._windows.results(plan, self.tolerance)
 
     def __repr__(self) -> str:
         """One line."""

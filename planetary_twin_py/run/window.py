@@ -8,19 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _core
 from .._core import MESH_STATISTICS
 from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
-from ..model.mesh_sums import MeshSums
 from ..text.object_repr import brief, brief_record
 from .axes.motion import AxesMotion
 from .counters import Course
-from .result import ROUNDING
+from .energy import efficiency
 
 
 @dataclass
 class MeshSamples:
-    """Every sample of every mesh, (samples, meshes) each, by the names of `WAVEFORM`."""
+    """Every sample of every mesh, (samples, meshes) each, by the first names of `WAVEFORM`."""
 
     time: np.ndarray
     """Sample times [s], (samples,)."""
@@ -70,7 +68,7 @@ class Window:
     waveform: Waveform
     """Samples of the meshes."""
     mesh: dict[str, np.ndarray]
-    """Statistics of the meshes by name, (meshes,) each, see `mesh_statistics`."""
+    """Statistics of the meshes by name, (meshes,) each, see `by_name`."""
     angle: np.ndarray
     """Absolute angles at the end, in [0, 2 pi) [rad], (bodies,)."""
     mean_speed: np.ndarray
@@ -159,9 +157,8 @@ class Window:
         changes direction. Power that is only stored does not count, see `Energy.driven`.
         """
         driving = float(np.maximum(self.machine_power, 0.0).sum())
-        least = ROUNDING * self.stored_energy / (self.end - self.start)
-        passing = driving - max(self.stored_power, 0.0)
-        return 1.0 - self.power_loss / driving if passing > least else math.nan
+        stored = self.stored_energy / (self.end - self.start)
+        return efficiency(self.power_loss, driving, self.stored_power, stored)
 
     def __repr__(self) -> str:
         """One line."""
@@ -169,8 +166,8 @@ class Window:
         return brief(self, f"{self.start:g} to {self.end:g} s", samples, meshes)
 
 
-def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
-    """Mean, rms and peak values over an interval.
+def by_name(rows: np.ndarray) -> dict[str, np.ndarray]:
+    """Mean, rms and peak values of the meshes over an interval, by name.
 
     The integrator computes them independently of samples. The rms value is that of the deviation
     from the mean, the peak is the largest magnitude. Film thickness and lambda ratio are means over
@@ -178,17 +175,9 @@ def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
     teeth carry load without viscous friction.
 
     Args:
-        sums: integrals and extremes of the meshes over the interval.
+        rows: from the core, a row of all meshes for each of `MESH_STATISTICS`.
 
     Returns:
         Statistics in SI by name, (meshes,) each.
     """
-    rows = np.empty((len(MESH_STATISTICS), sums.integral.shape[1]))
-    integral, dte, force = map(np.ascontiguousarray, sums[1:])
-    _core.mesh_statistics(sums.time, integral, dte, force, rows)
-    return by_name(rows)
-
-
-def by_name(rows: np.ndarray) -> dict[str, np.ndarray]:
-    """Statistics by name, from the rows that the core fills, one for each."""
     return {name: rows[row] for name, row in MESH_STATISTICS.items()}

@@ -23,6 +23,8 @@ class Plan(NamedTuple):
     """Start [ticks]."""
     end: int
     """End [ticks]."""
+    rate: float
+    """Sample rate [Hz]."""
     first: int
     """Number of its first sample."""
     waves: Waves

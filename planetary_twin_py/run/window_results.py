@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .._core import WindowEnd
+from .._core import PUBLISHED, WindowEnd
 from ..gearset.kinematics import mesh_frequency
 from ..model.clock import TICKS
 from ..model.gearbox import Gearbox
@@ -47,30 +47,30 @@ class WindowResults:
         duration = (plan.end - plan.begin) / TICKS
         self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
 
-    def window(self, plan: Plan, tolerance: float, sample_rate: float, course: Course) -> Window:
+    def window(self, plan: Plan, tolerance: float, course: Course) -> Window:
         """Assemble the results of the window that was evaluated last.
 
         Args:
             plan: the window, with its samples.
             tolerance: relative local error tolerance.
-            sample_rate: sample rate [Hz].
             course: counters of the window, which show its accuracy.
 
         Returns:
             The results.
         """
         mean_speed, record = self._mean_speed.copy(), self._record
+        published = plan.waves.asked_of_meshes[:PUBLISHED]
         mesh = by_name(self._statistics.copy())
         frequency = mesh_frequency(self._teeth, mean_speed[self._sun], mean_speed[-1])
         return Window(
             start=plan.begin / TICKS,
             end=plan.end / TICKS,
             tolerance=tolerance,
-            sample_rate=sample_rate,
+            sample_rate=plan.rate,
             repeated=plan.repeated,
             bodies=self._bodies,
             meshes=self._meshes,
-            waveform=Waveform(plan.waves.time, *plan.waves.mesh, period=1.0 / sample_rate),
+            waveform=Waveform(plan.waves.time, *published, period=1.0 / plan.rate),
             mesh=mesh,
             angle=self._angle.copy(),
             mean_speed=mean_speed,

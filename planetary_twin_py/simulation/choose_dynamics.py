@@ -6,12 +6,12 @@ import time
 
 import numpy as np
 
-from .._core import BEARING, CHURNING, FRICTION
+from ..model.clock import TICKS
 from ..model.layout import Layout
-from ..model.mesh_sums import in_order
+from ..run.commanded_run import CommandedRun
 from ..run.dynamics_choice import BY_COST, Candidate, DynamicsChoice
-from ..run.start import start
-from ..run.window import mesh_statistics
+from ..run.run_total import RunTotal
+from ..run.windows import Windows
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
 from ..units.catalogue import FIGURES
@@ -71,17 +71,17 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
         scene = scene.replace(**{"drive.speed_control.start_speed": None})
     duration = _duration(scene)
     begin = time.perf_counter()
-    run = start(scene, TOLERANCE)
-    run.advance(duration, 1, 1.0, 0)
-    run.pop_mesh_sums(duration)
-    before = run.books(duration)
-    run.advance(2.0 * duration, 1, 1.0, 0)
-    ledger = run.books(2.0 * duration).since(before).ledger
-    sums = run.pop_mesh_sums(2.0 * duration)
+    windows = Windows(scene, TOLERANCE)
+    course = CommandedRun(windows, scene, None)
+    end = round(duration * TICKS)
+    for _ in course.advance(end, 1.0, None, sampled=False):
+        pass
+    total = RunTotal(windows)
+    for _ in course.advance(2 * end, 1.0, None, sampled=False):
+        total.add(windows.last, False)
+    total.close(duration)
     spent = time.perf_counter() - begin
-    found = mesh_statistics(in_order(sums, run.gearbox.mesh_names.place))
-    lost = sum(ledger[item] for item in (FRICTION, BEARING, CHURNING))
-    found["power_loss"] = np.array([lost / duration])
+    found = total.mesh | {"power_loss": np.array([total.energy.loss / duration])}
     return {name: found[name] for name in FIGURES}, spent / (2.0 * duration)
 
 

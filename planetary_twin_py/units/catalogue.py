@@ -104,7 +104,7 @@ MESH = {
         over_meshes=np.sum,
     ),
 }  # fmt: skip
-"""Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `mesh_statistics`."""
+"""Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `by_name`."""
 
 SUMMARY = {
     "dte_mean": ("mean_dte", Quantity("DTE of all meshes, mean", "m")),

@@ -69,7 +69,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     rigid, radius = train.body.ratio[:n], train.body.radius[:n]
     compared = 0
     for until in np.sort(random.uniform(1e-4, 0.02, 60)):
-        engine.advance(until, 1, 1.0, 0)
+        engine.sample(until)
         integrator.control.changed = True
         begin_step(engine.model, integrator)
         begin = integrator.begin

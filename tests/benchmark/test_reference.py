@@ -3,6 +3,7 @@
 import pytest
 from planetary_twin_benchmark.cases import CASES
 from planetary_twin_benchmark.reference import Reference
+from planetary_twin_benchmark.samples import samples_until
 from planetary_twin_benchmark.table import dte_error
 
 from planetary_twin_py._core import DTE
@@ -18,5 +19,5 @@ def test_flanks_that_meet_within_one_step_are_not_missed():
     scene = next(case for case in CASES if case.name.startswith("resonance")).compared()
     true = Reference(scene).run(SPAN, RATE)[:, DTE]
     engine = Engine(scene, 1e-8, "rosenbrock")
-    found = engine.advance(SPAN, 1, RATE, len(true)).mesh[:, DTE]
+    found = samples_until(engine, SPAN, 1, RATE, len(true)).mesh[:, DTE]
     assert dte_error(found, true) < 1e-7

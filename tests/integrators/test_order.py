@@ -28,7 +28,7 @@ def integrator(points, steps):
     """Displaced bodies after SPAN in equal steps with so many nodes, and the events on the way."""
     scene = load_scene("paper").replace(**SMOOTH)
     engine = Engine(scene, TIGHT)
-    engine.advance(START, 1, 1.0, 0)
+    engine.sample(START)
     engine.change(scene.operating_point, TIGHT, START)
     model, run = engine.model, engine.integrator
     run.run.nodes = radau(points)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_benchmark.samples import samples_until
 from power_flows import FLOWS, scene_of
 from reference_model import Reference
 
@@ -41,7 +42,7 @@ def absolute(engine, _=None):
 def errors(scene, begin, duration, tolerances, model=Reference, state=absolute):
     """Difference of all transmission errors from the reference over their rms, per tolerance."""
     source = Engine(scene, 1e-6)
-    source.advance(begin, 1, RATE, 0)
+    source.sample(begin)
     start = source.integrator.end.time
     first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
     times, reference = np.arange(first, last + 1) / RATE, model(scene)
@@ -50,7 +51,7 @@ def errors(scene, begin, duration, tolerances, model=Reference, state=absolute):
     for tolerance in tolerances:
         engine = Engine(scene, tolerance)
         engine.integrator.end = source.integrator.end
-        mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE, place]
+        mine = samples_until(engine, times[-1], first, RATE, len(times)).mesh[:, DTE, place]
         result.append(np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)))
     return result, flank_events
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_benchmark.samples import samples_until
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
@@ -17,6 +18,7 @@ from planetary_twin_py._core import (
     STIFFNESS_WORK,
     WORK,
 )
+from planetary_twin_py.model.clock import TICKS
 from planetary_twin_py.model.cycle import common_cycles
 from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.run.engine import Engine
@@ -51,13 +53,15 @@ class Settled:
         end = PERIODS / Gearbox(scene).bandwidth
         first = math.floor(end * 20_000) - 19
         self.engine = Engine(scene, TOLERANCE, method)
-        begin = self.engine.books(0.0)
-        samples = self.engine.advance((first + 19) / 20_000, first, 20_000.0, 20)
+        begin, end = (self.engine._core.WindowEnd() for _ in range(2))
+        self.engine.exact_end(0, begin)
+        samples = samples_until(self.engine, (first + 19) / 20_000, first, 20_000.0, 20)
         self.dte, self.force = samples.mesh[:, DTE], samples.mesh[:, MESH_FORCE]
         ratio = self.engine.train.body.ratio[: self.engine.train.bodies]
         self.angle = math.tau * samples.turns @ ratio.T + samples.angle
-        self.ledger, *gains = self.engine.books((first + 19) / 20_000).since(begin)
-        self.gain = sum(gains)
+        self.engine.exact_end(round((first + 19) / 20_000 * TICKS), end)
+        self.ledger = end.ledger
+        self.gain = end.kinetic + end.elastic - begin.kinetic - begin.elastic
 
 
 @pytest.mark.slow
@@ -104,12 +108,12 @@ def test_a_change_acts_at_its_instant_on_repeated_cycles(change):
     seen, end = [], PERIODS / Gearbox(PAPER).bandwidth
     for method in ("auto", "march"):
         engine = Engine(PAPER, TOLERANCE, method)
-        engine.advance(end, 1, 1.0, 0)
+        engine.sample(end)
         assert engine.repeats == (method == "auto")
         engine.change(PAPER.replace(**change).operating_point, TOLERANCE, end)
         assert not engine.repeats
         first = round(end * 20_000) + 1
-        seen.append(engine.advance(end + 0.02, first, 20_000.0, 400).mesh)
+        seen.append(samples_until(engine, end + 0.02, first, 20_000.0, 400).mesh)
     dte = [samples[:, 0] for samples in seen]
     assert np.abs(dte[0] - dte[1]).max() < TOLERANCE * np.abs(dte[1]).max()
 
@@ -196,10 +200,10 @@ class Followed:
             point = scene.replace(input_speed=pt.rpm(speed)).operating_point
             self.engine.change(point, TOLERANCE, end)
             end += duration
-            self.engine.advance(end, 1, 1.0, 0)
+            self.engine.sample(end)
         rate = speed / 60.0 * scene.gearset.teeth.sun
         start = math.ceil(end * rate) + 1
-        samples = self.engine.advance((start + 59) / rate, start, rate, 60)
+        samples = samples_until(self.engine, (start + 59) / rate, start, rate, 60)
         self.dte = samples.mesh[:, DTE]
         self.difference = np.ptp(self.dte, axis=0).max() / abs(self.dte).max()
 

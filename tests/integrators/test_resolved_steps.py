@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from planetary_twin_benchmark.samples import samples_until
 
 import planetary_twin_py as pt
 from planetary_twin_py._core import DTE
@@ -14,7 +15,7 @@ def run(name, tolerance, method):
     """Transmission errors [m] (n, meshes), and the counters of the run."""
     engine = start(pt.load_scene(name), tolerance, method)
     rows = round(DURATION * RATE)
-    return engine.advance(DURATION, 1, RATE, rows).mesh[:, DTE], engine.control
+    return samples_until(engine, DURATION, 1, RATE, rows).mesh[:, DTE], engine.control
 
 
 @pytest.mark.parametrize("name", ["wind_turbine_stage", "helical_stage"])

@@ -45,4 +45,4 @@ def test_a_state_that_is_not_finite_ends_the_run():
     engine = Engine(load_scene("paper"), 1e-3)
     engine.integrator.end.x[0] = np.nan
     with pytest.raises(ArithmeticError, match="no finite state"):
-        engine.advance(0.01, 1, 1e4, 100)
+        engine.sample(0.01)

@@ -51,7 +51,7 @@ def largest_difference(scene, duration):
     engine, healthy = start(scene, 1e-4, "march"), Gearbox(scene.replace(faults=[]))
     wrong, effect, largest = 0.0, 0.0, 0.0
     for k in range(1, round(duration / STEP)):
-        engine.advance(k * STEP, 1, 1.0, 0)
+        engine.sample(k * STEP)
         angle, force, positions, expected = model_loads(engine)
         turned = {name: np.mod(value, 2 * math.pi) for name, value in angle.items()}
         for mesh in range(len(force)):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from model.rigid_gears import RigidGears
+from planetary_twin_benchmark.samples import samples_until
 from power_flows import ALL_FLOWS, DIFFERENTIALS, scene_of
 from stability.sound import PAPER, PLAIN
 
@@ -62,8 +63,7 @@ def rate_of_growth(engine, begin, end, period):
     """Least squares: the motor's speed as a decaying or growing oscillation [1/s]."""
     first = round(begin / period)
     room = round((end - begin) / period)
-    engine.advance(begin, 1, 1.0, 0)
-    seen = engine.advance(end, first, 1.0 / period, room).speed
+    seen = samples_until(engine, end, first, 1.0 / period, room).speed
     y = seen[:, int(engine.train.coupling.ends[0, 0])]
     y = np.diff(y)  # without the mean
     two, one = np.linalg.lstsq(np.stack([y[:-2], y[1:-1]], 1), y[2:])[0]

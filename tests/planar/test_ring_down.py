@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from planar.moving_scenes import evenly, planar
+from planetary_twin_benchmark.samples import samples_until
 from power_flows import FLOWS
 from tiers import first
 
@@ -144,7 +145,7 @@ def test_a_run_rings_at_the_frequency_of_its_mode(flow, speed, mode):
     engine.control.changed = True
     periods = 40
     samples = round(periods / wanted * RATE)
-    motion = engine.advance(samples / RATE, 1, RATE, samples)
+    motion = samples_until(engine, samples / RATE, 1, RATE, samples)
     axis = (
         np.abs(engine.train.body.ratio[: len(x)]).sum(axis=1) == 0.0
     )  # not what couplings wind up

@@ -64,3 +64,10 @@ def momentum(scene, result, states):
         at = bodies.place[name]
         total += bodies.mass[at] * bodies.radius[at] ** 2 * bodies.ratio[at, 0] * speed
     return float(total)
+
+
+def exact_end(twin):
+    """Ledger since the last window and energies of a twin, at its present time."""
+    end = twin._engine._core.WindowEnd()
+    twin._engine.exact_end(twin._windows.ticks, end)
+    return end

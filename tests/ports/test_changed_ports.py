@@ -1,14 +1,12 @@
 """Ports that change while a twin runs: nothing jumps, and energy is neither lost nor made."""
 
 import itertools
-from fractions import Fraction
 
 import numpy as np
 import pytest
-from ports.ports_of_paper import CAUSALITIES, PAPER
+from ports.ports_of_paper import CAUSALITIES, PAPER, exact_end
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.clock import TICKS
 
 PAIRS = list(itertools.product(CAUSALITIES, repeat=2))
 LENGTH = 2e-3  # [s] of a window
@@ -25,8 +23,8 @@ def names(ports):
 
 
 def stored(twin):
-    books = twin._engine.books(Fraction(twin._ticks, TICKS))
-    return books.kinetic + books.elastic
+    end = exact_end(twin)
+    return end.kinetic + end.elastic
 
 
 def of_shafts(twin, ports):

@@ -1,16 +1,14 @@
 """The energy ledger with each causality: power in = power out + losses + what is stored."""
 
 import itertools
-from fractions import Fraction
 
 import numpy as np
 import pytest
 from planar.moving_scenes import planar
-from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, PAPER, RATIO, course, driven
+from ports.ports_of_paper import CAUSALITIES, NO_FRICTION, PAPER, RATIO, course, driven, exact_end
 from stability.sound import turnover
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.clock import TICKS
 
 PORTS = [pair for pair in itertools.product(CAUSALITIES, repeat=2) if pair != ("machine",) * 2]
 
@@ -60,7 +58,7 @@ def test_work_at_a_port_is_the_integral_of_torque_times_speed():
     twin, dt, work = pt.Twin(driven("motion", "torque"), tolerance=1e-5), 1e-5, np.zeros(2)
 
     def ledger():
-        return twin._engine.books(Fraction(twin._ticks, TICKS)).ledger[:2]
+        return exact_end(twin).ledger[:2]
 
     def powers(shown):
         return np.array(
@@ -133,7 +131,7 @@ def test_work_of_motor_is_the_integral_of_its_torque_times_speed():
     control, dt = scene.drive.speed_control, 5e-6
     twin, work = pt.Twin(scene, tolerance=1e-5), 0.0
     shown = twin.step(dt)
-    before = twin._engine.books(Fraction(twin._ticks, TICKS)).ledger[0]
+    before = exact_end(twin).ledger[0]
 
     def power(shown):
         ripple = 20.0 * np.sin(control.ripple_order * shown.input_angle)
@@ -144,7 +142,7 @@ def test_work_of_motor_is_the_integral_of_its_torque_times_speed():
         now = power(twin.step(dt))
         work += 0.5 * dt * (last + now)
         last = now
-    after = twin._engine.books(Fraction(twin._ticks, TICKS)).ledger[0]
+    after = exact_end(twin).ledger[0]
     assert after - before == pytest.approx(work, rel=1e-6)
 
 

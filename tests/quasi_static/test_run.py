@@ -12,7 +12,9 @@ from run.test_long_run import HOURS, columns, turns_after
 import planetary_twin_py as pt
 from planetary_twin_py.model.clock import TICKS
 from planetary_twin_py.model.layout import Layout
-from planetary_twin_py.run.start import start
+from planetary_twin_py.run.samples import EVERYTHING
+from planetary_twin_py.run.window_jobs import run_alone
+from planetary_twin_py.run.windows import Windows
 
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
 LOSSES = {
@@ -116,9 +118,9 @@ def aged(scene):
     for state in (engine._origin, engine._ledger._reached):
         state.seconds += 3600 * HOURS
         state.turns[:1] += turns_after(scene, HOURS)
-    twin._ticks += 3600 * HOURS * TICKS
+    twin._windows.ticks += 3600 * HOURS * TICKS
     engine.reached = Fraction(3600 * HOURS)
-    twin._begin_window()
+    twin._windows.begin()
     return twin
 
 
@@ -136,15 +138,24 @@ def test_a_thousand_hours_change_no_sample_and_no_power(changes):
     assert old.time == 3600 * HOURS + young.time
 
 
+def advance(windows, until, rate, sampled=True):
+    """The window up to `until` [s]."""
+    plan = windows.plan(int(until * TICKS), rate, sampled)
+    run_alone(windows.jobs(plan))
+    windows.close(plan)
+    return plan
+
+
 def test_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
-    second, hours = start(PAPER, 1e-4), start(PAPER, 1e-4)
-    for engine, time in ((second, 1), (hours, 3600 * HOURS)):
-        engine.pop_energy_ledger()
-        engine.advance(Fraction(time), 1, 1.0, 0)
-        assert engine.reached == time
-    one, all_ = second.pop_energy_ledger(), hours.pop_energy_ledger()
+    second, hours = Windows(PAPER, 1e-4), Windows(PAPER, 1e-4)
+    for windows, time in ((second, 1), (hours, 3600 * HOURS)):
+        advance(windows, time, 1.0, sampled=False)
+    one, all_ = second.last.ledger.copy(), hours.last.ledger.copy()
+    assert hours.run.reached == 3600 * HOURS
     assert all_ == pytest.approx(one * 3600 * HOURS, rel=1e-12)
-    assert not second.pop_energy_ledger().any() and not hours.pop_energy_ledger().any()
+    for windows in (second, hours):
+        windows.begin()
+        assert not windows.last.ledger.any()
 
 
 def test_speed_follows_the_set_point_and_inertia_takes_work():
@@ -181,12 +192,11 @@ def test_the_ledger_integrates_motion_that_does_not_repeat(changes):
 def test_windows_change_nothing(changes):
     ends = []
     for window, windows in ((0.14, 1), (1e-3, 140), (7e-3, 20)):
-        engine = start(PAPER.replace(**changes), 1e-3)
-        rate, parts, taken = 50_000, [], []
+        run, parts, taken = Windows(PAPER.replace(**changes), 1e-3, asked=EVERYTHING), [], []
         for n in range(windows):
-            until, room = Fraction(str(window)) * (n + 1), round(window * rate)
-            parts.append(engine.advance(until, n * room + 1, rate, room).mesh)
-            taken.append(engine.pop_energy_ledger())
+            plan = advance(run, Fraction(str(window)) * (n + 1), 50_000.0)
+            parts.append(np.hstack(plan.waves.mesh))
+            taken.append(run.last.ledger.copy())
         ends.append((np.vstack(parts), [math.fsum(column) for column in zip(*taken, strict=True)]))
     for mesh, ledger in ends[1:]:
         assert np.array_equal(mesh, ends[0][0], equal_nan=True)

@@ -147,14 +147,14 @@ def test_a_run_without_progress_stops_and_says_what_keeps_it():
     engine = Engine(PAPER, 1e-4)
     engine.control.longest = 1e-12
     with pytest.raises(pt.RunawayError, match="makes no progress, its last step is 1e-12 s long"):
-        engine.advance(1.0, 1, 1.0, 0)
+        engine.sample(1.0)
     assert engine.control.steps <= 60_000
 
 
 def test_a_run_whose_flanks_keep_it_names_the_mesh():
     """Light bodies in wide clearances, with pins far from their places: see the scene."""
     with pytest.raises(pt.RunawayError, match=r"flanks of planet_ring_. engage and separate"):
-        Engine(PAPER.replace(**LOOSE), 1e-4).advance(5e-4, 1, 1.0, 0)
+        Engine(PAPER.replace(**LOOSE), 1e-4).sample(5e-4)
 
 
 @pytest.mark.parametrize("window", [True, False])
@@ -165,7 +165,7 @@ def test_an_interrupt_ends_a_call_of_the_core_at_once(window):
     engine._stops = lambda *_: ()  # at these, every 0.1 s, Python sees signals anyway
 
     def advance(until):
-        return twin.advance(until) if window else engine.advance(until, 1, 1.0, 0)
+        return twin.advance(until) if window else engine.sample(until)
 
     def interrupt(*_):
         raise KeyboardInterrupt

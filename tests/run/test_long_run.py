@@ -60,8 +60,8 @@ def aged(scene, hours=HOURS, sample_rate=50_000.0):
     for state in (integrator.begin, integrator.end):
         state.seconds += 3600 * hours
         state.turns[: len(turns)] += turns
-    twin._ticks += 3600 * hours * TICKS
-    twin._begin_window()
+    twin._windows.ticks += 3600 * hours * TICKS
+    twin._windows.begin()
     return twin, turns
 
 

@@ -6,18 +6,6 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import (
-    BOUNDARY,
-    DTE,
-    FILM,
-    FRICTION,
-    LAMBDA,
-    MESH_FORCE,
-    POWER_LOSS,
-    VISCOUS,
-)
-from planetary_twin_py.run.start import start
-from planetary_twin_py.run.window import mesh_statistics
 
 PAPER = pt.load_scene("paper")
 RATES = (10.0, 370.0, 6250.0, 50_000.0, 1e6)
@@ -58,56 +46,36 @@ def test_a_window_has_the_same_statistics_at_any_sample_rate(dynamics):
             assert one == pytest.approx(first, rel=1e-12, nan_ok=True)
 
 
-def integrated_and_sampled(scene):
-    """Statistics of the same 0.1 s by the integrator, and its samples each microsecond."""
-    engine, other = start(scene, 1e-4), start(scene, 1e-4)
-    engine.advance(0.02, 1, 1.0, 0)
-    engine.pop_mesh_sums(0.02)
-    engine.advance(0.12, 1, 1.0, 0)
-    sums = engine.pop_mesh_sums(0.12)
-    assert sums.time == pytest.approx(0.1, rel=1e-12)
-    return mesh_statistics(sums), other.advance(0.12, 20_000, 1e6, 100_001).mesh
-
-
 @pytest.mark.parametrize("name", SCENES)
 def test_statistics_are_those_of_very_many_samples(name):
     """Within 1e-3; within 2e-3 where flanks part amid a step, as friction has a kink there."""
-    seen, samples = integrated_and_sampled(PAPER.replace(**SCENES[name]))
-    rel = 2e-3 if name == "rattling" else 1e-3
-    touching = samples[:, MESH_FORCE] != 0.0
-    mean = samples.mean(axis=0)
-    film, ratio = np.nanmean(samples[:, [FILM, LAMBDA]], axis=0)
+    run = pt.simulate(PAPER.replace(**SCENES[name]), 0.1, 1e6, settling=0.02)
+    seen, rel = run.mesh, 2e-3 if name == "rattling" else 1e-3
+    touching = run.mesh_force != 0.0
     expected = {
-        "dte_mean": mean[DTE],
-        "dte_rms": samples[:, DTE].std(axis=0),
-        "mesh_force_mean": mean[MESH_FORCE],
+        "dte_mean": run.dte.mean(axis=0),
+        "dte_rms": run.dte.std(axis=0),
+        "mesh_force_mean": run.mesh_force.mean(axis=0),
         "contact_fraction": touching.mean(axis=0),
-        "film_thickness": film,
-        "lambda_ratio": ratio,
-        "boundary_friction": mean[BOUNDARY],
-        "viscous_friction": mean[VISCOUS],
-        "power_loss": mean[POWER_LOSS],
+        "film_thickness": np.nanmean(run.film_thickness, axis=0),
+        "lambda_ratio": np.nanmean(run.lambda_ratio, axis=0),
+        "boundary_friction": run.boundary_friction.mean(axis=0),
+        "viscous_friction": run.viscous_friction.mean(axis=0),
+        "power_loss": run.power_loss.mean(axis=0),
     }
     for quantity, values in expected.items():
         assert seen[quantity] == pytest.approx(values, rel=rel, abs=1e-15), quantity
-    for peak, row in (("dte_peak", DTE), ("mesh_force_peak", MESH_FORCE)):
-        assert seen[peak] == pytest.approx(np.abs(samples[:, row]).max(axis=0), rel=1e-2), peak
-    clipped = touching & (samples[:, VISCOUS] == 0.0)
+    for peak, samples in (("dte_peak", run.dte), ("mesh_force_peak", run.mesh_force)):
+        assert seen[peak] == pytest.approx(np.abs(samples).max(axis=0), rel=1e-2), peak
+    clipped = touching & (run.viscous_friction == 0.0)
     assert seen["without_viscous"] == pytest.approx(clipped.mean(axis=0), abs=0.02)
 
 
 @pytest.mark.parametrize("changes", SCENES.values(), ids=SCENES)
 def test_losses_of_the_meshes_add_up_to_the_energy_ledger(changes):
-    """Between ends of steps, where both stand."""
-    engine = start(PAPER.replace(**changes), 1e-4)
-    for time in (0.01, 0.05):
-        begin = engine.books(engine.reached)
-        engine.advance(time, 1, 1.0, 0)
-        engine.advance(engine.reached, 1, 1.0, 0)
-        friction = engine.books(engine.reached).since(begin).ledger[FRICTION]
-        lost = engine.pop_mesh_sums(engine.reached).integral[POWER_LOSS]
-    copies = engine.train.mesh.copies[: len(lost)]
-    assert (lost * copies).sum() == pytest.approx(friction, rel=1e-4, abs=1e-12)
+    run = pt.simulate(PAPER.replace(**changes), 0.04, 1000.0, settling=0.01)
+    lost = run.mesh["power_loss"].sum() * run.duration
+    assert lost == pytest.approx(run.energy.friction, rel=1e-4, abs=1e-12)
 
 
 def test_rosenbrocks_method_has_the_same_statistics():

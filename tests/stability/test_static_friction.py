@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_benchmark.samples import samples_until
 from stability.sound import UNIFORM, base_radius, sound_run
 
 import planetary_twin_py as pt
@@ -90,8 +91,8 @@ def pushed(share, pause=0.6):
     extra = share * friction_torque(start)
     for step in range(1, 41):
         operation.torque[MOTOR] = torque + extra * step / 40
-        engine.advance(0.005 * step, 0, 1.0, 0)
-    seen = engine.advance(0.2 + pause, 401, 2000.0, int(2000 * pause))
+        engine.sample(0.005 * step)
+    seen = samples_until(engine, 0.2 + pause, 401, 2000.0, int(2000 * pause))
     return seen.speed[:, sun], seen.angle[:, sun], extra
 
 

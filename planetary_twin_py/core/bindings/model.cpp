@@ -121,13 +121,6 @@ void bind_equations(nb::module_& m) {
         "bearing"_a, "clearance"_a, "size"_a,
         "Energy [J], force [N] and stiffness [N/m] of a rolling bearing per eccentricity, (3, n).");
     m.def("kinetic", &kinetic, "model"_a, "state"_a, "Kinetic energy of all bodies [J].");
-    m.def(
-        "stored",
-        [](const Model& model, const State& state, StepConstants& step) {
-            auto [kinetic, elastic] = stored(model, state, step);
-            return std::tuple(kinetic, elastic);
-        },
-        "model"_a, "state"_a, "step"_a, "Kinetic and elastic energy of the train [J].");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/unlocked.hpp"
+#include "bindings/waveforms.hpp"
 #include "mesh/join_flanks.hpp"
 #include "model/weight.hpp"
 #include "quasi_static/equilibrium.hpp"
@@ -16,6 +17,7 @@
 #include "quasi_static/sampling.hpp"
 #include "quasi_static/second_coupling.hpp"
 #include "quasi_static/totals.hpp"
+#include "run/window.hpp"
 
 namespace gearbox {
 
@@ -88,11 +90,15 @@ void py_sample(const Model& model, double tolerance, const State& origin, Equili
     sample(model, tolerance, origin, run, instant_of(at), samples, row);
 }
 
-void py_sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,
-                   const SamplingTuple& at, const SamplesTuple& out) {
-    Samples samples = samples_of(out);
+void py_sample_window(const Model& model, double tolerance, State& origin, Equilibrium& run,
+                      const SamplingTuple& at, const Report& report, std::int64_t first,
+                      double rate, const WaveformTuple& arrays, WindowEnd& end) {
+    const Waveform out = waveform_of(arrays, report, first, rate, model.train);
     Unlocked release;
-    sample_all(model, tolerance, origin, run, sampling_of(at), samples);
+    end.peaks = {};
+    SampleRoom room(model.train, out, &end.peaks);
+    sample_all(model, tolerance, origin, run, sampling_of(at), room.samples());
+    room.put(report, model.train, out);
 }
 
 void py_add_rates(const Train& train, const ConstArray& power, const ConstArray& shown,
@@ -190,9 +196,10 @@ void bind_quasi_static(nb::module_& m) {
     m.def("sample_equilibrium", &py_sample, nb::arg("model"), nb::arg("tolerance"),
           nb::arg("origin"), nb::arg("run"), nb::arg("at"), nb::arg("out"), nb::arg("row"),
           "Write the sample at an instant into a row of `out`.");
-    m.def("sample_equilibria", &py_sample_all, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("origin"), nb::arg("run"), nb::arg("samples"), nb::arg("out"),
-          "Fill all rows of `out`; `origin` is advanced.");
+    m.def("sample_window", &py_sample_window, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("origin"), nb::arg("run"), nb::arg("samples"), nb::arg("report"),
+          nb::arg("first"), nb::arg("rate"), nb::arg("out"), nb::arg("end"),
+          "Fill the waveform, and the peaks of `end`; `origin` is advanced.");
     m.def("add_rates", &py_add_rates, nb::arg("train"), nb::arg("power"), nb::arg("shown"),
           nb::arg("weight"), nb::arg("out"),
           "Add the rates at one instant, times `weight` [s], to the totals `out` (TOTALS,).");

@@ -1,6 +1,7 @@
 #include "quasi_static/sampling.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "model/body_speed.hpp"
@@ -16,10 +17,19 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
     advance_shafts(model, origin, delay(origin, at), state);
     double shown[QUANTITIES][MESHES];
     solve_equilibrium(model, tolerance, run, shown);
-    for (int q = 0; q < QUANTITIES; ++q)
+    for (std::int64_t q = 0; q < out.quantities; ++q)
         std::copy(shown[q], shown[q] + out.meshes, out.mesh_row(row) + q * out.meshes);
-    out.drag[row * SAMPLE_DRAGS] = run.evaluation.power[BEARING];
-    out.drag[row * SAMPLE_DRAGS + 1] = run.evaluation.power[CHURNING];
+    if (out.peaks)
+        for (std::int64_t i = 0; i < train.meshes; ++i) {
+            double &peak = out.peaks->dte[i], size = std::fabs(shown[DTE][i]);
+            if (!(std::isnan(peak) || peak >= size)) peak = size;
+        }
+    if (MOVING && out.moved) sample_axes(train, state, state.x, state.v, out, row);
+    if (out.drag) {
+        out.drag[row * SAMPLE_DRAGS] = run.evaluation.power[BEARING];
+        out.drag[row * SAMPLE_DRAGS + 1] = run.evaluation.power[CHURNING];
+    }
+    if (!out.turns) return;
     std::copy(state.turns, state.turns + out.axes, out.turns + row * out.axes);
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double angle = 0.0;
@@ -28,7 +38,6 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
         out.speed[row * out.bodies + j] = body_speed(train, state, state.v, j);
         out.angle[row * out.bodies + j] = angle;
     }
-    if constexpr (MOVING) sample_axes(train, state, state.x, state.v, out, row);
 }
 
 void sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,

@@ -2,59 +2,15 @@
 
 // A window of a run: its waveform, and the state of the train at its end.
 
-#include <cstdint>
-#include <iterator>
-
 #include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
 #include "model/model.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
 #include "run/report.hpp"
+#include "run/waveform.hpp"
 
 namespace gearbox {
-
-// All samples of moving axes. Displacements and forces of sun, ring, carrier and planets are those
-// of MovingAxes; orbits are those of the first three in the housing.
-struct AxesWaveform {
-    double* displacement;   // (rows, bearings, 2) [m]
-    double* bearing_force;  // (rows, bearings, 2), on the bearing [N]
-    double* orbit;          // (rows, MEMBERS, 2) [m]
-    double* flank_force;    // (rows, FLANKS, meshes), drive flanks first, magnitude [N]
-    double* tilting;        // (rows, bearings, SAMPLE_TILTING), see Samples; only if axes tilt
-};
-
-// A quantity of the waveform of a mesh: the sum of rows of `observe`.
-struct WaveQuantity {
-    const char* name;  // as in messages and results
-    int first, last;   // rows
-    bool of_flank;     // whether the flanks of a mesh add up; they have the DTE in common
-};
-
-inline constexpr WaveQuantity WAVEFORM[] = {
-    {"dte", DTE, DTE, false},                      // [m]
-    {"mesh_force", MESH_FORCE, MESH_FORCE, true},  // [N]
-    {"friction", BOUNDARY, VISCOUS, true},         // magnitude [N]
-};
-constexpr int WAVE_QUANTITIES = std::size(WAVEFORM);
-
-// Value of a quantity, given `value(row)` of the rows of `observe`.
-template <class Value>
-inline double wave_of(const WaveQuantity& quantity, Value&& value) {
-    double sum = value(quantity.first);
-    for (int row = quantity.first + 1; row <= quantity.last; ++row) sum += value(row);
-    return sum;
-}
-
-// All samples of all reported meshes, in arrays of the caller.
-struct Waveform {
-    std::int64_t rows;
-    std::int64_t first;             // number of the first sample
-    double rate;                    // [Hz]
-    double* time;                   // (rows,) [s]
-    double* mesh[WAVE_QUANTITIES];  // (rows, meshes) each
-    AxesWaveform axes;              // not requested if the axes are fixed
-};
 
 // State of the train at the end of a window, and the sums up to it.
 //
@@ -89,11 +45,6 @@ enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 // If the window ends within the limits, ledger and sums are moved to `end`.
 Outcome run_window(const WindowJob& job);
 
-// Copy the integrals of the ledger from the last call up to `until`, the end of the last window,
-// and set them to zero: rounding errors of the sums of a long run would exceed the increments of a
-// window.
-void pop_energy_ledger(Integrator& integrator, const Instant& until, double* ledger);
-
 // Copy integrals and extremes of the meshes up to `until`, the end of the last window, and restart
 // them.
 void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& until,
@@ -101,5 +52,8 @@ void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& un
 
 // Start a window at `now`, the end of the last one: fill ledger, power and stored energy of `end`.
 void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end);
+
+// Extend `total`, the end of consecutive windows, by the next window.
+void extend(const Train& train, const WindowEnd& next, WindowEnd& total);
 
 }  // namespace gearbox

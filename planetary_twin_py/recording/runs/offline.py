@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -11,18 +10,19 @@ from typing import NamedTuple
 import yaml
 
 from ...model.clock import TICKS
+from ...run.result import Result
+from ...run.whole_run import WholeRun
+from ...run.window import Window
 from ...scene import Scene
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
 from .compose import Composer
-from .intervals import Interval, Intervals
 from .origin import Origin, makers_here
 from .reader import SCENE_ATTACHMENT
-from .schedule import Change, RecordedRun, nanoseconds
-from .written import write_run
+from .schedule import nanoseconds
+from .written import stamp_within
 
 NAMESPACE = "/planetary_twin"
-INTERVAL = 0.01  # [s], as the simulation node publishes by default
 
 
 class Plan(NamedTuple):
@@ -32,13 +32,14 @@ class Plan(NamedTuple):
     duration: float
     sample_rate: float
     tolerance: float
+    settling: float = 0.0
 
 
 def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda time: None) -> Path:
     """Simulate and record.
 
     Args:
-        plan: plan of the run.
+        plan: plan of the run; the time of settling is recorded, too.
         out: a bag folder, or a file that ends in .mcap.
         progress: called with the simulated time [s].
 
@@ -50,31 +51,54 @@ def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda tim
         FileExistsError: `out` exists.
         OSError: `out` cannot be written.
     """
-    return write_as(out, lambda folder: _record(plan, folder, progress))
+    return record_run(plan, out, progress)[0]
 
 
-def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> Path:
-    run = _run(plan)
+def record_run(plan: Plan, out: Path, progress: Callable[[float], None]) -> tuple[Path, Result]:
+    """Simulate and record.
+
+    Args:
+        plan: see `record`.
+        out: see `record`.
+        progress: see `record`.
+
+    Returns:
+        The file, and the result of the run that it contains.
+
+    Raises:
+        ValueError: see `record`.
+        FileExistsError: see `record`.
+        OSError: see `record`.
+    """
+    results: list[Result] = []
+
+    def write(folder: Path) -> Path:
+        file, result = _record(plan, folder, progress)
+        results.append(result)
+        return file
+
+    file = write_as(out, write)
+    return file, results[0]
+
+
+def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> tuple[Path, Result]:
+    run, begins, scene = WholeRun(plan.scene, plan.tolerance), time.time_ns(), plan.scene
     bag = BagWriter(folder)
     try:
-        scene = yaml.safe_dump(plan.scene.model_dump(mode="json"), sort_keys=False)
-        bag.attach(SCENE_ATTACHMENT, scene.encode(), "application/yaml")
-        for reached in write_run(
-            Composer(bag, topics_of(NAMESPACE, plan.scene.moving_axes), NAMESPACE), run
-        ):
-            progress(reached)
+        text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
+        bag.attach(SCENE_ATTACHMENT, text.encode(), "application/yaml")
+        composer = Composer(bag, topics_of(NAMESPACE, scene.moving_axes), NAMESPACE)
+        composer.begin(Origin(scene, begins, makers_here()))
+        composer.point(scene.live_values, 0.0, begins)
+
+        def write(window: Window) -> None:
+            begin, end = (round(at * TICKS) for at in (window.start, window.end))
+            before, stamp = (begins + nanoseconds(ticks) for ticks in (begin, end))
+            first = stamp_within(begin, end, before, stamp, window.waveform.time)
+            composer.window(window, stamp, first)
+            progress(window.end)
+
+        result = run.result(plan.duration, plan.sample_rate, plan.settling, write)
     finally:  # an incomplete recording is valid, too
         bag.close()
-    return bag.file
-
-
-def _run(plan: Plan) -> RecordedRun:
-    """The run, starting now, in equal intervals; the last one may be shorter."""
-    begins, end, length = time.time_ns(), round(plan.duration * TICKS), round(INTERVAL * TICKS)
-    ends = [min((n + 1) * length, end) for n in range(math.ceil(end / length))]
-    intervals = Intervals(
-        Interval(n + 1, begins + nanoseconds(to), n * length, to, plan.tolerance, plan.sample_rate)
-        for n, to in enumerate(ends)
-    )
-    change = Change(1, begins, 0.0, plan.scene.live_values)
-    return RecordedRun(Origin(plan.scene, begins, makers_here()), intervals, [change])
+    return bag.file, result

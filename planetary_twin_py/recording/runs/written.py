@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+
+import numpy as np
 
 from ...model.clock import TICKS
 from .compose import Composer
-from .intervals import Interval
 from .resimulation import steps
 from .schedule import RecordedRun, nanoseconds
 
@@ -31,21 +31,29 @@ def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
         for change in changes:
             values = values | change.values
             composer.point(values, change.time, change.stamp)
-        first = _stamp_within(interval, stamp, window.waveform.time)
+        times = window.waveform.time
+        first = stamp_within(interval.begin, interval.end, stamp, interval.stamp, times)
         composer.window(window, interval.stamp, first)
         stamp = interval.stamp
         yield window.end
 
 
-def _stamp_within(interval: Interval, before: int, times: Any) -> int:
-    """ROS time [ns] of the first of the samples at `times` [s], as in the nodes.
+def stamp_within(begin: int, end: int, before: int, stamp: int, times: np.ndarray) -> int:
+    """ROS time of the first sample of an interval, as in the nodes.
 
-    `before` is the ROS time of the end of the previous interval [ns].
+    Args:
+        begin: start of the interval [ticks].
+        end: its end [ticks].
+        before: ROS time of the end of the previous interval [ns].
+        stamp: ROS time of its end [ns].
+        times: its sample times [s].
+
+    Returns:
+        The time [ns]; that of the end if there are no samples.
     """
     if not len(times):
-        return interval.stamp
-    begin, end = interval.begin / TICKS, interval.end / TICKS
-    span = interval.stamp - before
-    paused = span - nanoseconds(interval.end - interval.begin) > _PAUSE
-    pace = 1e9 if paused else span / (end - begin)
-    return interval.stamp + round((times[0] - end) * pace)
+        return stamp
+    span = stamp - before
+    paused = span - nanoseconds(end - begin) > _PAUSE
+    pace = 1e9 if paused else span / (end / TICKS - begin / TICKS)
+    return int(stamp + round((times[0] - end / TICKS) * pace))

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from types import ModuleType
 
 import numpy as np
 
-from ..._core import BOUNDARY, FILM, LAMBDA, MESH_FORCE, MESH_POWER, POWER_LOSS, VISCOUS
-from ...model.library import library
 from ...model.planar_rows import CENTRAL
-from ...scene import Scene
-from ..samples import Samples, Waves
+from ..samples import Waves
 from .load_shares import CycleShares
 from .statistics import AxesStatistics
 from .tilting import TiltingMotion, tilting_motion
-
-SUMMED = (MESH_FORCE, BOUNDARY, VISCOUS, POWER_LOSS, MESH_POWER)  # of both flanks
-OF_EITHER = (FILM, LAMBDA)  # of the flanks that carry, or of the others if these do not touch
 
 
 @dataclass(frozen=True)
@@ -89,82 +81,10 @@ class AxesMotion:
         return np.asarray(self.flank_force[:, 0, sun_meshes] - self.flank_force[:, 1, sun_meshes])
 
 
-def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Combine the samples of both flanks of each mesh.
-
-    Args:
-        mesh: samples of all flanks, (samples, QUANTITIES, flanks).
-        place: indices of the flanks that carry, (meshes,).
-
-    Returns:
-        Transmission errors of the flanks that carry, forces and losses of both, (samples,
-        QUANTITIES, meshes).
-    """
-    other = mesh[:, :, _other_flanks(place, mesh.shape[2])]
-    joined: np.ndarray = mesh[:, :, place]
-    for row in SUMMED:
-        joined[:, row] += other[:, row]
-    for row in OF_EITHER:
-        joined[:, row] = np.where(np.isnan(joined[:, row]), other[:, row], joined[:, row])
-    return joined
-
-
-def _other_flanks(place: np.ndarray, flanks: int) -> np.ndarray:
-    """Indices of the other flanks of the same meshes, (meshes,)."""
-    return (place + flanks // 2) % flanks
-
-
-def axes_motion(
-    scene: Scene,
-    samples: Samples,
-    place: np.ndarray,
-    angle: np.ndarray,
-    mesh_force: np.ndarray,
-) -> AxesMotion:
-    """Compute the motion of the axes from the samples of a run.
-
-    Args:
-        scene: scene with moving axes.
-        samples: samples of its meshes and bearings.
-        place: indices of the flanks that carry, (meshes,).
-        angle: angle of the carrier [rad], (samples,).
-        mesh_force: mean force of each mesh over the time of the samples [N], (meshes,).
-
-    Returns:
-        Displacements, forces and shares.
-    """
-    moved = np.ascontiguousarray(samples.moved[:, :, :2])
-    return AxesMotion(
-        axes_names(scene.gearset.planets),
-        moved,
-        np.ascontiguousarray(samples.moved[:, :, 2:]),
-        _orbits(library(scene), moved, angle),
-        flank_forces(samples, place),
-        _shares(mesh_force[: scene.gearset.planets]),
-        tilting_motion(samples.tilting),
-    )
-
-
-def flank_forces(samples: Samples, place: np.ndarray) -> np.ndarray:
-    """Forces of the drive flanks, then of the coast flanks of each mesh.
-
-    Args:
-        samples: samples of the meshes.
-        place: indices of the flanks that carry, (meshes,).
-
-    Returns:
-        The forces [N], (samples, 2, meshes).
-    """
-    flanks = samples.mesh.shape[2]
-    drive = place % (flanks // 2)
-    forces = np.abs(samples.mesh[:, MESH_FORCE])
-    return np.stack([forces[:, drive], forces[:, _other_flanks(drive, flanks)]], axis=1)
-
-
 def axes_of_waves(
     waves: Waves, planets: int, mesh_force: np.ndarray, mesh_frequency: float
 ) -> AxesMotion | None:
-    """Compute the motion of the axes from the samples of a window.
+    """Compute the motion of the axes from the samples of a window or a run.
 
     Args:
         waves: samples of the window.
@@ -175,19 +95,18 @@ def axes_of_waves(
     Returns:
         Displacements, forces and shares; None if the axes are held.
     """
-    if not waves.orbit.shape[1]:
+    axes = waves.axes
+    if axes is None:
         return None
     names, rows = axes_names(planets), len(waves.time)
     return AxesMotion(
         names,
-        waves.displacement.reshape(rows, len(names), 2),
-        waves.bearing_force.reshape(rows, len(names), 2),
-        waves.orbit.reshape(rows, len(CENTRAL), 2),
-        waves.flank_force.reshape(rows, 2, len(mesh_force)),
+        axes.displacement.reshape(rows, len(names), 2),
+        axes.bearing_force.reshape(rows, len(names), 2),
+        axes.orbit.reshape(rows, len(CENTRAL), 2),
+        axes.flank_force.reshape(rows, 2, len(mesh_force)),
         _shares(mesh_force[:planets]),
-        tilting_motion(
-            waves.tilting.reshape(rows, len(names), waves.tilting.shape[1] // len(names))
-        ),
+        tilting_motion(axes.tilting.reshape(rows, len(names), axes.tilting.shape[1] // len(names))),
         mesh_cycles=mesh_frequency * waves.time,
     )
 
@@ -208,12 +127,3 @@ def _shares(force: np.ndarray) -> np.ndarray:
     """Forces of the sun meshes over their mean, NaN where that is zero, (..., planets)."""
     mean = force.mean(axis=-1, keepdims=True)
     return np.asarray(np.divide(force, mean, out=np.full_like(force, np.nan), where=mean != 0.0))
-
-
-def _orbits(core: ModuleType, displaced: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """Displacements of sun, ring and carrier in the housing, (samples, 3, 2)."""
-    rows = len(angle)
-    orbits = np.empty((rows, 2 * len(CENTRAL)))
-    within_one_turn = np.remainder(angle, 2.0 * math.pi)
-    core.orbits(displaced.reshape(rows, -1), within_one_turn, orbits)
-    return orbits.reshape(rows, len(CENTRAL), 2)

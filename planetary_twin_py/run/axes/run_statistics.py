@@ -7,56 +7,65 @@ resolves its natural modes; samples between those that the caller keeps only ent
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
-from ...model.bodies import BodyNames
 from ...model.gearbox import Gearbox
+from ...model.planar_rows import CENTRAL
 from ...scene import Scene
-from ..samples import Samples
+from ..samples import AxesWaves, BodyWaves
 from .load_shares import CycleShares
-from .motion import flank_forces
+from .motion import axes_names
 from .statistics import AxesStatistics, TiltingStatistics
 
 DISPLACEMENT, FORCE, THRUST, MOMENT, TILT = range(5)  # vectors of which magnitudes are summed
+
+
+LEAST = 50_000.0  # [Hz] lowest rate at which axes are sampled
+PER_PERIOD = 16.0  # samples of the fastest mode: peaks are then accurate to 1e-3
+MOST_AT_ONCE = 20_000  # samples in memory
 
 
 class AxesSums:
     """Sums over the samples of a run.
 
     Args:
-        scene: scene of the run, whose axes move.
+        gearbox: of the run, whose axes move.
     """
 
-    def __init__(self, scene: Scene) -> None:
-        gearbox = Gearbox(scene)
-        self._teeth, self._bodies = scene.gearset.tooth_numbers.sun, gearbox.body_names
-        self._place = gearbox.mesh_names.place
-        self._shares = CycleShares(scene.gearset.planets)
+    def __init__(self, gearbox: Gearbox) -> None:
+        bodies, self._planets = gearbox.body_names.names, gearbox.scene.gearset.planets
+        self._sun, self._carrier = bodies.index("sun"), bodies.index("carrier")
+        self._teeth = gearbox.scene.gearset.tooth_numbers.sun
+        self._axes, self._shares = len(axes_names(self._planets)), CycleShares(self._planets)
         self._count = 0
         self._moved, self._tilting = np.zeros(()), np.zeros(())
         self._sizes, self._peaks = np.zeros(()), np.zeros(())  # magnitudes: sum, and largest
         self._last: np.ndarray | None = None  # squares of the last two samples
 
-    def add(self, samples: Samples) -> None:
+    def add(self, bodies: BodyWaves, axes: AxesWaves) -> None:
         """Add samples.
 
         Args:
-            samples: samples of a run whose axes move.
+            bodies: samples of the bodies of a run.
+            axes: samples of its axes, which move.
         """
-        self._count += len(samples.moved)
-        force = flank_forces(samples, self._place[: len(self._place) // 2])
-        self._shares.add(self._mesh_cycles(samples), force[:, 0] - force[:, 1])
-        self._moved = self._moved + samples.moved.sum(axis=0)
-        self._tilting = self._tilting + samples.tilting.sum(axis=0)
-        moved, tilting = samples.moved, samples.tilting
-        vectors = (
-            moved[:, :, :2],
-            moved[:, :, 2:],
-            tilting[:, :, 3:4],
-            tilting[:, :, 4:],
-            tilting[:, :, 1:3],
+        rows = len(bodies.angle)
+        if not rows:
+            return
+        self._count += rows
+        drive, coast = axes.flank_force.reshape(rows, 2, -1)[:, :, : self._planets].swapaxes(0, 1)
+        turned = bodies.angle[:, self._sun] - bodies.angle[:, self._carrier]
+        self._shares.add(self._teeth * turned / (2.0 * math.pi), drive - coast)
+        displacement, force, tilting = (
+            values.reshape(rows, self._axes, -1)
+            for values in (axes.displacement, axes.bearing_force, axes.tilting)
         )
+        moved = np.concatenate([displacement, force], axis=2)
+        self._moved = self._moved + moved.sum(axis=0)
+        self._tilting = self._tilting + tilting.sum(axis=0)
+        vectors = (displacement, force, tilting[:, :, 3:4], tilting[:, :, 4:], tilting[:, :, 1:3])
         squares = np.stack([(part * part).sum(axis=2) for part in vectors], axis=1)
         self._sizes = self._sizes + np.sqrt(squares).sum(axis=0)
         joined = squares if self._last is None else np.concatenate([self._last, squares])
@@ -90,18 +99,19 @@ class AxesSums:
             largest_load_share=self._shares.largest(),
         )
 
-    def _mesh_cycles(self, samples: Samples) -> np.ndarray:
-        sun, carrier = (_turns(self._bodies, samples, body) for body in ("sun", "carrier"))
-        return np.asarray(self._teeth * (sun - carrier))
 
+def decimation(scene: Scene, sample_rate: float) -> int:
+    """Number of samples for statistics per sample that the caller keeps.
 
-def _turns(bodies: BodyNames, samples: Samples, name: str) -> np.ndarray:
-    """Turns of a body at the samples, (samples,)."""
-    body = bodies.names.index(name)
-    ratio, place = bodies.ratio[body], bodies.place[body]
-    turns = samples.turns[:, : len(ratio)] @ np.array([float(value) for value in ratio])
-    held = place == samples.angle.shape[1]
-    return np.asarray(turns if held else turns + samples.angle[:, place] / (2.0 * math.pi))
+    Args:
+        scene: scene of the run, whose axes move.
+        sample_rate: of the samples that are kept [Hz].
+
+    Returns:
+        The number, at least 1.
+    """
+    needed = max(LEAST, PER_PERIOD * _fastest_mode(scene))
+    return max(1, math.ceil(needed / sample_rate))
 
 
 def _peaks(values: np.ndarray) -> np.ndarray:
@@ -112,3 +122,29 @@ def _peaks(values: np.ndarray) -> np.ndarray:
     summit = (here >= before) & (here >= after) & (bend > 0.0)
     rise = np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(here), where=summit)
     return np.maximum(largest, (here + rise).max(axis=0, initial=0.0, where=summit))
+
+
+def _fastest_mode(scene: Scene) -> float:
+    """Frequency of the fastest natural mode [Hz], 0 where nothing vibrates."""
+    if scene.quasi_static:
+        return 0.0
+    from ...modal.natural import natural_modes  # takes time to import
+
+    modes = natural_modes(_always_touching(scene), model=scene.dynamics, stiffness="mean")
+    return float(modes.frequencies.max())
+
+
+def _always_touching(scene: Scene) -> Scene:
+    """The scene with linear bearings and flanks that always touch, as stiff as they become."""
+    clearances = {
+        f"supports.{body}.clearance": 0.0
+        for body in (*CENTRAL, "planet")
+        if getattr(scene.supports, body).rolling is None
+    }
+    factors = {name: getattr(scene.errors, name) for name in ("planet_stiffness", "pin_stiffness")}
+    flat: dict[str, Any] = {
+        "mesh.runout": {},
+        "mesh.sun_planet_error": {},
+        "mesh.planet_ring_error": {},
+    }
+    return scene.replace(**clearances, **flat, **{"errors": factors, "supports.gravity": 0.0})

@@ -11,12 +11,23 @@ from types import ModuleType
 
 import numpy as np
 
-from ..._core import COAST_SIDE, DRIVE_SIDE, DTE, MESH_FORCE, Model, State
+from ..._core import (
+    COAST_SIDE,
+    DRIVE_SIDE,
+    DTE,
+    LEDGER,
+    MESH_FORCE,
+    SUMS,
+    MeshSums,
+    Model,
+    State,
+)
 from ...model.clock import Instant, delay
 from ...model.layout import MOTOR
-from ...model.mesh_sums import MeshSums
-from .totals import ENERGY, MEAN, mesh_sums
 
+# Entries of the totals, in this order: the ledger, integrals of the meshes (SUMS, room),
+# and the time.
+ENERGY, MEAN = slice(0, LEDGER), slice(LEDGER, None)
 ON_EDGE = 1e-11  # mesh cycles; a panel that is closer to its end has ended
 SAME = 1e-12  # mesh cycles; closer edges are merged
 
@@ -73,15 +84,17 @@ class Ledger:
         self._totals[ENERGY] -= energy
         return energy
 
-    def pop_mesh_sums(self, time: Instant) -> MeshSums:
-        """Integrals and extremes of the meshes from the previous call to `time`.
+    def pop_mesh_sums(self, time: Instant, sums: MeshSums) -> None:
+        """Fill `sums` with integrals and extremes of the meshes from the previous call to `time`.
 
         Extremes are those of all panels that overlap this interval.
         """
         totals, peak = self.at(time)
         self._totals[MEAN] -= totals[MEAN]
         self._peak[:], self._popped = 0.0, time
-        return mesh_sums(totals[MEAN], peak, self._model.train.meshes)
+        integrals = totals[MEAN]
+        sums.time, sums.integral = integrals[-1], integrals[:-1].reshape(SUMS, -1)
+        sums.dte_peak, sums.force_peak = peak[:2]
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Totals (TOTALS,) and peaks (PEAKS, MESHES) from the previous call to `time`."""

@@ -15,6 +15,8 @@ from planetary_twin_py.recording.ros2.definitions import KINDS, topics_of
 from planetary_twin_py.recording.runs.offline import NAMESPACE
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.run import windows
+from planetary_twin_py.run.start import start
 
 MSGS_SPEC = Path(__file__).parents[3] / "msgs_spec"
 
@@ -39,6 +41,29 @@ def test_a_run_is_written_as_file_or_folder(tmp_path, name):
     with AnyReader([tmp_path / name]) as bag:
         assert bag.message_count == 3 * 5 + 3
     assert simulate("paper", "--duration", "0.045", "--out", tmp_path / name).exit_code == 2
+
+
+def test_a_recorded_run_is_simulated_once(tmp_path, monkeypatch):
+    """Up to quadrature within the steps in which recorded intervals end."""
+    asked, seen, begun = ["paper", "--duration", "0.023", "--settling", "0.0134", "--json"], [], []
+    monkeypatch.setattr(windows, "start", lambda *how: begun.append(how) or start(*how))
+    for out in ([], ["--out", tmp_path / "run.mcap"]):
+        answer = simulate(*asked, tmp_path / "report.json", *out)
+        assert answer.exit_code == 0, answer.output
+        seen.append(json.loads((tmp_path / "report.json").read_text()))
+        assert len(begun) == len(seen)
+        del seen[-1]["real_time_factor"], seen[-1]["energy_residual"]
+    assert flat(seen[1]) == pytest.approx(flat(seen[0]), rel=1e-6, nan_ok=True)
+    assert verify(tmp_path / "run.mcap", NAMESPACE).identical
+    state = read_recording(tmp_path / "run.mcap").state
+    assert state.time == pytest.approx([0.01, 0.0134, 0.0234, 0.0334, 0.0364], abs=1e-12)
+
+
+def flat(report):
+    """Numbers of a report by their keys."""
+    parts = {key: value for key, value in report.items() if isinstance(value, dict)}
+    numbers = {key: value for key, value in report.items() if isinstance(value, float)}
+    return numbers | {f"{key}.{name}": n for key in parts for name, n in flat(parts[key]).items()}
 
 
 def test_info_says_why_the_number_of_losses_is_unknown(tmp_path):

@@ -8,14 +8,21 @@ from rosbags.typesys import get_types_from_msg
 from twin_recording import NAMESPACE
 
 import planetary_twin_py as pt
+from planetary_twin_py.model.clock import TICKS
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.definitions import topics_of
 from planetary_twin_py.recording.ros2.topics import POINT
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.compose import Composer
 from planetary_twin_py.recording.runs.info import read_info
-from planetary_twin_py.recording.runs.offline import Plan, _run
-from planetary_twin_py.recording.runs.schedule import Change, read_runs
+from planetary_twin_py.recording.runs.intervals import Interval, Intervals
+from planetary_twin_py.recording.runs.origin import Origin, makers_here
+from planetary_twin_py.recording.runs.schedule import (
+    Change,
+    RecordedRun,
+    nanoseconds,
+    read_runs,
+)
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.runs.written import write_run
@@ -26,7 +33,13 @@ BRAKE = range(6, 12)  # intervals with the brake
 
 def braked_run(port="motion"):
     """A run whose torques are given, with a brake of the input in between, as of both versions."""
-    run = _run(Plan(pt.load_scene("paper").replace(**DRIVEN), 0.16, 10_000.0, 1e-3))
+    scene, length = pt.load_scene("paper").replace(**DRIVEN), TICKS // 100
+    intervals = Intervals(
+        Interval(n + 1, nanoseconds((n + 1) * length), n * length, (n + 1) * length, 1e-3, 1e4)
+        for n in range(16)
+    )
+    change = Change(1, 0, 0.0, scene.live_values)
+    run = RecordedRun(Origin(scene, 0, makers_here()), intervals, [change])
     given, changes = {}, list(run.changes)
     for n, interval in enumerate(run.intervals):
         values = {"input_torque": 63.0 + n, "output_torque": 147.0 - n}

@@ -5,7 +5,7 @@ import pytest
 from planar.moving_scenes import planar
 
 import planetary_twin_py as pt
-from planetary_twin_py.simulation import simulate_axes
+from planetary_twin_py.run import whole_run
 
 SETTLING, SPAN = 0.0033, 0.01
 
@@ -38,7 +38,7 @@ def test_means_and_peaks_of_axes_do_not_depend_on_samples_kept(make, monkeypatch
         assert tilting.tilting_moment_magnitude == pytest.approx(moment.mean(axis=0), rel=1e-3)
         tilt = np.linalg.norm(axes.tilting.tilt, axis=2).mean(axis=0)
         assert tilting.tilt_magnitude == pytest.approx(tilt, rel=1e-3)
-    monkeypatch.setattr(simulate_axes, "_MOST_AT_ONCE", 97)
+    monkeypatch.setattr(whole_run, "MOST_AT_ONCE", 97)
     parts = pt.simulate(scene, SPAN, 700.0, settling=SETTLING)
     assert np.array_equal(parts.axes.displacement, few.axes.displacement)
     assert parts.axes.statistics.displacement_peak == pytest.approx(found.displacement_peak)
