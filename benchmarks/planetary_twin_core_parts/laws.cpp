@@ -54,8 +54,12 @@ void bind_laws(nb::module_& m) {
 }
 
 void bind_pairs(nb::module_& m) {
-    m.def("lambda_ratio_of", &lambda_ratio_of, "oil"_a, "log_film"_a,
-          "Specific film thickness [-]: as given, or film over roughness.");
+    m.def(
+        "lambda_ratio_of",
+        [](const Oil& oil, double log_film) {
+            return oil.prescribed ? oil.lambda_ratio : exp(log_film - oil.log_roughness);
+        },
+        "oil"_a, "log_film"_a, "Specific film thickness [-]: as given, or film over roughness.");
     m.def(
         "turn_pairs",
         [](const Train& train, const StepConstants& step, const Vector& v, ToothPairs& pairs) {

@@ -38,14 +38,6 @@ void bind_vector_parts(nb::module_& m) {
         },
         "rows"_a, "weights"_a, "count"_a, "out"_a);
     m.def(
-        "combine_both",
-        [](const Square& rows, const Vector& first, const Vector& second, std::int64_t count,
-           const Values& out_first, const Values& out_second) {
-            combine_both(matrix(rows), bodies(first), bodies(second), count, bodies(out_first),
-                         bodies(out_second));
-        },
-        "rows"_a, "first"_a, "second"_a, "count"_a, "out_first"_a, "out_second"_a);
-    m.def(
         "factorise", [](const Square& a, std::int64_t n) { factorise(matrix(a), n); }, "a"_a,
         "n"_a);
     m.def(

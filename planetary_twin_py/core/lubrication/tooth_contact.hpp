@@ -26,11 +26,6 @@ namespace gearbox {
 constexpr double LIGHTEST_LOAD = 1e-6;    // [N] keeps logarithms finite
 constexpr double SLOWEST_ROLLING = 1e-9;  // [m/s] below it friction decreases to zero
 
-// Specific film thickness [-]: as given, or film over roughness.
-ALWAYS_INLINE double lambda_ratio_of(const Oil& oil, double log_film) {
-    return oil.prescribed ? oil.lambda_ratio : exp(log_film - oil.log_roughness);
-}
-
 template <class Laws, class Real>
 ALWAYS_INLINE Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) {
     Friction<Real> film = Laws::Traction::friction(oil, contact);

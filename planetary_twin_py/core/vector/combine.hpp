@@ -32,11 +32,4 @@ inline void combine(const double (*rows)[BODIES], const double* weights, std::in
     for (int i = 0; i < BODIES; ++i) out[i] = low[i] + high[i];
 }
 
-// The same for two vectors.
-inline void combine_both(const double (*rows)[BODIES], const double* first, const double* second,
-                         std::int64_t count, double* out_first, double* out_second) {
-    combine(rows, first, count, out_first);
-    combine(rows, second, count, out_second);
-}
-
 }  // namespace gearbox
