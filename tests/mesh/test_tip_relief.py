@@ -81,7 +81,7 @@ def test_no_amount_of_relief_changes_nothing():
     paper = pt.load_scene("paper")
     none = {"amount": 0.0, "length": 1e-3}
     scene = paper.replace(**{"mesh.tip_relief": {"sun": none, "ring": none}})
-    plain, relieved = Gearbox(paper).train, Gearbox(scene).train
+    plain, relieved = Gearbox(paper).train.teeth, Gearbox(scene).train.teeth
     for name in ("weight", "edge", "shift", "segments", "stiffness_gain"):
         assert np.array_equal(getattr(plain, name), getattr(relieved, name))
 
