@@ -140,13 +140,13 @@ def test_the_logger_records_all_that_is_published(
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize(("rate", "stall"), [(1.0, 0.05), (0.0, 3.0)])
+@pytest.mark.parametrize(("rate", "each", "stall"), [(1.0, 10.0, 0.3), (0.0, 100.0, 3.0)])
 def test_another_recorder_with_a_long_queue_receives_all(
-    peer: Peer, start: Start, other: Program, rate: float, stall: float
+    peer: Peer, start: Start, other: Program, rate: float, each: float, stall: float
 ) -> None:
-    """At real time its queue of 10 limits a stall; above, the twin waits for it."""
+    """At real time its queue of 10 limits a stall, to 1 s here; above, the twin waits for it."""
     received = peer.listen(String, COUNTS, LATCHED)
-    twin = Twin(peer, start, other, NAME, rate)
+    twin = Twin(peer, start, other, NAME, rate, publish_rate=each)
     twin.advance(0.05)
     with twin.stall(stall):
         pass
