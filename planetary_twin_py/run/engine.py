@@ -165,13 +165,13 @@ class Engine:
         """
         if self._failure is not None:
             raise self._failure
-        goal, done, room = instant_of_ticks(until), 0, len(out.time)
+        last, done, room = Fraction(until, TICKS), 0, len(out.time)
         self._shown = None
 
-        def part_to(at: Instant, rows: Waves, closes: bool) -> WindowJobs:
+        def part_to(at: Fraction, rows: Waves, closes: bool) -> WindowJobs:
             job = WindowJob(
-                self.model, self.integrator, at, sampling(first + done, rate), self._limits.record,
-                report, first + done, rate, rows, end, closes,
+                self.model, self.integrator, instant(at), sampling(first + done, rate),
+                self._limits.record, report, first + done, rate, rows, end, closes,
             )  # fmt: skip
             try:
                 outcome = yield job
@@ -179,16 +179,19 @@ class Engine:
                 self._end_interrupted()
                 raise
             self._watch(outcome, end)
-            self._watch_axes(rows)
+            if len(rows.time):
+                self._watch_axes(rows)
+            elif self.gearbox.bearings:
+                self.sample(at)  # checks the displacements
 
-        for stop in self._stops(Fraction(until, TICKS), goal):
+        for stop in self._stops(last, instant_of_ticks(until)):
             due = min(max(_due(stop, rate, first), done), room)
             part = wave_rows(out, done, due)
-            yield from part_to(instant(stop), part, False)
+            yield from part_to(stop, part, False)
             self._pass(stop)
             done = due
         out = wave_rows(out, done, room)
-        yield from part_to(goal, out, True)
+        yield from part_to(last, out, True)
 
     def _watch(self, outcome: int, end: WindowEnd) -> None:
         """Stop the run if the core has found no possible step, or has exceeded a limit."""

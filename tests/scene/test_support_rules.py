@@ -69,6 +69,21 @@ def test_pins_that_yield_by_a_module_stop_the_run(dynamics):
         pt.load_sharing(soft)
 
 
+def test_displacements_are_watched_while_a_run_settles():
+    """A torque that swings once a turn is largest after 1 s; no sample is taken before 2 s."""
+    scene = FLOATING.replace(input_speed=2.0 * np.pi * 0.25, **{"lubrication.friction": False})
+    pin = np.linalg.norm(pt.load_sharing(scene).planet_bearing, axis=2).max()
+    scene = scene.replace(
+        torque_ripple=0.5 * scene.operating_point.input_torque,
+        **{
+            "drive.speed_control.ripple_order": 1,
+            "supports.planet.bearing": pin / (1.1 * scene.gearset.module),
+        },
+    )
+    with pytest.raises(pt.RunawayError, match=r"stops near 0\.[1-6]\d* s: displacement of planet"):
+        pt.simulate(scene, 0.01, settling=2.0)
+
+
 def test_helical_sun_that_leaves_ring_along_its_axis_stops_run():
     scene = HELICAL.replace(**{"supports.sun.axial": 1e5})
     stopped = r"axial displacement of sun = .* m: must be at most 0.62 m, gearset.face_width"
