@@ -9,7 +9,6 @@ from pathlib import Path
 from mcap.records import Message
 
 from .framing import DAMAGED
-from .log_order import merged
 from .records import section_at
 from .summary import ChunkPlace, read_summary, summary_of_records
 
@@ -34,7 +33,8 @@ class Segment:
                 warn(remark)
         self._file = file
         self._warn = warn
-        self._chunks = sorted(summary.chunks)
+        self.chunks = sorted(summary.chunks)
+        """Places of the chunks, in order of log time."""
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
         self.extent = summary.extent
         self.channels = [(c, summary.schemas.get(c.schema_id)) for c in summary.channels.values()]
@@ -44,36 +44,8 @@ class Segment:
         for number, count in summary.counts.items():
             self.counts[self._topics[number]] += count
 
-    def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        """Messages at or after log time `begin` [ns] with their topics, in order of log time."""
-        parts = ((chunk.start, self._read(chunk)) for chunk in self._chunks if chunk.end >= begin)
-        for message in merged(parts):
-            if message.log_time >= begin:
-                yield self._topics[message.channel_id], message
-
-    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
-        """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
-        return {topic: self._last(topic, count, before) for topic, count in kept.items()}
-
-    def _last(self, topic: str, count: int, before: int) -> list[Message]:
-        channels = {number for number, name in self._topics.items() if name == topic}
-        messages: list[Message] = []
-        for chunk in reversed(self._chunks):
-            indexed = chunk.channels
-            if chunk.start >= before or (indexed and not channels & indexed):
-                continue
-            matching = [
-                message
-                for message in self._read(chunk)
-                if message.channel_id in channels and message.log_time < before
-            ]
-            messages = matching + messages
-            if len(messages) >= count:
-                break
-        return messages[-count:]
-
-    def _read(self, chunk: ChunkPlace) -> Iterator[Message]:
-        """Messages of a chunk; a damaged chunk is skipped with a warning."""
+    def read(self, chunk: ChunkPlace) -> Iterator[tuple[str, Message]]:
+        """Messages of a chunk with their topics; a damaged chunk is skipped with a warning."""
         try:
             records = section_at(self._file, chunk.place)
         except DAMAGED as reason:
@@ -86,4 +58,20 @@ class Segment:
             return
         for record in records:
             if isinstance(record, Message) and record.channel_id in self._topics:
-                yield record
+                yield self._topics[record.channel_id], record
+
+    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
+        """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
+        return {topic: self._last(topic, count, before) for topic, count in kept.items()}
+
+    def _last(self, topic: str, count: int, before: int) -> list[Message]:
+        channels = {number for number, name in self._topics.items() if name == topic}
+        messages: list[Message] = []
+        for chunk in reversed(self.chunks):
+            indexed = chunk.channels
+            if len(messages) >= count:
+                break
+            if chunk.start < before and (not indexed or channels & indexed):
+                found = (message for name, message in self.read(chunk) if name == topic)
+                messages = [each for each in found if each.log_time < before] + messages
+        return messages[-count:]

@@ -39,38 +39,17 @@ class Topic:
 
     @property
     def kept(self) -> int:
-        """Number of messages that a late subscriber receives; 0 unless the topic is latched.
-
-        A publisher of unknown depth is assumed to keep its newest message.
-        """
-        return sum(
-            max(int(qos.get("depth", 0)), 1)
-            for qos in self.offered_qos
-            if qos.get("durability") in _TRANSIENT_LOCAL
-        )
+        """Number of messages that a late subscriber receives, see `kept_by`."""
+        return kept_by(self.offered_qos)
 
 
+@lru_cache(maxsize=1024)  # most topics of a bag have the same profiles
 def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
     """Parse the profiles that `Topic.qos_yaml` or rosbag2 has written.
 
     Raises:
         ValueError: the text is not a list of profiles.
     """
-    profiles = _profiles(text)
-    if isinstance(profiles, ValueError):
-        raise profiles
-    return profiles
-
-
-@lru_cache(maxsize=1024)  # most topics of a bag have the same profiles; errors are cached, too
-def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
-    try:
-        return _parsed(text)
-    except ValueError as reason:
-        return reason
-
-
-def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
     profiles = read_yaml(text, _QOS) or []
     if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
         raise ValueError(f"{_QOS}: must be a list of mappings")
@@ -80,9 +59,17 @@ def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
     return profiles
 
 
-def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether a publisher sends its newest messages to late subscribers (transient local)."""
-    return any(qos.get("durability") in _TRANSIENT_LOCAL for qos in offered_qos)
+def kept_by(offered_qos: Sequence[Mapping[str, Any]]) -> int:
+    """Number of messages that a late subscriber receives; 0 unless the topic is latched.
+
+    Latched topics are transient local. A publisher of unknown depth is assumed to keep its newest
+    message.
+    """
+    return sum(
+        max(int(qos.get("depth", 0)), 1)
+        for qos in offered_qos
+        if qos.get("durability") in _TRANSIENT_LOCAL
+    )
 
 
 class FileEntry(NamedTuple):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import heapq
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,7 +11,7 @@ from mcap.records import Channel, Message, Schema
 
 from ...text.escaping import one_line
 from ..container.extent import Extent
-from ..container.log_order import DISORDER
+from ..container.log_order import merged
 from ..container.records import RecordingError, files_of
 from ..container.segment import Segment
 from .metadata import Topic, read_offered_qos
@@ -83,25 +82,29 @@ class Playback:
         The newest messages of latched topics before `begin`, which a late subscriber receives, are
         first.
         """
-        repeats = Repeats()
-        for topic, message in self._latched(self.start + begin):
+        repeats, first = Repeats(), self.start + begin
+        for topic, message in self._latched(first):
             if not repeats.known(topic, message):
                 yield TimedMessage(begin, topic, message.data)
-        for timed in _in_order(self._read(begin, repeats)):
-            if end is not None and timed.time > end:
+        for topic, message in merged(self._parts(first)):
+            if end is not None and message.log_time > self.start + end:
                 return
-            yield timed
+            if not (self.topics[topic].kept and repeats.known(topic, message)):
+                yield TimedMessage(message.log_time - self.start, topic, message.data)
 
-    def _read(self, begin: int, repeats: Repeats) -> Iterator[TimedMessage]:
-        """Messages from `begin`, file by file, without those that `repeats` knows."""
-        for segment in self._segments:
-            if segment.extent.end >= self.start + begin:
-                for topic, message in segment.messages(self.start + begin):
-                    if topic not in self.topics:
-                        continue
-                    if self.topics[topic].kept and repeats.known(topic, message):
-                        continue
-                    yield TimedMessage(message.log_time - self.start, topic, message.data)
+    def _parts(self, first: int) -> Iterator[tuple[int, list[tuple[int, tuple[str, Message]]]]]:
+        """Messages at or after log time `first` [ns], chunk by chunk of any file."""
+        chunks = [(chunk, segment) for segment in self._segments for chunk in segment.chunks]
+        chunks = [pair for pair in chunks if pair[0].end >= first]
+        for chunk, segment in sorted(chunks, key=lambda pair: pair[0].start):
+            yield (
+                chunk.start,
+                [
+                    (message.log_time, (topic, message))
+                    for topic, message in segment.read(chunk)
+                    if message.log_time >= first and topic in self.topics
+                ],
+            )
 
     def _latched(self, before: int) -> list[tuple[str, Message]]:
         """Latched messages that are valid at a log time [ns], oldest first."""
@@ -130,13 +133,6 @@ class Playback:
 
     def _topic(self, channel: Channel, schema: Schema, path: Path) -> Topic:
         try:
-            definition = schema.data.decode()
-        except UnicodeDecodeError as reason:
-            raise RecordingError(
-                f"{path}: {channel.topic}: its definition must be in UTF-8, byte "
-                f"{reason.start + 1} is not"
-            ) from None
-        try:
             offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
         except ValueError as reason:
             offered_qos = []
@@ -146,23 +142,10 @@ class Playback:
             name=channel.topic,
             type=schema.name,
             type_hash=channel.metadata.get("topic_type_hash", ""),
-            definition=definition,
+            definition=schema.data.decode(errors="replace"),
             offered_qos=offered_qos,
         )
 
     def _add_remark(self, remark: str) -> None:
         if remark not in self.remarks:
             self.remarks.append(remark)
-
-
-def _in_order(messages: Iterable[TimedMessage]) -> Iterator[TimedMessage]:
-    """Sort messages by time, stably, with a buffer of one second."""
-    waiting: list[tuple[int, int, TimedMessage]] = []
-    newest = 0
-    for number, message in enumerate(messages):
-        heapq.heappush(waiting, (message.time, number, message))
-        newest = max(newest, message.time)
-        while waiting[0][0] < newest - DISORDER:
-            yield heapq.heappop(waiting)[2]
-    while waiting:
-        yield heapq.heappop(waiting)[2]

@@ -13,7 +13,7 @@ from typing import Any
 from mcap.records import Channel, Message
 
 from ..container.log_order import records_in_log_order
-from .metadata import is_latched, read_offered_qos
+from .metadata import kept_by, read_offered_qos
 
 
 class Repeats:
@@ -68,6 +68,6 @@ def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any
 
 def _latched(channel: Channel) -> bool:
     try:
-        return is_latched(read_offered_qos(channel.metadata.get("offered_qos_profiles", "")))
+        return kept_by(read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))) > 0
     except ValueError:  # not profiles of rosbag2
         return False

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...text.escaping import one_line
+from ..container.integrity import end_of_data
 from ..container.message_index import UNSOUND, Index, LogTimes
 from ..container.records import files_of
-from ..container.walk import may_be_written
 from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
@@ -80,10 +80,11 @@ class Info:
 
     @property
     def is_empty(self) -> bool:
-        """Whether there are neither messages nor, undamaged, topics, nor a recorder that writes."""
-        nothing = not any(topic.recorded for topic in self.topics.values())
-        whole = self.topics and not self.remarks
-        return nothing and not whole and not any(map(may_be_written, self.files))
+        """Whether all files are finished, but have no messages, nor topics without damage."""
+        if any(topic.recorded for topic in self.topics.values()):
+            return False
+        whole = bool(self.topics) and not self.remarks
+        return not whole and all(end_of_data(file) is not None for file in self.files)
 
     def figures(self) -> dict[str, Any]:
         """Results for `--json`."""

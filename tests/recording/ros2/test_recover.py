@@ -112,10 +112,10 @@ def test_damage_costs_its_chunk_and_every_reader_reports_it(sound, tmp_path):
 def test_a_file_that_grows_while_read_is_still_being_written(tmp_path):
     file = tmp_path / "growing.mcap"
     file.write_bytes(MAGIC)
-    found = Damages(file)
+    found = Damages(file.name)
     file.write_bytes(MAGIC + bytes(10))
     grown = file.stat().st_size
-    found.add_lost(Lost(grown, grown, 0, EndOfFile(), is_last=True))
+    found.add(Lost(grown, grown, 0, EndOfFile(), is_last=True))
     assert found.remarks() == [
         "growing.mcap: has no end record: the recorder is still writing, or was killed; "
         "everything before is intact"
