@@ -12,10 +12,15 @@ from numpy.typing import NDArray
 from ..recording.ros2.decode import Described, Topics
 from ..recording.ros2.layout import Layouts
 from ..recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
-from ..recording.runs.axes_samples import AxesInMemory, axes_samples_of
 from ..recording.runs.origin import read_origin
 from ..recording.runs.reader import SERIES, TOPICS, Recording, assemble, series_of
-from ..recording.runs.waveform import InMemory, waveform_of
+from ..recording.runs.waveform import (
+    AxesSamples,
+    InMemory,
+    Waveform,
+    WaveformInMemory,
+    samples_of,
+)
 from ..scene import Scene
 from .axes import Scales, scales
 from .blueprint import LIVE
@@ -152,8 +157,8 @@ class _DrawnRun:
         self._layer.stream.disconnect()
 
     def _recording(self, messages: Messages) -> Recording:
-        samples = InMemory(waveform_of(messages[WAVEFORM]))
-        axes = AxesInMemory(axes_samples_of(messages[AXES_WAVEFORM]))
+        samples = WaveformInMemory(samples_of(Waveform, messages[WAVEFORM]))
+        axes = InMemory(samples_of(AxesSamples, messages[AXES_WAVEFORM]))
         series = {name: series_of(name, messages[name].copy()) for name in SERIES}
         return assemble(series, samples, axes, Path(self._namespace), self._namespace)
 

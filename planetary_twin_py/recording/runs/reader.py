@@ -24,9 +24,23 @@ from ..ros2.no_run import no_run_yet
 from ..ros2.repeats import Repeats
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..ros2.typestore import absent
-from .axes_samples import AxesBlocks, AxesInFile, AxesInMemory, joined_axes
 from .origin import scene_of_origin
-from .waveform import Blocks, InMemory, Ranges, Samples, Source, TimeSpan, Waveform, joined, stamps
+from .waveform import (
+    AxesSamples,
+    Blocks,
+    InFile,
+    InMemory,
+    RangedBlocks,
+    Ranges,
+    Source,
+    TimeSpan,
+    Waveform,
+    WaveformInFile,
+    WaveformInMemory,
+    joined,
+    last_times,
+    stamps,
+)
 
 SCENE_ATTACHMENT = "scene.yaml"
 SERIES = (STATE, POINT, AXES_STATE)
@@ -65,10 +79,10 @@ class Recording:
     planets: int
     state: Series
     operating_point: Series
-    blocks: Samples
+    blocks: RangedBlocks
     axes_state: Series
     """States of axes that move; without rows where they are held."""
-    axes_blocks: AxesBlocks
+    axes_blocks: Blocks[AxesSamples]
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
     topics: frozenset[str] = frozenset()
@@ -102,17 +116,13 @@ class Recording:
         Raises:
             OSError: the file no longer exists.
         """
-        return self.blocks.waveform(begin, end)
+        return self.blocks.samples(begin, end)
 
     def within(self, spans: Sequence[TimeSpan]) -> Recording:
         """Recording with only the samples of these time spans [s], in memory."""
-        waveforms = [self.samples(begin, end) for begin, end in spans]
-        axes = [self.axes_blocks.samples(begin, end) for begin, end in spans]
-        return replace(
-            self,
-            blocks=InMemory(joined([part for part in waveforms if part is not None])),
-            axes_blocks=AxesInMemory(joined_axes([part for part in axes if part is not None])),
-        )
+        waveform = joined([self.samples(begin, end) for begin, end in spans])
+        axes = joined([self.axes_blocks.samples(begin, end) for begin, end in spans])
+        return replace(self, blocks=WaveformInMemory(waveform), axes_blocks=InMemory(axes))
 
     @property
     def moves_axes(self) -> bool:
@@ -166,8 +176,8 @@ def read_recording(
     series = {name: series_of(name, collected.taken(f"{namespace}/{name}")) for name in SERIES}
     if not len(series[STATE]):
         raise RecordingError(f"{path}: has no state from {span[0]:g} to {span[1]:g} s")
-    blocks = collected.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
-    axes_blocks = collected.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
+    blocks = collected.blocks.get(f"{namespace}/{WAVEFORM}", WaveformInFile())
+    axes_blocks = collected.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", InFile(AxesSamples))
     recording = assemble(series, blocks, axes_blocks, Path(path), namespace)
     scene = collected.scene_yaml or _scene(
         collected.taken(f"{namespace}/{ORIGIN}"), collected.remarks
@@ -194,8 +204,8 @@ def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
 
 def assemble(
     series: Mapping[str, Series],
-    blocks: Samples,
-    axes_blocks: AxesBlocks,
+    blocks: RangedBlocks,
+    axes_blocks: Blocks[AxesSamples],
     path: Path,
     namespace: str,
 ) -> Recording:
@@ -249,8 +259,8 @@ class _Collector:
         self._begin, self._end = span
         self._seen: Counter[str] = Counter()
         self._parts: dict[str, list[tuple[int, NDArray[Any]]]] = {}
-        self.blocks: dict[str, Blocks] = {}
-        self.axes_blocks: dict[str, AxesInFile] = {}
+        self.blocks: dict[str, WaveformInFile] = {}
+        self.axes_blocks: dict[str, InFile[AxesSamples]] = {}
         self.scene_yaml: str | None = None
         self.remarks: list[str] = []
         self.topics: set[str] = set()
@@ -321,18 +331,19 @@ class _Collector:
             self._room -= len(rows) if topic == STATE else 0
             if not len(rows):
                 continue
-            if topic == AXES_WAVEFORM:
-                self.axes_blocks.setdefault(source.topic, AxesInFile()).add(source, place, rows)
-            elif topic == WAVEFORM:
-                self.blocks.setdefault(source.topic, Blocks()).add(source, place, rows)
+            if topic == WAVEFORM:
+                self.blocks.setdefault(source.topic, WaveformInFile()).add(source, place, rows)
+            elif topic == AXES_WAVEFORM:
+                blocks = self.axes_blocks.setdefault(source.topic, InFile(AxesSamples))
+                blocks.add(source, place, rows)
             else:
                 self._parts.setdefault(source.topic, []).append((begin, rows))
 
     def _within(self, topic: str, rows: NDArray[Any]) -> NDArray[Any]:
         """The rows whose times overlap the span; all of operating points."""
         if topic in (WAVEFORM, AXES_WAVEFORM):
-            first = rows["start_time"]
-            last = first + (np.maximum(rows["samples"], 1) - 1.0) * rows["sample_period"]
+            rows = rows[rows["samples"] > 0]
+            first, last = rows["start_time"], last_times(rows)
         elif topic in (STATE, AXES_STATE):
             first = last = rows["simulated_time"]
         else:
