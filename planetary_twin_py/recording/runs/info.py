@@ -16,7 +16,7 @@ from ..container.message_index import UNSOUND, Index, LogTimes
 from ..container.records import files_of
 from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
-from ..ros2.decode import Decoder
+from ..ros2.decode import Described, Topics
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats
@@ -155,13 +155,13 @@ class _Collector:
 
     def add(self, file: Path, index: Index) -> None:
         """Add the contents of a file from its index and the few messages that are needed."""
-        decoder = Decoder(file, _is_decoded)
+        topics = Topics(file, _is_decoded)
         self._repeats.next_file()
         for schema in index.summary.schemas.values():
-            decoder.read(schema)
+            topics.of(schema)
         changes = []
         for number, channel in index.summary.channels.items():
-            decoder.read(channel)
+            topics.of(channel)
             kind = index.summary.schemas[channel.schema_id].name
             topic = self.info.topics.setdefault(channel.topic, TopicInfo(type=kind))
             new = self._new(index, number)
@@ -169,9 +169,9 @@ class _Collector:
                 topic.add([index.message(number, k).log_time for k in new])
             else:
                 topic.join(index.times[number])
-            if number not in decoder:
+            if number not in topics.by_channel:
                 continue
-            messages = _Messages(index, number, decoder)
+            messages = _Messages(index, number, topics.by_channel[number])
             if channel.topic.endswith(f"/{STATE}") and len(messages):
                 self._count_missing(channel.topic, messages[0])
                 covered = _cover(messages)
@@ -270,15 +270,14 @@ class _Collector:
 class _Messages(Sequence[Any]):
     """The messages of a channel, decoded on access."""
 
-    def __init__(self, index: Index, channel: int, decoder: Decoder) -> None:
-        self._index, self._channel, self._decoder = index, channel, decoder
+    def __init__(self, index: Index, channel: int, described: Described) -> None:
+        self._index, self._channel, self._described = index, channel, described
 
     def __len__(self) -> int:
         return self._index.times[self._channel].recorded
 
     def __getitem__(self, number: Any) -> Any:
-        found = self._decoder.read(self._index.message(self._channel, number))
-        return found[1] if found else None
+        return self._described.message(self._index.message(self._channel, number).data)
 
 
 class _Covered(NamedTuple):

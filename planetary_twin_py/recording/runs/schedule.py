@@ -15,7 +15,7 @@ from ...model.clock import TICKS
 from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of
-from ..ros2.decode import Decoder, MessageError
+from ..ros2.decode import MessageError, Topics
 from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
@@ -122,17 +122,18 @@ def messages_of(
     wanted = {f"{namespace}/{name}": name for name in names}
     repeats = Repeats()
     for file in files_of(path, remarks):
-        decoder = Decoder(file, wanted.__contains__)
+        topics = Topics(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
-            try:
-                decoded = decoder.read(record)
-            except MessageError as reason:
-                if not reason.topic.endswith(f"/{ORIGIN}"):
-                    raise
-                remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
-                continue
-            if decoded:
-                yield wanted[decoded[0]], decoded[1]
+            if described := topics.of(record):
+                name = wanted[described.topic]
+                try:
+                    message = described.message(record.data)
+                except MessageError as reason:
+                    if name != ORIGIN:
+                        raise
+                    remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
+                else:
+                    yield name, message
 
 
 class _Collector:

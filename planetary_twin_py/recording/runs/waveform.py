@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...run.window import MeshSamples
 from ...units.catalogue import MEMBERS, WAVEFORM
 from ..container.records import RecordingError, section_at
-from ..ros2.layout import LayoutError, Layouts
+from ..ros2.decode import Described
 
 QUANTITIES = tuple(WAVEFORM)
 Values = dict[str, NDArray[np.float32]]
@@ -93,23 +93,11 @@ class Ranges:
 
 
 class Source(NamedTuple):
-    """The messages of a topic in a file, and their layouts."""
+    """The messages of a topic in a file."""
 
     file: Path
     channel: int
-    topic: str
-    layouts: Layouts
-
-    def arrays(self, messages: list[bytes]) -> Iterator[NDArray[Any]]:
-        """Structured arrays of messages, in order.
-
-        Raises:
-            RecordingError: a message does not match its definition.
-        """
-        try:
-            yield from self.layouts.arrays(messages)
-        except LayoutError as reason:
-            raise RecordingError(f"{self.file}: {self.topic}: a message {reason}") from None
+    described: Described
 
 
 class Blocks(Protocol[S_co]):
@@ -193,9 +181,8 @@ class InFile(Generic[S]):
         """
         for name, shape in self._kind.shapes(rows["planets"].astype(np.int64)).items():
             if (math.prod(shape) * rows["samples"] != rows.dtype[name].shape[0]).any():
-                raise RecordingError(
-                    f"{source.file}: {source.topic}: samples are missing in a message"
-                )
+                topic = source.described.topic
+                raise RecordingError(f"{source.file}: {topic}: samples are missing in a message")
         begin, end = float(rows["start_time"].min()), float(last_times(rows).max())
         self._stored.append(_Stored(source, place, begin, end))
 
@@ -209,7 +196,7 @@ class InFile(Generic[S]):
         for source, place in dict.fromkeys(part[:2] for part in overlapping):
             records = section_at(source.file, place)
             data = [r.data for r in records if getattr(r, "channel_id", None) == source.channel]
-            for rows in source.arrays(data):
+            for rows in source.described.arrays(data):
                 yield rows[(rows["start_time"] <= end) & (last_times(rows) >= begin)]
 
 

@@ -8,10 +8,8 @@ from pathlib import Path
 from mcap.records import Message
 
 from ..container.records import files_of
-from ..ros2.decode import Topics
-from ..ros2.layout import Layouts
+from ..ros2.decode import Described, Topics
 from ..ros2.repeats import Repeats, unrepeated
-from ..runs.waveform import Source
 from .message_tables import Rows
 
 MESSAGES = 4096  # per batch, at most
@@ -45,22 +43,21 @@ def rows_of(
                 continue
             channel = record.channel_id
             if channel not in waiting:
-                layouts = Layouts(described.types.fielddefs, described.kind)
-                waiting[channel] = _Waiting(Source(file, channel, described.topic, layouts))
+                waiting[channel] = _Waiting(described)
             of_channel = waiting[channel]
             of_channel.add(record)
             if of_channel.full:
                 yield wanted[described.topic], of_channel.taken()
         for of_channel in waiting.values():
             if of_channel.messages:
-                yield wanted[of_channel.source.topic], of_channel.taken()
+                yield wanted[of_channel.described.topic], of_channel.taken()
 
 
 class _Waiting:
     """The next batch of a channel."""
 
-    def __init__(self, source: Source) -> None:
-        self.source = source
+    def __init__(self, described: Described) -> None:
+        self.described = described
         self.messages: list[bytes] = []
         self._size = 0
 
@@ -75,4 +72,4 @@ class _Waiting:
     def taken(self) -> list[Rows]:
         """The messages, which no longer wait."""
         messages, self.messages, self._size = self.messages, [], 0
-        return list(self.source.arrays(messages))
+        return list(self.described.arrays(messages))
