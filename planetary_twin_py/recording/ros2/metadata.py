@@ -14,7 +14,6 @@ from ...scene.yaml_text import read_yaml
 from ..container.extent import Extent
 
 VERSION = 9
-_QOS = "offered_qos_profiles"
 _TRANSIENT_LOCAL = ("transient_local", 1)  # the number in bags before version 9
 
 
@@ -45,18 +44,13 @@ class Topic:
 
 @lru_cache(maxsize=1024)  # most topics of a bag have the same profiles
 def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
-    """Parse the profiles that `Topic.qos_yaml` or rosbag2 has written.
-
-    Raises:
-        ValueError: the text is not a list of profiles.
-    """
-    profiles = read_yaml(text, _QOS) or []
-    if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
-        raise ValueError(f"{_QOS}: must be a list of mappings")
-    for qos in profiles:
-        if not isinstance(qos.get("depth", 0), int):
-            raise ValueError(f"{_QOS}: depth = {qos['depth']!r}: must be a whole number")
-    return profiles
+    """The profiles in a text that `Topic.qos_yaml` or rosbag2 has written; none in other texts."""
+    try:
+        profiles = read_yaml(text, "offered_qos_profiles")
+    except ValueError:
+        return []
+    listed = profiles if isinstance(profiles, list) else []
+    return [qos for qos in listed if isinstance(qos, dict) and isinstance(qos.get("depth", 0), int)]
 
 
 def kept_by(offered_qos: Sequence[Mapping[str, Any]]) -> int:

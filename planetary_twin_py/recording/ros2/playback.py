@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
 
-from ...text.escaping import one_line
 from ..container.extent import Extent
 from ..container.log_order import merged
 from ..container.records import RecordingError, files_of
@@ -17,8 +16,6 @@ from ..container.segment import Segment
 from .metadata import Topic, read_offered_qos
 from .no_run import no_run_yet
 from .repeats import Repeats
-
-_LONGEST = 100  # characters of a topic in a remark
 
 
 class TimedMessage(NamedTuple):
@@ -125,26 +122,19 @@ class Playback:
                 f"{path}: {channel.topic}: its encoding {channel.message_encoding!r} must be that "
                 "of ROS 2 messages, 'cdr', with a schema"
             )
-        known = self.topics.setdefault(channel.topic, self._topic(channel, schema, path))
-        if known.type != schema.name:
-            raise RecordingError(
-                f"{path}: {channel.topic}: has two types, {known.type} and {schema.name}"
-            )
-
-    def _topic(self, channel: Channel, schema: Schema, path: Path) -> Topic:
-        try:
-            offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
-        except ValueError as reason:
-            offered_qos = []
-            name = one_line(channel.topic, _LONGEST)
-            self._add_remark(f"{path}: {name}: assumed to be volatile: {reason}")
-        return Topic(
+        offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
+        topic = Topic(
             name=channel.topic,
             type=schema.name,
             type_hash=channel.metadata.get("topic_type_hash", ""),
             definition=schema.data.decode(errors="replace"),
             offered_qos=offered_qos,
         )
+        known = self.topics.setdefault(channel.topic, topic)
+        if known.type != schema.name:
+            raise RecordingError(
+                f"{path}: {channel.topic}: has two types, {known.type} and {schema.name}"
+            )
 
     def _add_remark(self, remark: str) -> None:
         if remark not in self.remarks:

@@ -33,7 +33,7 @@ class Repeats:
     def repeated(self, record: Any) -> bool:
         """Whether a record is a message that has occurred before."""
         if isinstance(record, Channel):
-            if _latched(record):
+            if kept_by(read_offered_qos(record.metadata.get("offered_qos_profiles", ""))):
                 self._latched[record.id] = record.topic
         elif isinstance(record, Message) and record.channel_id in self._latched:
             topic = self._latched[record.channel_id]
@@ -64,10 +64,3 @@ def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any
     for record in records_in_log_order(file, remarks):
         if not repeats.repeated(record):
             yield record
-
-
-def _latched(channel: Channel) -> bool:
-    try:
-        return kept_by(read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))) > 0
-    except ValueError:  # not profiles of rosbag2
-        return False

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from ...model.clock import TICKS
 from ...robot import robot_description
 from ...run.window import Window
 from ..container.records import RecordingError
@@ -30,8 +31,10 @@ from ..ros2.topics import (
     WAVEFORM,
 )
 from .origin import Origin
+from .schedule import nanoseconds
 
 Row = dict[str, Any]
+_PAUSE = 1_000_000_000  # [ns], larger differences of stamps and simulated time are pauses
 
 
 class Composer:
@@ -156,3 +159,24 @@ class Composer:
         )
         self._kinds[name] = topic.type
         self._channels[name] = self._bag.add_topic(topic)
+
+
+def stamp_within(begin: int, end: int, before: int, stamp: int, times: np.ndarray) -> int:
+    """ROS time of the first sample of an interval, as in the nodes.
+
+    Args:
+        begin: start of the interval [ticks].
+        end: its end [ticks].
+        before: ROS time of the end of the previous interval [ns].
+        stamp: ROS time of its end [ns].
+        times: its sample times [s].
+
+    Returns:
+        The time [ns]; that of the end if there are no samples.
+    """
+    if not len(times):
+        return stamp
+    span = stamp - before
+    paused = span - nanoseconds(end - begin) > _PAUSE
+    pace = 1e9 if paused else span / (end / TICKS - begin / TICKS)
+    return int(stamp + round((times[0] - end / TICKS) * pace))

@@ -14,7 +14,6 @@ from ...text.escaping import one_line
 from ..container.integrity import end_of_data
 from ..container.message_index import UNSOUND, Index, LogTimes
 from ..container.records import files_of
-from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Described, Topics
 from ..ros2.no_run import no_run_yet
@@ -186,14 +185,7 @@ class _Collector:
                 self.info.report |= _newest_report(messages)
         for _, name, message in sorted(changes, key=lambda change: change[0]):
             self._add_change(name, message)
-        accounts = [
-            record.metadata for record in index.summary.metadata if record.name == ACCOUNT_RECORD
-        ]
-        counts = {
-            channel.topic: index.times[number].recorded
-            for number, channel in index.summary.channels.items()
-        }
-        self._add_losses(file, accounts, counts)
+        self._add_losses(file, index)
 
     def _new(self, index: Index, channel: int) -> Sequence[int]:
         """Numbers of the messages of a channel that are not in the previous files."""
@@ -227,35 +219,34 @@ class _Collector:
                     f"{account}"
                 )
 
-    def _add_losses(
-        self, file: Path, accounts: Sequence[Mapping[str, str]], counts: Mapping[str, int]
-    ) -> None:
-        """Add the losses of a file, which may list topics without messages.
+    def _add_losses(self, file: Path, index: Index) -> None:
+        """Add the losses in the accounts of a file.
 
-        Messages are lost, too, that were recorded by the account and are not among the `counts` of
-        those that can be read, by topic.
+        Messages are lost, too, that were recorded by the account and cannot be read.
         """
-        wrong: list[str] = []
-        unread = Counter[str]()
-        for account in accounts:
-            try:
-                name, lost, missed, recorded = recorded_losses(account)
-            except ValueError as reason:
-                wrong.append(str(reason))
+        channels = index.summary.channels.items()
+        read = {channel.topic: index.times[number].recorded for number, channel in channels}
+        recorded, unreadable = Counter[str](), 0
+        for record in index.summary.metadata:
+            if record.name != ACCOUNT_RECORD:
                 continue
-            if topic := self.info.topics.get(name):
+            account = record.metadata
+            try:
+                lost, missed, written = (int(account[k]) for k in ("lost", "missed", "recorded"))
+                name = account["topic"]
+            except (KeyError, ValueError):
+                unreadable += 1
+                continue
+            if topic := self.info.topics.get(name):  # an account may be of no messages
                 topic.lost = (topic.lost or 0) + lost
                 topic.before += lost - missed
-                unread[name] += recorded
-        unread.subtract({name: counts.get(name, 0) for name in unread})
-        for name, count in (+unread).items():
+                recorded[name] += written
+        for name, count in recorded.items():
             topic = self.info.topics[name]
-            topic.lost = (topic.lost or 0) + count
-        if wrong:
-            which = "an account" if len(wrong) == 1 else f"{len(wrong)} accounts"
-            first = "" if len(wrong) == 1 else "the first: "
+            topic.lost = (topic.lost or 0) + max(count - read.get(name, 0), 0)
+        if unreadable:
             self.info.remarks.append(
-                f"{file.name}: {which} of losses cannot be read: {first}{wrong[0]}"
+                f"{file.name}: accounts of losses that cannot be read: {unreadable}"
             )
 
     def _add_change(self, topic: str, message: Any) -> None:

@@ -30,9 +30,9 @@ def recorded_commands(path: Path, remarks: list[str]) -> Commands:
     """
     namespace = choose_namespace(Playback(path).counts, None, path)
     run = read_runs(path, namespace, remarks)[-1]
-    missing = run.intervals[-1].number - run.intervals[0].number + 1 - len(run.intervals)
-    if missing:
-        remarks.append(f"{path}: {missing} intervals are missing, and commands that acted in them")
+    if run.missing:
+        lost = f"{run.missing} intervals are missing, and commands that acted in them"
+        remarks.append(f"{path}: {lost}")
     given = [
         (each.begin, run.given[each.stamp]) for each in run.intervals if each.stamp in run.given
     ]

@@ -51,6 +51,11 @@ class RecordedRun:
     given: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
     """Commands at the ports in an interval, by its stamp [ns]."""
 
+    @property
+    def missing(self) -> int:
+        """Number of intervals between the first and the last that are not recorded."""
+        return self.intervals[-1].number - self.intervals[0].number + 1 - len(self.intervals)
+
 
 def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRun]:
     """Read the runs of a gearbox.
