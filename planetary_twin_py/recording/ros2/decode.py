@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 from mcap.records import Channel, Message, Schema
@@ -10,9 +11,10 @@ from numpy.typing import NDArray
 from rosbags.typesys.store import Typestore
 
 from ...text.escaping import one_line
-from ..container.records import RecordingError
+from ..container.records import RecordingError, files_of
 from .definitions import KINDS, OF_PORTS
 from .layout import LayoutError, Layouts
+from .repeats import Repeats, unrepeated
 from .typestore import DefinitionError, types_of
 
 _LONGEST_REASON = 200  # characters
@@ -112,3 +114,27 @@ class Topics:
         except DefinitionError as reason:
             why = one_line(str(reason), _LONGEST_REASON)
             raise RecordingError(f"{self._source}: {channel.topic}: its definition {why}") from None
+
+
+def described_messages(
+    path: Path, wanted: Callable[[str], bool], remarks: list[str]
+) -> Iterator[tuple[Described, Message]]:
+    """Messages of the wanted topics of a bag, each once, in the order of log times of each file.
+
+    Args:
+        path: path of the recording.
+        wanted: whether a topic is read, by its name.
+        remarks: warnings are appended.
+
+    Yields:
+        The topic in its file, and the message.
+
+    Raises:
+        RecordingError: nothing can be read.
+    """
+    repeats = Repeats()
+    for file in files_of(path, remarks):
+        topics = Topics(file, wanted)
+        for record in unrepeated(file, remarks, repeats):
+            if described := topics.of(record):
+                yield described, record

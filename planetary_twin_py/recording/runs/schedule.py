@@ -14,12 +14,11 @@ from typing import Any, NamedTuple
 from ...model.clock import TICKS
 from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
-from ..container.records import RecordingError, files_of
-from ..ros2.decode import MessageError, Topics
+from ..container.records import RecordingError
+from ..ros2.decode import MessageError, described_messages
 from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
-from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
 from .commands_by_stamp import CommandsByStamp
@@ -125,20 +124,16 @@ def messages_of(
         Name of the topic, and message.
     """
     wanted = {f"{namespace}/{name}": name for name in names}
-    repeats = Repeats()
-    for file in files_of(path, remarks):
-        topics = Topics(file, wanted.__contains__)
-        for record in unrepeated(file, remarks, repeats):
-            if described := topics.of(record):
-                name = wanted[described.topic]
-                try:
-                    message = described.message(record.data)
-                except MessageError as reason:
-                    if name != ORIGIN:
-                        raise
-                    remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
-                else:
-                    yield name, message
+    for described, record in described_messages(path, wanted.__contains__, remarks):
+        name = wanted[described.topic]
+        try:
+            message = described.message(record.data)
+        except MessageError as reason:
+            if name != ORIGIN:
+                raise
+            remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
+        else:
+            yield name, message
 
 
 class _Collector:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from mcap.records import Message
 
-from ..container.records import files_of
-from ..ros2.decode import Described, Topics
-from ..ros2.repeats import Repeats, unrepeated
+from ..ros2.decode import Described, described_messages
 from .message_tables import Rows
 
 MESSAGES = 4096  # per batch, at most
@@ -34,23 +32,24 @@ def rows_of(
         RecordingError: a message does not match its definition.
     """
     wanted = {f"{namespace}/{name}": name for name in names}
-    repeats = Repeats()
-    for file in files_of(path, remarks):
-        waiting: dict[int, _Waiting] = {}
-        topics = Topics(file, wanted.__contains__)
-        for record in unrepeated(file, remarks, repeats):
-            if not (described := topics.of(record)):
-                continue
-            channel = record.channel_id
-            if channel not in waiting:
-                waiting[channel] = _Waiting(described)
-            of_channel = waiting[channel]
-            of_channel.add(record)
-            if of_channel.full:
-                yield wanted[described.topic], of_channel.taken()
-        for of_channel in waiting.values():
-            if of_channel.messages:
-                yield wanted[of_channel.described.topic], of_channel.taken()
+    waiting: dict[Described, _Waiting] = {}
+    for described, record in described_messages(path, wanted.__contains__, remarks):
+        if described not in waiting:  # perhaps of the next file
+            yield from _taken(waiting, wanted)
+            waiting[described] = _Waiting(described)
+        waiting[described].add(record)
+        if waiting[described].full:
+            yield wanted[described.topic], waiting[described].taken()
+    yield from _taken(waiting, wanted)
+
+
+def _taken(
+    waiting: Mapping[Described, _Waiting], wanted: Mapping[str, str]
+) -> Iterator[tuple[str, list[Rows]]]:
+    """All messages that wait."""
+    for described, of_topic in waiting.items():
+        if of_topic.messages:
+            yield wanted[described.topic], of_topic.taken()
 
 
 class _Waiting:
