@@ -1,9 +1,9 @@
-"""One MCAP file of a recording, read from any time by an index of its chunks."""
+"""One MCAP file of a recording, of which single chunks are read."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 from mcap.records import Message
@@ -16,7 +16,7 @@ Warn = Callable[[str], None]
 
 
 class Segment:
-    """A file that can be read from any log time [ns].
+    """A file and the places of its chunks.
 
     Args:
         file: the file.
@@ -33,10 +33,8 @@ class Segment:
                 warn(remark)
         self._file = file
         self._warn = warn
-        self.chunks = sorted(summary.chunks)
-        """Places of the chunks, in order of log time."""
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
-        self.extent = summary.extent
+        self.chunks, self.extent = summary.chunks, summary.extent
         self.channels = [(c, summary.schemas.get(c.schema_id)) for c in summary.channels.values()]
         """Channels and their schemas; None for a missing one."""
         self.counts = Counter[str]()
@@ -44,7 +42,7 @@ class Segment:
         for number, count in summary.counts.items():
             self.counts[self._topics[number]] += count
 
-    def read(self, chunk: ChunkPlace) -> Iterator[tuple[str, Message]]:
+    def read(self, chunk: ChunkPlace) -> list[tuple[str, Message]]:
         """Messages of a chunk with their topics; a damaged chunk is skipped with a warning."""
         try:
             records = section_at(self._file, chunk.place)
@@ -55,23 +53,12 @@ class Segment:
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
                 f"({type(reason).__name__}); this part is skipped"
             )
-            return
-        for record in records:
-            if isinstance(record, Message) and record.channel_id in self._topics:
-                yield self._topics[record.channel_id], record
+            return []
+        messages = (record for record in records if isinstance(record, Message))
+        known = (message for message in messages if message.channel_id in self._topics)
+        return [(self._topics[message.channel_id], message) for message in known]
 
-    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
-        """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
-        return {topic: self._last(topic, count, before) for topic, count in kept.items()}
-
-    def _last(self, topic: str, count: int, before: int) -> list[Message]:
-        channels = {number for number, name in self._topics.items() if name == topic}
-        messages: list[Message] = []
-        for chunk in reversed(self.chunks):
-            indexed = chunk.channels
-            if len(messages) >= count:
-                break
-            if chunk.start < before and (not indexed or channels & indexed):
-                found = (message for name, message in self.read(chunk) if name == topic)
-                messages = [each for each in found if each.log_time < before] + messages
-        return messages[-count:]
+    def may_have(self, chunk: ChunkPlace, topics: Collection[str]) -> bool:
+        """Whether a chunk has messages of one of these topics, as far as its index tells."""
+        indexed = {self._topics[number] for number in chunk.channels}
+        return not indexed or not indexed.isdisjoint(topics)

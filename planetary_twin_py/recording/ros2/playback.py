@@ -51,12 +51,12 @@ class Playback:
         self.counts: Counter[str] = Counter()
         extent = Extent()
         files = files_of(path, self.remarks)
-        self._segments = [Segment(file, self._add_remark) for file in files]
-        recorded = {channel.topic for segment in self._segments for channel, _ in segment.channels}
+        segments = [Segment(file, self._add_remark) for file in files]
+        recorded = {channel.topic for segment in segments for channel, _ in segment.channels}
         for name in chosen:
             if name not in recorded:
                 raise RecordingError(f"topics: {name}: {path} has {', '.join(sorted(recorded))}")
-        for segment in self._segments:
+        for segment in segments:
             for channel, schema in segment.channels:
                 if not chosen or channel.topic in chosen:
                     self._add(channel, schema, path)
@@ -65,6 +65,8 @@ class Playback:
                 extent.include(segment.extent.start)
                 extent.include(segment.extent.end)
         self.counts.update(dict.fromkeys(recorded, 0))
+        chunks = [(chunk, segment) for segment in segments for chunk in segment.chunks]
+        self._chunks = sorted(chunks, key=lambda pair: pair[0].start)
         no_run = no_run_yet(path, self.counts)
         if not extent.start:
             raise RecordingError(no_run or f"{path}: has no messages")
@@ -91,30 +93,31 @@ class Playback:
 
     def _parts(self, first: int) -> Iterator[tuple[int, list[tuple[int, tuple[str, Message]]]]]:
         """Messages at or after log time `first` [ns], chunk by chunk of any file."""
-        chunks = [(chunk, segment) for segment in self._segments for chunk in segment.chunks]
-        chunks = [pair for pair in chunks if pair[0].end >= first]
-        for chunk, segment in sorted(chunks, key=lambda pair: pair[0].start):
-            yield (
-                chunk.start,
-                [
-                    (message.log_time, (topic, message))
-                    for topic, message in segment.read(chunk)
-                    if message.log_time >= first and topic in self.topics
-                ],
-            )
+        for chunk, segment in self._chunks:
+            if chunk.end < first:
+                continue
+            wanted = [
+                (topic, message)
+                for topic, message in segment.read(chunk)
+                if message.log_time >= first and topic in self.topics
+            ]
+            yield chunk.start, [(pair[1].log_time, pair) for pair in wanted]
 
     def _latched(self, before: int) -> list[tuple[str, Message]]:
         """Latched messages that are valid at a log time [ns], oldest first."""
-        missing = {name: topic.kept for name, topic in self.topics.items() if topic.kept}
-        latched: list[tuple[str, Message]] = []
-        for segment in reversed(self._segments):
-            if not missing or before <= self.start:
+        missing = Counter({name: topic.kept for name, topic in self.topics.items()})
+        found: list[tuple[str, Message]] = []
+        for chunk, segment in reversed(self._chunks):
+            missing = +missing
+            if not missing:
                 break
-            for name, messages in segment.newest(missing, before).items():
-                latched += [(name, message) for message in messages]
-                missing[name] -= len(messages)
-            missing = {name: count for name, count in missing.items() if count}
-        return sorted(latched, key=lambda pair: pair[1].log_time)
+            if chunk.start < before and segment.may_have(chunk, missing):
+                for topic, message in reversed(segment.read(chunk)):
+                    if missing[topic] > 0 and message.log_time < before:
+                        missing[topic] -= 1
+                        found.append((topic, message))
+        found.reverse()
+        return sorted(found, key=lambda pair: pair[1].log_time)
 
     def _add(self, channel: Channel, schema: Schema | None, path: Path) -> None:
         if schema is None or channel.message_encoding != "cdr":
