@@ -9,8 +9,7 @@ import numpy as np
 from ...model.clock import TICKS
 from ...run.commands import NAMES, Commands
 from ..container.records import RecordingError
-from ..ros2.namespaces import choose_namespace
-from ..ros2.playback import Playback
+from ..ros2.namespaces import namespace_in
 from .schedule import read_runs
 
 
@@ -28,7 +27,7 @@ def recorded_commands(path: Path, remarks: list[str]) -> Commands:
         ValueError: the recording cannot be read, or has no commands.
         OSError: the file cannot be read.
     """
-    namespace = choose_namespace(Playback(path).counts, None, path)
+    namespace = namespace_in(path)
     run = read_runs(path, namespace, remarks)[-1]
     if run.missing:
         lost = f"{run.missing} intervals are missing, and commands that acted in them"

@@ -63,37 +63,26 @@ def test_changes_are_listed_with_their_instants(sound):
 
 
 def test_a_file_that_is_no_recording_is_refused_in_one_line(tmp_path):
-    answer = CliRunner().invoke(build_app(), ["info", str(tmp_path)])
-    assert answer.exit_code == 2
-    assert len(answer.output.strip().splitlines()) == 1
+    code, lines = said(tmp_path)
+    assert code == 2 and len(lines) == 1
 
 
-def without_index(file):
-    raise ValueError("no index")
-
-
-def test_the_index_of_a_file_agrees_with_all_its_records(tmp_path, monkeypatch):
+def test_the_index_agrees_with_all_records_and_counts_losses(tmp_path, monkeypatch):
     def lose(topic, number, row):
         return None if topic == "gearbox_state" and number in (7, 8, 20) else row
 
+    def without_index(file):
+        raise ValueError("no index")
+
     file = record(tmp_path / "bag", lose)
     by_index = read_info(file)
+    (remark,) = by_index.remarks  # not of the end of a run before a reset
+    assert remark.startswith(f"3 messages of {NAMESPACE}/gearbox_state are missing between")
     monkeypatch.setattr(Index, "of_summary", without_index)
     by_records = read_info(file)
     assert by_index.simulated == pytest.approx(by_records.simulated, rel=1e-12)
     by_index.simulated = by_records.simulated
     assert by_index == by_records
-
-
-def test_missing_states_are_counted_by_their_numbers(sound, tmp_path):
-    """Not the end of a run before a reset, after which the numbers continue."""
-
-    def lose(topic, number, row):
-        return None if topic == "gearbox_state" and number in (7, 8, 20) else row
-
-    (remark,) = read_info(record(tmp_path / "bag", lose)).remarks
-    assert remark.startswith(f"3 messages of {NAMESPACE}/gearbox_state are missing between")
-    assert read_info(sound).remarks == []
 
 
 def test_the_index_leads_to_every_message(sound):
@@ -193,18 +182,14 @@ def listed_changes(file):
 
 def test_a_ramp_is_one_line(tmp_path):
     legs = (50, {"input_torque": 30.0}), (20, {"backlash": 4e-7, "lambda_ratio": 2.0})
-    start, *ways = listed_changes(ramped(tmp_path / "bag", *legs))
+    file = ramped(tmp_path / "bag", *legs)
+    start, *ways = listed_changes(file)
     assert start.startswith("0.0000 s  backlash = 2e-07 m")
     assert ways == [
         "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
         "0.5500 s  backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
     ]
-
-
-def test_the_figures_of_a_ramp_are_still_those_of_every_step(tmp_path):
-    file, out = ramped(tmp_path / "bag", (50, {"input_torque": 30.0})), tmp_path / "figures.json"
-    CliRunner().invoke(build_app(), ["info", str(file), "--events", "--json", str(out)])
-    assert len(json.loads(out.read_text())["changes"]) == 51
+    assert len(read_info(file).changes) == 1 + 50 + 20
 
 
 def turned(*points, name="input_torque", namespace="/one"):
