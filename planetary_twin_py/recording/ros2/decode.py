@@ -20,10 +20,6 @@ from .typestore import DefinitionError, types_of
 _LONGEST_REASON = 200  # characters
 
 
-class MessageError(RecordingError):
-    """A message does not match its definition."""
-
-
 class Described:
     """A topic with its definition in a source.
 
@@ -45,7 +41,7 @@ class Described:
         """Decode a message.
 
         Raises:
-            MessageError: it does not match its definition.
+            RecordingError: it does not match its definition.
         """
         try:
             return self._types.deserialize_cdr(data, self.kind)
@@ -58,16 +54,16 @@ class Described:
         """Structured arrays of messages in order, each of messages with the same layout.
 
         Raises:
-            MessageError: a message does not match its definition.
+            RecordingError: a message does not match its definition.
         """
         try:
             yield from self._layouts.arrays(messages)
         except LayoutError as reason:
             raise self._error(str(reason)) from None
 
-    def _error(self, reason: str) -> MessageError:
+    def _error(self, reason: str) -> RecordingError:
         why = one_line(reason, _LONGEST_REASON)
-        return MessageError(f"{self._source}: {self.topic}: a message {why}")
+        return RecordingError(f"{self._source}: {self.topic}: a message {why}")
 
 
 class Topics:

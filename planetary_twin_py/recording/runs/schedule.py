@@ -15,7 +15,7 @@ from ...model.clock import TICKS
 from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
 from ..container.records import RecordingError
-from ..ros2.decode import MessageError, described_messages
+from ..ros2.decode import described_messages
 from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
@@ -125,15 +125,7 @@ def messages_of(
     """
     wanted = {f"{namespace}/{name}": name for name in names}
     for described, record in described_messages(path, wanted.__contains__, remarks):
-        name = wanted[described.topic]
-        try:
-            message = described.message(record.data)
-        except MessageError as reason:
-            if name != ORIGIN:
-                raise
-            remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
-        else:
-            yield name, message
+        yield wanted[described.topic], described.message(record.data)
 
 
 class _Collector:
