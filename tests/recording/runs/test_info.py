@@ -98,21 +98,6 @@ def test_the_index_leads_to_every_message(sound):
             assert index.message(channel, number) == message
 
 
-def test_a_file_without_a_valid_index_is_read(sound, tmp_path):
-    whole = sound.read_bytes()
-    flipped = bytearray(whole)
-    flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, with the operating point
-    for name, data, remarks in (
-        ("truncated", whole[: len(whole) // 2], 1),
-        ("cut", whole[:20], 2),  # it holds no run yet, too
-        ("damaged", bytes(flipped), 1),
-        ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 1),
-    ):
-        file = tmp_path / f"{name}.mcap"
-        file.write_bytes(data)
-        assert len(read_info(file).remarks) == remarks
-
-
 def test_the_command_lists_the_events(sound, tmp_path):
     file = tmp_path / "figures.json"
     answer = CliRunner().invoke(build_app(), ["info", str(sound), "--events", "--json", str(file)])
