@@ -88,7 +88,7 @@ def test_a_recording_of_something_else_is_not_blamed(tmp_path):
     assert no_run_yet(bag.file, {}) is None  # a finished one is not unfinished
 
 
-def test_a_follower_killed_before_its_first_estimate_needs_no_run(tmp_path):
+def test_a_follower_killed_before_an_estimate_needs_no_run(tmp_path):
     file = tmp_path / "cut.mcap"
     file.write_bytes(SAMPLE.read_bytes()[: SAMPLE.stat().st_size // 2])
     seen = {"/rig/joint_states": 5, "/twin/follower/estimate": 0, "/diagnostics": 1}
