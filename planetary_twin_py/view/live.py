@@ -9,13 +9,17 @@ from typing import Any
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..recording.ros2.decode import Described, Topics
-from ..recording.ros2.layout import Layouts
+from ..recording.ros2.decode import Topics
 from ..recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
-from ..recording.runs.axes_samples import AxesInMemory, axes_samples_of
 from ..recording.runs.origin import read_origin
-from ..recording.runs.reader import SERIES, TOPICS, Recording, assemble, series_of
-from ..recording.runs.waveform import InMemory, waveform_of
+from ..recording.runs.reader import SERIES, TOPICS, Recording, planets_in, series_of
+from ..recording.runs.waveform import (
+    AxesSamples,
+    InMemory,
+    Waveform,
+    WaveformInMemory,
+    samples_of,
+)
 from ..scene import Scene
 from .axes import Scales, scales
 from .blueprint import LIVE
@@ -55,7 +59,6 @@ class LiveView:
         self._chosen = scene
         self._published: Scene | None = None
         self._topics = Topics("the running twin", lambda topic: True)
-        self._layouts: dict[str, Layouts] = {}
         self._waiting: Messages = {name: [] for name in TOPICS}
         self._run: _DrawnRun | None = None
 
@@ -71,7 +74,7 @@ class LiveView:
         for record in records:
             if described := self._topics.of(record):
                 name = described.topic.rpartition("/")[2]
-                (message,) = self._layout(described).arrays([record.data])
+                (message,) = described.arrays([record.data])
                 if name == ORIGIN:
                     self._published = read_origin(message["data"][0].decode()).scene
                 elif name in self._waiting:
@@ -85,11 +88,6 @@ class LiveView:
         if self._run is not None:
             self._run.end()
             self._run = None
-
-    def _layout(self, of: Described) -> Layouts:
-        if of.topic not in self._layouts:
-            self._layouts[of.topic] = Layouts(of.types.fielddefs, of.kind)
-        return self._layouts[of.topic]
 
     def _draw(self, scene: Scene) -> bool:
         """Draw the messages of one run; return whether another run has started."""
@@ -152,10 +150,20 @@ class _DrawnRun:
         self._layer.stream.disconnect()
 
     def _recording(self, messages: Messages) -> Recording:
-        samples = InMemory(waveform_of(messages[WAVEFORM]))
-        axes = AxesInMemory(axes_samples_of(messages[AXES_WAVEFORM]))
+        samples = WaveformInMemory(samples_of(Waveform, messages[WAVEFORM]))
+        axes = InMemory(samples_of(AxesSamples, messages[AXES_WAVEFORM]))
         series = {name: series_of(name, messages[name].copy()) for name in SERIES}
-        return assemble(series, samples, axes, Path(self._namespace), self._namespace)
+        path = Path(self._namespace)
+        return Recording(
+            path=path,
+            namespace=self._namespace,
+            planets=planets_in(series[STATE], path, self._namespace),
+            state=series[STATE],
+            operating_point=series[POINT],
+            blocks=samples,
+            axes_state=series[AXES_STATE],
+            axes_blocks=axes,
+        )
 
 
 def _cut(messages: list[NDArray[Any]], time: str, reached: float) -> int:

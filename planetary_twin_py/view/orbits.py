@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.runs.axes_samples import AxesSamples
+from ..recording.runs.waveform import AxesSamples
 from ..units.catalogue import MEMBERS
 from .chart import Chart, Ticks, log_frame, send_strips
 from .frames import Frames

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
-from ..recording.runs.waveform import QUANTITIES, InMemory, Waveform
+from ..recording.runs.waveform import QUANTITIES, Waveform, WaveformInMemory
 
 DIFFERENCE = "difference"
 """Parent of the entities of differences."""
@@ -57,7 +57,7 @@ def difference(first: Recording, other: Recording) -> Recording:
             f"{other.path}: no sample has the same time as one of {first.path}, "
             "so no difference is drawn"
         )
-    return replace(other, blocks=InMemory(waveform))
+    return replace(other, blocks=WaveformInMemory(waveform))
 
 
 def _subtract(first: Waveform, other: Waveform) -> Waveform:

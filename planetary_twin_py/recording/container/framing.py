@@ -29,6 +29,8 @@ from mcap.stream_reader import get_chunk_data_stream
 
 LONGEST_RECORD = 256 * 2**20
 """Bytes; a chunk of a recording has some MiB. A damaged length may have any value."""
+NO_RECORD = 0
+"""Opcode of a piece where there is no whole record."""
 _HEAD = struct.Struct("<BQ")  # opcode and length of a record
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time and publish time of a message
 _ZSTD = b"\x28\xb5\x2f\xfd"  # with which no plain CDR begins
@@ -66,18 +68,11 @@ class Piece(NamedTuple):
 
 
 def piece_at(stream: BinaryIO) -> Piece:
-    """The record at the position of `stream`; raises one of `DAMAGED` if there is none."""
-    place = stream.tell()
-    head = stream.read(_HEAD.size)
-    if len(head) < _HEAD.size:
-        raise EndOfFile
-    opcode, length = _HEAD.unpack(head)
-    if length > LONGEST_RECORD:
-        raise RecordLengthLimitExceeded(opcode, length, LONGEST_RECORD)
-    content = stream.read(length)
-    if len(content) < length:
-        raise EndOfFile
-    return Piece(place, opcode, content)
+    """The record at the position of `stream`; an empty one with `NO_RECORD` if none is whole."""
+    place, head = stream.tell(), stream.read(_HEAD.size)
+    opcode, length = _HEAD.unpack(head) if len(head) == _HEAD.size else (NO_RECORD, 0)
+    content = stream.read(length) if length <= LONGEST_RECORD else b""
+    return Piece(place, opcode, content) if len(content) == length else Piece(place, NO_RECORD, b"")
 
 
 def record_of(opcode: int, content: bytes) -> Any:
@@ -91,14 +86,20 @@ def record_of(opcode: int, content: bytes) -> Any:
     return record
 
 
-def opened(piece: Piece) -> list[Any]:
-    """The records of a chunk, or the record itself; none for an index of messages.
+def opened(piece: Piece, indexes: bool = False) -> list[Any]:
+    """The records of a chunk, or the record itself.
+
+    Args:
+        piece: the record.
+        indexes: whether an index of messages is read, which takes longer than the messages;
+            without, it has no records.
 
     Raises:
-        one of `DAMAGED`: the record is damaged. An index of messages is not read, because that
-            takes longer than the messages.
+        one of `DAMAGED`: the record is damaged.
     """
-    if piece.opcode == Opcode.MESSAGE_INDEX:
+    if piece.opcode == NO_RECORD:
+        raise EndOfFile
+    if piece.opcode == Opcode.MESSAGE_INDEX and not indexes:
         return []
     record = record_of(piece.opcode, piece.content)
     if isinstance(record, Attachment):
@@ -131,8 +132,6 @@ def _unpacked(chunk: Chunk) -> list[Any]:
         opcode, length = _HEAD.unpack_from(data, end)
         begin = end + _HEAD.size
         end = begin + length
-        if end > size:
-            raise EndOfFile
         if opcode == Opcode.MESSAGE:
             channel, sequence, log_time, publish_time = _MESSAGE.unpack_from(data, begin)
             content = data[begin + _MESSAGE.size : end]
@@ -144,15 +143,15 @@ def _unpacked(chunk: Chunk) -> list[Any]:
 
 def _check_size(chunk: Chunk) -> None:
     """Raise an error before memory is taken for a chunk of another size than its header states."""
-    size = len(chunk.data)
+    size = stated = chunk.uncompressed_size
     if chunk.compression == "zstd":
         size = zstandard.frame_content_size(chunk.data)
     elif chunk.compression == "lz4":
-        size = lz4.frame.get_frame_info(chunk.data)["content_size"] or chunk.uncompressed_size
+        size = lz4.frame.get_frame_info(chunk.data)["content_size"] or stated
     elif chunk.compression:
         raise UnsupportedCompressionError(chunk.compression)
-    if chunk.uncompressed_size > LONGEST_RECORD or size not in (-1, chunk.uncompressed_size):
-        raise RecordLengthLimitExceeded(Opcode.CHUNK, max(size, chunk.uncompressed_size), size)
+    if stated > LONGEST_RECORD or size not in (-1, stated):
+        raise RecordLengthLimitExceeded(Opcode.CHUNK, max(size, stated), LONGEST_RECORD)
 
 
 def _published(record: Any) -> Any:

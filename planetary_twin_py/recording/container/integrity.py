@@ -36,7 +36,7 @@ def end_of_data(file: Path) -> int | None:
 
 
 def damaged_data(file: Path) -> bool:
-    """Whether the data before the summary fail their checksum, in a file with an intact summary.
+    """Whether the data before the summary fail their checksum, or the file is not finished.
 
     This is much faster than decompressing. The checksum zero means that the writer computed none.
     """

@@ -10,7 +10,7 @@ import heapq
 import struct
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from mcap.opcode import Opcode
 from mcap.records import Channel, Message
@@ -23,6 +23,7 @@ DISORDER = 1_000_000_000
 _HEAD = struct.Struct("<BQ")  # opcode and length of a record
 _CHUNK = struct.Struct("<Q")  # log time of the first message of a chunk, 0 without messages
 _MESSAGE = struct.Struct("<6xQ")  # log time of a message
+T = TypeVar("T")
 
 
 def records_in_log_order(file: Path, remarks: list[str]) -> Iterator[Any]:
@@ -41,36 +42,32 @@ def records_in_log_order(file: Path, remarks: list[str]) -> Iterator[Any]:
     yield from merged(_reached(_sections(file, remarks)))
 
 
-def merged(parts: Iterable[tuple[int, Iterable[Any]]]) -> Iterator[Any]:
-    """Records of several parts, with the messages in the order of their log times.
+def merged(parts: Iterable[tuple[int, Iterable[tuple[int, T]]]]) -> Iterator[T]:
+    """Items of several parts in the order of their times; of those at the same time, as given.
 
     Args:
-        parts: records, and the log time [ns] before which neither this part nor a later one has
-            messages.
-
-    Yields:
-        The records; those that are no messages before the messages of their part.
+        parts: items after their times, and the time before which neither this part nor a later one
+            has items.
     """
-    waiting: list[tuple[int, int, Any]] = []
-    number = 0  # keeps the order of messages with equal times
-    for reached, records in parts:
+    waiting: list[tuple[int, int, T]] = []
+    number = 0
+    for reached, items in parts:
         while waiting and waiting[0][0] < reached:
             yield heapq.heappop(waiting)[2]
-        for record in records:
+        for time, item in items:
             number += 1
-            time = record.log_time if isinstance(record, Message) else 0
-            heapq.heappush(waiting, (time, number, record))
+            heapq.heappush(waiting, (time, number, item))
     while waiting:
         yield heapq.heappop(waiting)[2]
 
 
-def _reached(sections: Iterable[Section]) -> Iterator[tuple[int, list[Any]]]:
-    """Sections, and the log time before which no later one has messages."""
+def _reached(sections: Iterable[Section]) -> Iterator[tuple[int, list[tuple[int, Any]]]]:
+    """Records after their log times, and the time before which no later section has messages."""
     newest = 0
     for _, records in sections:
-        times = [record.log_time for record in records if isinstance(record, Message)]
-        newest = max(newest, min(times, default=0))
-        yield newest - DISORDER, records
+        timed = [(each.log_time if isinstance(each, Message) else 0, each) for each in records]
+        newest = max(newest, min((time for time, _ in timed if time), default=0))
+        yield newest - DISORDER, timed
 
 
 def _sections(file: Path, remarks: list[str]) -> Iterator[Section]:

@@ -11,15 +11,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader
 
 from ...text.escaping import one_line
+from .bag_folder import how_stored, missing_files
 from .damage import Damages
-from .foreign import how_stored
-from .framing import DAMAGED, opened, piece_at
+from .framing import LONGEST_RECORD, opened, piece_at
 from .integrity import MAGIC, end_of_data, start_of_summary
-from .missing_files import missing_files
 from .suffixes import TABLES
 from .walk import Sound, walk
 
@@ -89,18 +88,17 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 
 def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
     """All intact records as in `records_of`, section by section."""
-    known, damages, end = _Known(file), Damages(file), None
+    known, damages, end = _Known(file), Damages(file.name), 0
     with file.open("rb") as stream:
-        remarks += _begin_remarks(file, stream)
-        if stream.tell() < len(MAGIC):
+        remarks += filter(None, [_begin_remark(file, stream)])
+        if stream.seek(0, 2) < len(MAGIC):
             return
         for part in walk(file, stream):
+            damages.add(part)
             if isinstance(part, Sound):
-                damages.add_sound(part)
                 place, records = part.piece.place, known.described(part.records)
-                end = part.piece.end if part.piece.opcode == Opcode.DATA_END else None
+                end = part.piece.end
             else:
-                damages.add_lost(part)
                 place, records = part.place, known.summarised()
             if records:
                 yield Section(place, records)
@@ -111,6 +109,13 @@ def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
         remarks.append(
             f"{file.name}: {known.strays} messages are skipped because their channels are lost"
         )
+
+
+def section_at(file: Path, place: int) -> list[Any]:
+    """The records of the section at position `place`; raises one of `DAMAGED` if there is none."""
+    with file.open("rb") as stream:
+        stream.seek(place)
+        return opened(piece_at(stream))
 
 
 class _Known:
@@ -128,7 +133,12 @@ class _Known:
 
     def summarised(self) -> list[Any]:
         """Schemas and channels that occur only in the summary, if it is intact."""
-        found = _summary(self._file)
+        end = end_of_data(self._file)
+        if end is None:
+            return []
+        with self._file.open("rb") as stream:
+            stream.seek(end)
+            found = list(StreamReader(stream, True, record_size_limit=LONGEST_RECORD).records)
         schemas = [s for s in found if isinstance(s, Schema) and s.id not in self._schemas]
         channels = [c for c in found if isinstance(c, Channel) and c.id not in self._channels]
         return self.described([*schemas, *channels])
@@ -147,48 +157,25 @@ class _Known:
         return isinstance(record, (Schema, Channel, Attachment, Metadata))
 
 
-def _summary(file: Path) -> list[Any]:
-    """The schemas and channels of an intact summary."""
-    records: list[Any] = []
-    end = end_of_data(file)
-    if end is None:
-        return records
-    with file.open("rb") as stream:
-        stream.seek(end)
-        try:
-            while (piece := piece_at(stream)).opcode != Opcode.FOOTER:
-                records += opened(piece)
-        except DAMAGED:
-            pass  # the writer of the summary made an error that its checksum does not show
-    return records
-
-
-def _begin_remarks(file: Path, stream: BinaryIO) -> list[str]:
-    """Warnings about the first bytes of an MCAP file, which its header or its end identifies.
-
-    A killed writer may leave a file without these bytes.
+def _begin_remark(file: Path, stream: BinaryIO) -> str:
+    """Warning about the first bytes of an MCAP file, which its last bytes identify, too.
 
     Raises:
         RecordingError: it is not an MCAP file.
     """
     first = stream.read(len(MAGIC))
     if first == MAGIC:
-        return []
+        return ""
     if MAGIC.startswith(first):
-        return [f"{file.name}: ends after {len(first)} bytes, before any message"]
-    try:
-        is_mcap = opened(header := piece_at(stream)) and header.opcode == Opcode.HEADER
-    except DAMAGED:
-        is_mcap = stream.seek(0, 2) > len(MAGIC) and end_of_data(file) is not None
-    if not is_mcap:
+        return f"{file.name}: ends after {len(first)} bytes, before any message"
+    stream.seek(-len(first), 2)
+    if stream.read() != MAGIC:
         raise RecordingError(f"{file}: not a recording: not an MCAP file; {TABLES}")
-    return [f"{file.name}: its first {len(MAGIC)} bytes are damaged"]
+    return f"{file.name}: its first {len(MAGIC)} bytes are damaged"
 
 
-def _end_remark(file: Path, end: int | None) -> str:
+def _end_remark(file: Path, end: int) -> str:
     """Warning about what follows the data, which end at position `end`; empty if it is intact."""
-    if end is None:
-        return f"{file.name}: has no Data End record; data may be missing"
     if start_of_summary(file) is not None:
         return ""
     with file.open("rb") as stream:
@@ -200,10 +187,3 @@ def _end_remark(file: Path, end: int | None) -> str:
         f"{file.name}: is truncated, the last {size - end} of {size} bytes are unreadable; "
         "everything before is intact"
     )
-
-
-def section_at(file: Path, place: int) -> list[Any]:
-    """The records of the section at position `place`; raises one of `DAMAGED` if there is none."""
-    with file.open("rb") as stream:
-        stream.seek(place)
-        return opened(piece_at(stream))

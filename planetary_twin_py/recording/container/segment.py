@@ -1,15 +1,14 @@
-"""One MCAP file of a recording, read from any time by an index of its chunks."""
+"""One MCAP file of a recording, of which single chunks are read."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 from mcap.records import Message
 
 from .framing import DAMAGED
-from .log_order import merged
 from .records import section_at
 from .summary import ChunkPlace, read_summary, summary_of_records
 
@@ -17,7 +16,7 @@ Warn = Callable[[str], None]
 
 
 class Segment:
-    """A file that can be read from any log time [ns].
+    """A file and the places of its chunks.
 
     Args:
         file: the file.
@@ -34,9 +33,8 @@ class Segment:
                 warn(remark)
         self._file = file
         self._warn = warn
-        self._chunks = sorted(summary.chunks)
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
-        self.extent = summary.extent
+        self.chunks, self.extent = summary.chunks, summary.extent
         self.channels = [(c, summary.schemas.get(c.schema_id)) for c in summary.channels.values()]
         """Channels and their schemas; None for a missing one."""
         self.counts = Counter[str]()
@@ -44,36 +42,8 @@ class Segment:
         for number, count in summary.counts.items():
             self.counts[self._topics[number]] += count
 
-    def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        """Messages at or after log time `begin` [ns] with their topics, in order of log time."""
-        parts = ((chunk.start, self._read(chunk)) for chunk in self._chunks if chunk.end >= begin)
-        for message in merged(parts):
-            if message.log_time >= begin:
-                yield self._topics[message.channel_id], message
-
-    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
-        """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
-        return {topic: self._last(topic, count, before) for topic, count in kept.items()}
-
-    def _last(self, topic: str, count: int, before: int) -> list[Message]:
-        channels = {number for number, name in self._topics.items() if name == topic}
-        messages: list[Message] = []
-        for chunk in reversed(self._chunks):
-            indexed = chunk.channels
-            if chunk.start >= before or (indexed and not channels & indexed):
-                continue
-            matching = [
-                message
-                for message in self._read(chunk)
-                if message.channel_id in channels and message.log_time < before
-            ]
-            messages = matching + messages
-            if len(messages) >= count:
-                break
-        return messages[-count:]
-
-    def _read(self, chunk: ChunkPlace) -> Iterator[Message]:
-        """Messages of a chunk; a damaged chunk is skipped with a warning."""
+    def read(self, chunk: ChunkPlace) -> list[tuple[str, Message]]:
+        """Messages of a chunk with their topics; a damaged chunk is skipped with a warning."""
         try:
             records = section_at(self._file, chunk.place)
         except DAMAGED as reason:
@@ -83,7 +53,12 @@ class Segment:
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
                 f"({type(reason).__name__}); this part is skipped"
             )
-            return
-        for record in records:
-            if isinstance(record, Message) and record.channel_id in self._topics:
-                yield record
+            return []
+        messages = (record for record in records if isinstance(record, Message))
+        known = (message for message in messages if message.channel_id in self._topics)
+        return [(self._topics[message.channel_id], message) for message in known]
+
+    def may_have(self, chunk: ChunkPlace, topics: Collection[str]) -> bool:
+        """Whether a chunk has messages of one of these topics, as far as its index tells."""
+        indexed = {self._topics[number] for number in chunk.channels}
+        return not indexed or not indexed.isdisjoint(topics)

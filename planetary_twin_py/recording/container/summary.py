@@ -46,16 +46,26 @@ class ChunkPlace(NamedTuple):
     """Channels that its message indexes list."""
 
 
-class Summary(NamedTuple):
-    """The summary of a file; `chunks` in the order of the file."""
+class Summary:
+    """Contents of a file; `chunks` in the order of the file."""
 
-    schemas: dict[int, Schema]
-    channels: dict[int, Channel]
-    counts: Counter[int]
-    """Messages by channel."""
-    extent: Extent
-    chunks: list[ChunkPlace]
-    metadata: list[Metadata]
+    def __init__(self) -> None:
+        self.schemas: dict[int, Schema] = {}
+        self.channels: dict[int, Channel] = {}
+        self.counts = Counter[int]()
+        """Messages by channel."""
+        self.extent = Extent()
+        self.chunks: list[ChunkPlace] = []
+        self.metadata: list[Metadata] = []
+
+    def add(self, record: object) -> None:
+        """Add a record unless it is a message."""
+        if isinstance(record, Schema):
+            self.schemas[record.id] = record
+        elif isinstance(record, Channel):
+            self.channels[record.id] = record
+        elif isinstance(record, Metadata):
+            self.metadata.append(record)
 
 
 def read_summary(file: Path) -> Summary:
@@ -67,33 +77,29 @@ def read_summary(file: Path) -> Summary:
     start = start_of_summary(file)
     if start is None:
         raise ValueError("checksum error")
-    schemas, channels = dict[int, Schema](), dict[int, Channel]()
-    statistics: Statistics | None = None
-    chunks, metadata = list[ChunkPlace](), list[Metadata]()
+    found, statistics = Summary(), None
     sets: dict[frozenset[int], frozenset[int]] = {}  # so that equal ones are one object
     with file.open("rb") as stream:
         stream.seek(start)
         reader = StreamReader(stream, skip_magic=True, record_size_limit=LONGEST_RECORD)
         for record in reader.records:
+            found.add(record)
             if isinstance(record, ChunkIndex):
-                chunks.append(_place(record, sets))
+                found.chunks.append(_place(record, sets))
             elif isinstance(record, Statistics):
                 statistics = record
-            elif isinstance(record, Schema):
-                schemas[record.id] = record
-            elif isinstance(record, Channel):
-                channels[record.id] = record
             elif isinstance(record, MetadataIndex):
-                found = section_at(file, record.offset)
-                metadata += [each for each in found if isinstance(each, Metadata)]
+                for metadata in section_at(file, record.offset):
+                    found.add(metadata)
     if statistics is None:
         raise ValueError("no statistics")
-    chunks.sort(key=lambda chunk: chunk.place)
-    if len(channels) < statistics.channel_count or (statistics.message_count and not chunks):
+    found.chunks.sort(key=lambda chunk: chunk.place)
+    without_chunks = statistics.message_count and not found.chunks
+    if len(found.channels) < statistics.channel_count or without_chunks:
         raise ValueError("channels or chunks are not listed")
-    counts = Counter(statistics.channel_message_counts)
-    extent = Extent(statistics.message_start_time, statistics.message_end_time)
-    return Summary(schemas, channels, counts, extent, chunks, metadata)
+    found.counts.update(statistics.channel_message_counts)
+    found.extent = Extent(statistics.message_start_time, statistics.message_end_time)
+    return found
 
 
 def summary_of_records(file: Path, remarks: list[str], add: Adding | None = None) -> Summary:
@@ -107,17 +113,12 @@ def summary_of_records(file: Path, remarks: list[str], add: Adding | None = None
     Raises:
         RecordingError: nothing can be read.
     """
-    found = Summary({}, {}, Counter[int](), Extent(), [], [])
+    found = Summary()
     for place, records in sections_of(file, remarks):
         times: defaultdict[int, list[int]] = defaultdict(list)
         for record in records:
-            if isinstance(record, Schema):
-                found.schemas[record.id] = record
-            elif isinstance(record, Channel):
-                found.channels[record.id] = record
-            elif isinstance(record, Metadata):
-                found.metadata.append(record)
-            elif isinstance(record, Message):
+            found.add(record)
+            if isinstance(record, Message):
                 times[record.channel_id].append(record.log_time)
         for channel, of_channel in times.items():
             found.counts[channel] += len(of_channel)

@@ -2,47 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple
-
-from ...text.escaping import one_line
-
-_WHOLE = re.compile(r"-?[0-9]{1,18}")
-_LONGEST = 60  # characters of a value in a message
-
-
-class Losses(NamedTuple):
-    """Messages of a topic that were not received, those of them after the first received, and those
-    that were recorded."""
-
-    topic: str
-    lost: int
-    missed: int
-    recorded: int
-
-
-def recorded_losses(account: Mapping[str, str]) -> Losses:
-    """Read the account of a topic at the end of a file.
-
-    Args:
-        account: texts of `TopicAccount` by name, and the `topic`.
-
-    Returns:
-        The losses.
-
-    Raises:
-        ValueError: a value is missing, or not a whole number.
-    """
-    for name in Losses._fields:
-        if name not in account:
-            raise ValueError(f"{name}: missing")
-        if name != "topic" and not _WHOLE.fullmatch(account[name]):
-            value = one_line(account[name], _LONGEST)
-            raise ValueError(f"{name} = {value!r}: must be a whole number")
-    topic, *counts = (account[name] for name in Losses._fields)
-    return Losses(topic, *map(int, counts))
 
 
 @dataclass

@@ -2,35 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
 
 from mcap.records import Channel, Message, Schema
+from numpy.typing import NDArray
 from rosbags.typesys.store import Typestore
 
 from ...text.escaping import one_line
-from ..container.records import RecordingError
+from ..container.records import RecordingError, files_of
 from .definitions import KINDS, OF_PORTS
-from .layout import Layout, LayoutError
+from .layout import LayoutError, Layouts
+from .repeats import Repeats, unrepeated
 from .typestore import DefinitionError, types_of
 
 _LONGEST_REASON = 200  # characters
 
 
-class Described(NamedTuple):
-    """A topic, its type, and the types in its definition."""
+class Described:
+    """A topic with its definition in a source.
 
-    topic: str
-    kind: str
-    types: Typestore
+    Args:
+        source: the file, for messages of errors.
+        topic: name of the topic.
+        kind: its type.
+        types: the types in its definition.
+    """
 
+    def __init__(self, source: object, topic: str, kind: str, types: Typestore) -> None:
+        self.topic, self.kind = topic, kind
+        self.fields = [name for name, _ in types.fielddefs[kind][1]]
+        """Names of the fields of a message."""
+        self._source, self._types = source, types
+        self._layouts = Layouts(types.fielddefs, kind)
 
-class MessageError(RecordingError):
-    """A message of `topic` does not match its definition."""
+    def message(self, data: bytes) -> Any:
+        """Decode a message.
 
-    def __init__(self, topic: str, text: str) -> None:
-        super().__init__(text)
-        self.topic = topic
+        Raises:
+            RecordingError: it does not match its definition.
+        """
+        try:
+            return self._types.deserialize_cdr(data, self.kind)
+        except Exception as reason:  # of many kinds: rosbags runs generated code
+            list(self.arrays([data]))  # whose error names the field, if it can be determined
+            text = f"does not match its definition: {reason or type(reason).__name__}"
+            raise self._error(text) from None
+
+    def arrays(self, messages: Sequence[bytes]) -> Iterator[NDArray[Any]]:
+        """Structured arrays of messages in order, each of messages with the same layout.
+
+        Raises:
+            RecordingError: a message does not match its definition.
+        """
+        try:
+            yield from self._layouts.arrays(messages)
+        except LayoutError as reason:
+            raise self._error(str(reason)) from None
+
+    def _error(self, reason: str) -> RecordingError:
+        why = one_line(reason, _LONGEST_REASON)
+        return RecordingError(f"{self._source}: {self.topic}: a message {why}")
 
 
 class Topics:
@@ -43,7 +76,8 @@ class Topics:
         self._source = source  # the file, for messages of errors
         self._wanted = wanted
         self._schemas: dict[int, Schema] = {}
-        self._channels: dict[int, Described] = {}
+        self.by_channel: dict[int, Described] = {}
+        """The topics that are wanted, by the number of the channel."""
 
     def of(self, record: Any) -> Described | None:
         """The topic if the record is a message of a wanted topic, else None.
@@ -55,16 +89,15 @@ class Topics:
             self._schemas[record.id] = record
         elif isinstance(record, Channel):
             schema = self._schemas[record.schema_id]
-            if self._wanted(record.topic) and _is_of_twin(record.topic, schema.name):
+            name = record.topic.rpartition("/")[2]
+            is_of_twin = (KINDS | OF_PORTS).get(name, schema.name) == schema.name
+            if self._wanted(record.topic) and is_of_twin and record.id not in self.by_channel:
                 types = self._types(record, schema)
-                self._channels[record.id] = Described(record.topic, schema.name, types)
-        elif isinstance(record, Message) and record.channel_id in self._channels:
-            return self._channels[record.channel_id]
+                described = Described(self._source, record.topic, schema.name, types)
+                self.by_channel[record.id] = described
+        elif isinstance(record, Message):
+            return self.by_channel.get(record.channel_id)
         return None
-
-    def __contains__(self, channel: int) -> bool:
-        """Whether messages of a channel are read, by its number."""
-        return channel in self._channels
 
     def _types(self, channel: Channel, schema: Schema) -> Typestore:
         if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
@@ -79,43 +112,25 @@ class Topics:
             raise RecordingError(f"{self._source}: {channel.topic}: its definition {why}") from None
 
 
-class Decoder:
-    """Decodes the `wanted` topics of one source, given its records in order."""
+def described_messages(
+    path: Path, wanted: Callable[[str], bool], remarks: list[str]
+) -> Iterator[tuple[Described, Message]]:
+    """Messages of the wanted topics of a bag, each once, in the order of log times of each file.
 
-    def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
-        self._source = source
-        self._topics = Topics(source, wanted)
+    Args:
+        path: path of the recording.
+        wanted: whether a topic is read, by its name.
+        remarks: warnings are appended.
 
-    def __contains__(self, channel: int) -> bool:
-        """Whether messages of a channel are decoded, by its number."""
-        return channel in self._topics
+    Yields:
+        The topic in its file, and the message.
 
-    def read(self, record: Any) -> tuple[str, Any] | None:
-        """Topic and message if the record is a message of a wanted topic, else None.
-
-        Raises:
-            RecordingError: the encoding of a wanted topic is not supported.
-            MessageError: a message does not match its definition.
-        """
-        described = self._topics.of(record)
-        if described is None:
-            return None
-        try:
-            return described.topic, described.types.deserialize_cdr(record.data, described.kind)
-        except Exception as reason:  # of many kinds: rosbags runs generated code
-            why = one_line(_why(described, record.data, reason), _LONGEST_REASON)
-            text = f"{self._source}: {described.topic}: a message {why}"
-            raise MessageError(described.topic, text) from None
-
-
-def _why(described: Described, data: bytes, reason: Exception) -> str:
-    """The error of a message, with the field if it can be determined."""
-    try:
-        Layout(described.types.fielddefs, described.kind, data)
-    except LayoutError as error:
-        return str(error)
-    return f"does not match its definition: {reason or type(reason).__name__}"
-
-
-def _is_of_twin(topic: str, kind: str) -> bool:
-    return (KINDS | OF_PORTS).get(topic.rpartition("/")[2], kind) == kind
+    Raises:
+        RecordingError: nothing can be read.
+    """
+    repeats = Repeats()
+    for file in files_of(path, remarks):
+        topics = Topics(file, wanted)
+        for record in unrepeated(file, remarks, repeats):
+            if described := topics.of(record):
+                yield described, record

@@ -21,7 +21,6 @@ Definitions = Mapping[str, tuple[Any, Fields]]
 _Field = tuple[str, Any, int]  # name, format, position
 _ENCAPSULATION = 4  # bytes before the body, to whose start alignment refers
 _PADDING = 3  # bytes after the last field that pad a message to whole words
-_ZSTD = b"\x28\xb5\x2f\xfd"
 _NUMBERS = {"bool": "?", "byte": "u1", "char": "u1", "float32": "f4", "float64": "f8"} | {
     f"{name}{8 * size}": f"{letter}{size}"
     for name, letter in (("int", "i"), ("uint", "u"))
@@ -91,8 +90,6 @@ class _Walk:
     """Walks through one message; `decisive` are the bytes that determine the layout."""
 
     def __init__(self, definitions: Definitions, message: bytes) -> None:
-        if message[:4] == _ZSTD:
-            raise LayoutError("is compressed individually, and cannot be decompressed")
         if message[:2] not in (b"\0\0", b"\0\1"):
             raise LayoutError(f"starts with {message[:2].hex() or 'no bytes'}, must be plain CDR")
         self._definitions, self._message = definitions, message

@@ -14,7 +14,6 @@ from ...scene.yaml_text import read_yaml
 from ..container.extent import Extent
 
 VERSION = 9
-_QOS = "offered_qos_profiles"
 _TRANSIENT_LOCAL = ("transient_local", 1)  # the number in bags before version 9
 
 
@@ -39,50 +38,32 @@ class Topic:
 
     @property
     def kept(self) -> int:
-        """Number of messages that a late subscriber receives; 0 unless the topic is latched.
-
-        A publisher of unknown depth is assumed to keep its newest message.
-        """
-        return sum(
-            max(int(qos.get("depth", 0)), 1)
-            for qos in self.offered_qos
-            if qos.get("durability") in _TRANSIENT_LOCAL
-        )
+        """Number of messages that a late subscriber receives, see `kept_by`."""
+        return kept_by(self.offered_qos)
 
 
+@lru_cache(maxsize=1024)  # most topics of a bag have the same profiles
 def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
-    """Parse the profiles that `Topic.qos_yaml` or rosbag2 has written.
-
-    Raises:
-        ValueError: the text is not a list of profiles.
-    """
-    profiles = _profiles(text)
-    if isinstance(profiles, ValueError):
-        raise profiles
-    return profiles
-
-
-@lru_cache(maxsize=1024)  # most topics of a bag have the same profiles; errors are cached, too
-def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
+    """The profiles in a text that `Topic.qos_yaml` or rosbag2 has written; none in other texts."""
     try:
-        return _parsed(text)
-    except ValueError as reason:
-        return reason
+        profiles = read_yaml(text, "offered_qos_profiles")
+    except ValueError:
+        return []
+    listed = profiles if isinstance(profiles, list) else []
+    return [qos for qos in listed if isinstance(qos, dict) and isinstance(qos.get("depth", 0), int)]
 
 
-def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
-    profiles = read_yaml(text, _QOS) or []
-    if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
-        raise ValueError(f"{_QOS}: must be a list of mappings")
-    for qos in profiles:
-        if not isinstance(qos.get("depth", 0), int):
-            raise ValueError(f"{_QOS}: depth = {qos['depth']!r}: must be a whole number")
-    return profiles
+def kept_by(offered_qos: Sequence[Mapping[str, Any]]) -> int:
+    """Number of messages that a late subscriber receives; 0 unless the topic is latched.
 
-
-def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether a publisher sends its newest messages to late subscribers (transient local)."""
-    return any(qos.get("durability") in _TRANSIENT_LOCAL for qos in offered_qos)
+    Latched topics are transient local. A publisher of unknown depth is assumed to keep its newest
+    message.
+    """
+    return sum(
+        max(int(qos.get("depth", 0)), 1)
+        for qos in offered_qos
+        if qos.get("durability") in _TRANSIENT_LOCAL
+    )
 
 
 class FileEntry(NamedTuple):

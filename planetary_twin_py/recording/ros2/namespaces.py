@@ -7,7 +7,13 @@ from pathlib import Path
 
 from ..container.records import RecordingError
 from .no_run import no_run_yet
+from .playback import Playback
 from .topics import STATE
+
+
+def namespace_in(path: Path, wanted: str | None = None) -> str:
+    """Select the namespace of a gearbox in a recording, see `choose_namespace`."""
+    return choose_namespace(Playback(path).counts, wanted, path)
 
 
 def choose_namespace(counts: Mapping[str, int], wanted: str | None, path: str | Path) -> str:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..container.integrity import end_of_data
-from ..container.records import files_of, records_of
-from ..container.walk import may_be_written
+from ..container.integrity import damaged_data, end_of_data
+from ..container.records import files_of
 from .definitions import KINDS, OF_PORTS
 from .topics import ORIGIN, STATE
 
@@ -37,11 +36,8 @@ def no_run_yet(path: Path, counts: Mapping[str, int]) -> str | None:
     if not (missing and of_a_twin):
         return None
     files = files_of(path)
-    finished = all(end_of_data(file) is not None for file in files)
-    if finished or STATE in with_messages:
-        return _lost(path, missing) if any(map(_is_damaged, files)) else None
-    if not any(map(may_be_written, files)):
-        return _lost(path, missing)
+    if STATE in with_messages or all(end_of_data(file) is not None for file in files):
+        return _lost(path, missing) if any(map(damaged_data, files)) else None
     return (
         f"{path}: holds no run yet: it ends before the first {' and '.join(missing)}; if it is "
         "still being written, try again later; if its recorder was killed, record again"
@@ -56,11 +52,3 @@ def _lost(path: Path, missing: Sequence[str]) -> str:
         f"{path}: the origin of its run ({ORIGIN}) was lost in the damage, so its states cannot be "
         "verified"
     )
-
-
-def _is_damaged(file: Path) -> bool:
-    """Whether a part of a file is lost; this reads all of it."""
-    remarks: list[str] = []
-    for _ in records_of(file, remarks):
-        pass
-    return bool(remarks)

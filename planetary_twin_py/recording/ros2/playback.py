@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import heapq
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
 
-from ...text.escaping import one_line
 from ..container.extent import Extent
-from ..container.log_order import DISORDER
+from ..container.log_order import merged
 from ..container.records import RecordingError, files_of
 from ..container.segment import Segment
 from .metadata import Topic, read_offered_qos
 from .no_run import no_run_yet
 from .repeats import Repeats
-
-_LONGEST = 100  # characters of a topic in a remark
 
 
 class TimedMessage(NamedTuple):
@@ -55,12 +51,12 @@ class Playback:
         self.counts: Counter[str] = Counter()
         extent = Extent()
         files = files_of(path, self.remarks)
-        self._segments = [Segment(file, self._add_remark) for file in files]
-        recorded = {channel.topic for segment in self._segments for channel, _ in segment.channels}
+        segments = [Segment(file, self._add_remark) for file in files]
+        recorded = {channel.topic for segment in segments for channel, _ in segment.channels}
         for name in chosen:
             if name not in recorded:
                 raise RecordingError(f"topics: {name}: {path} has {', '.join(sorted(recorded))}")
-        for segment in self._segments:
+        for segment in segments:
             for channel, schema in segment.channels:
                 if not chosen or channel.topic in chosen:
                     self._add(channel, schema, path)
@@ -69,6 +65,8 @@ class Playback:
                 extent.include(segment.extent.start)
                 extent.include(segment.extent.end)
         self.counts.update(dict.fromkeys(recorded, 0))
+        chunks = [(chunk, segment) for segment in segments for chunk in segment.chunks]
+        self._chunks = sorted(chunks, key=lambda pair: pair[0].start)
         no_run = no_run_yet(path, self.counts)
         if not extent.start:
             raise RecordingError(no_run or f"{path}: has no messages")
@@ -83,38 +81,43 @@ class Playback:
         The newest messages of latched topics before `begin`, which a late subscriber receives, are
         first.
         """
-        repeats = Repeats()
-        for topic, message in self._latched(self.start + begin):
+        repeats, first = Repeats(), self.start + begin
+        for topic, message in self._latched(first):
             if not repeats.known(topic, message):
                 yield TimedMessage(begin, topic, message.data)
-        for timed in _in_order(self._read(begin, repeats)):
-            if end is not None and timed.time > end:
+        for topic, message in merged(self._parts(first)):
+            if end is not None and message.log_time > self.start + end:
                 return
-            yield timed
+            if not (self.topics[topic].kept and repeats.known(topic, message)):
+                yield TimedMessage(message.log_time - self.start, topic, message.data)
 
-    def _read(self, begin: int, repeats: Repeats) -> Iterator[TimedMessage]:
-        """Messages from `begin`, file by file, without those that `repeats` knows."""
-        for segment in self._segments:
-            if segment.extent.end >= self.start + begin:
-                for topic, message in segment.messages(self.start + begin):
-                    if topic not in self.topics:
-                        continue
-                    if self.topics[topic].kept and repeats.known(topic, message):
-                        continue
-                    yield TimedMessage(message.log_time - self.start, topic, message.data)
+    def _parts(self, first: int) -> Iterator[tuple[int, list[tuple[int, tuple[str, Message]]]]]:
+        """Messages at or after log time `first` [ns], chunk by chunk of any file."""
+        for chunk, segment in self._chunks:
+            if chunk.end < first:
+                continue
+            wanted = [
+                (topic, message)
+                for topic, message in segment.read(chunk)
+                if message.log_time >= first and topic in self.topics
+            ]
+            yield chunk.start, [(pair[1].log_time, pair) for pair in wanted]
 
     def _latched(self, before: int) -> list[tuple[str, Message]]:
         """Latched messages that are valid at a log time [ns], oldest first."""
-        missing = {name: topic.kept for name, topic in self.topics.items() if topic.kept}
-        latched: list[tuple[str, Message]] = []
-        for segment in reversed(self._segments):
-            if not missing or before <= self.start:
+        missing = Counter({name: topic.kept for name, topic in self.topics.items()})
+        found: list[tuple[str, Message]] = []
+        for chunk, segment in reversed(self._chunks):
+            missing = +missing
+            if not missing:
                 break
-            for name, messages in segment.newest(missing, before).items():
-                latched += [(name, message) for message in messages]
-                missing[name] -= len(messages)
-            missing = {name: count for name, count in missing.items() if count}
-        return sorted(latched, key=lambda pair: pair[1].log_time)
+            if chunk.start < before and segment.may_have(chunk, missing):
+                for topic, message in reversed(segment.read(chunk)):
+                    if missing[topic] > 0 and message.log_time < before:
+                        missing[topic] -= 1
+                        found.append((topic, message))
+        found.reverse()
+        return sorted(found, key=lambda pair: pair[1].log_time)
 
     def _add(self, channel: Channel, schema: Schema | None, path: Path) -> None:
         if schema is None or channel.message_encoding != "cdr":
@@ -122,47 +125,20 @@ class Playback:
                 f"{path}: {channel.topic}: its encoding {channel.message_encoding!r} must be that "
                 "of ROS 2 messages, 'cdr', with a schema"
             )
-        known = self.topics.setdefault(channel.topic, self._topic(channel, schema, path))
+        offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
+        topic = Topic(
+            name=channel.topic,
+            type=schema.name,
+            type_hash=channel.metadata.get("topic_type_hash", ""),
+            definition=schema.data.decode(errors="replace"),
+            offered_qos=offered_qos,
+        )
+        known = self.topics.setdefault(channel.topic, topic)
         if known.type != schema.name:
             raise RecordingError(
                 f"{path}: {channel.topic}: has two types, {known.type} and {schema.name}"
             )
 
-    def _topic(self, channel: Channel, schema: Schema, path: Path) -> Topic:
-        try:
-            definition = schema.data.decode()
-        except UnicodeDecodeError as reason:
-            raise RecordingError(
-                f"{path}: {channel.topic}: its definition must be in UTF-8, byte "
-                f"{reason.start + 1} is not"
-            ) from None
-        try:
-            offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
-        except ValueError as reason:
-            offered_qos = []
-            name = one_line(channel.topic, _LONGEST)
-            self._add_remark(f"{path}: {name}: assumed to be volatile: {reason}")
-        return Topic(
-            name=channel.topic,
-            type=schema.name,
-            type_hash=channel.metadata.get("topic_type_hash", ""),
-            definition=definition,
-            offered_qos=offered_qos,
-        )
-
     def _add_remark(self, remark: str) -> None:
         if remark not in self.remarks:
             self.remarks.append(remark)
-
-
-def _in_order(messages: Iterable[TimedMessage]) -> Iterator[TimedMessage]:
-    """Sort messages by time, stably, with a buffer of one second."""
-    waiting: list[tuple[int, int, TimedMessage]] = []
-    newest = 0
-    for number, message in enumerate(messages):
-        heapq.heappush(waiting, (message.time, number, message))
-        newest = max(newest, message.time)
-        while waiting[0][0] < newest - DISORDER:
-            yield heapq.heappop(waiting)[2]
-    while waiting:
-        yield heapq.heappop(waiting)[2]

@@ -13,7 +13,7 @@ from typing import Any
 from mcap.records import Channel, Message
 
 from ..container.log_order import records_in_log_order
-from .metadata import is_latched, read_offered_qos
+from .metadata import kept_by, read_offered_qos
 
 
 class Repeats:
@@ -33,7 +33,7 @@ class Repeats:
     def repeated(self, record: Any) -> bool:
         """Whether a record is a message that has occurred before."""
         if isinstance(record, Channel):
-            if _latched(record):
+            if kept_by(read_offered_qos(record.metadata.get("offered_qos_profiles", ""))):
                 self._latched[record.id] = record.topic
         elif isinstance(record, Message) and record.channel_id in self._latched:
             topic = self._latched[record.channel_id]
@@ -64,10 +64,3 @@ def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any
     for record in records_in_log_order(file, remarks):
         if not repeats.repeated(record):
             yield record
-
-
-def _latched(channel: Channel) -> bool:
-    try:
-        return is_latched(read_offered_qos(channel.metadata.get("offered_qos_profiles", "")))
-    except ValueError:  # not profiles of rosbag2
-        return False

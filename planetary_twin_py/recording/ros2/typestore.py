@@ -1,4 +1,4 @@
-"""The types of a message definition in a file, checked before code is generated from them."""
+"""The types of a message definition in a file, compared with those of this version."""
 
 from __future__ import annotations
 
@@ -43,21 +43,16 @@ def types_of(definition: bytes, kind: str) -> Typestore:
             because other versions record them; a message has the values of `absent` for those
             that are missing.
     """
+    types = get_typestore(Stores.EMPTY)
     try:
         definitions = get_types_from_msg(definition.decode(), kind)
-    except UnicodeDecodeError as reason:
-        raise DefinitionError(f"must be in UTF-8, byte {reason.start + 1} is not") from None
+        types.register(definitions)
     except Exception as reason:  # of many kinds, if the text is not a definition
         raise DefinitionError(f"is invalid: {reason}") from None
     if kind not in definitions:
         raise DefinitionError(f"does not describe {kind}")
     if kind in KINDS.values():
         _compare(definitions, kind)
-    types = get_typestore(Stores.EMPTY)
-    try:
-        types.register(definitions)
-    except Exception as reason:  # of names that are not valid in Python
-        raise DefinitionError(f"is invalid: {reason}") from None
     for name, value in absent(kind, dict(definitions[kind][1])).items():
         setattr(types.types[kind], name, value)
     return types

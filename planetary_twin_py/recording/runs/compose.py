@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from ...model.clock import TICKS
 from ...robot import robot_description
 from ...run.window import Window
 from ..container.records import RecordingError
@@ -29,9 +29,12 @@ from ..ros2.topics import (
     STATE,
     WAVEFORM,
 )
+from ..ros2.typestore import types_of
 from .origin import Origin
+from .schedule import nanoseconds
 
 Row = dict[str, Any]
+_PAUSE = 1_000_000_000  # [ns], larger differences of stamps and simulated time are pauses
 
 
 class Composer:
@@ -49,13 +52,13 @@ class Composer:
     ) -> None:
         self._bag = bag
         self._frame = frame
-        self._types = get_typestore(Stores.EMPTY)
-        self._kinds: dict[str, str] = {}
-        self._channels: dict[str, int] = {}
         known = {f"{namespace}/{name}": name for name in (*KINDS, GIVEN)}
-        for topic in topics:
-            if topic.name in known:
-                self._add(known[topic.name], topic)
+        written = {known[topic.name]: topic for topic in topics if topic.name in known}
+        self._channels = {name: bag.add_topic(topic) for name, topic in written.items()}
+        self._kinds = {name: topic.type for name, topic in written.items()}
+        self._types = {
+            name: types_of(topic.definition.encode(), topic.type) for name, topic in written.items()
+        }
         self._counts = dict.fromkeys(self._kinds, 0)
         self._last: Mapping[str, Any] | None = None
 
@@ -114,7 +117,7 @@ class Composer:
         self._counts[topic] += 1
         number = self._counts[topic]
         message = self._message(topic, {"sequence": number, **row}, stamp)
-        data = bytes(self._types.serialize_cdr(message, self._kinds[topic]))
+        data = bytes(self._types[topic].serialize_cdr(message, self._kinds[topic]))
         self._bag.write(self._channels[topic], data, sent, sent, number)
 
     def _given(self, window: Window) -> Row:
@@ -130,7 +133,7 @@ class Composer:
         return state_fields(window, self._fields(STATE)) | setting
 
     def _message(self, topic: str, row: Row, stamp: int) -> Any:
-        types = self._types.types
+        types = self._types[topic].types
         if "header" in self._fields(topic):
             time = types["builtin_interfaces/msg/Time"](*divmod(stamp, 1_000_000_000))
             # JointState has no frame.
@@ -143,16 +146,25 @@ class Composer:
         return types[self._kinds[topic]](**{name: row[name] for name in self._fields(topic)})
 
     def _fields(self, topic: str) -> list[str]:
-        return [name for name, _ in self._types.fielddefs[self._kinds[topic]][1]]
+        return [name for name, _ in self._types[topic].fielddefs[self._kinds[topic]][1]]
 
-    def _add(self, name: str, topic: Topic) -> None:
-        definitions = get_types_from_msg(topic.definition, topic.type)
-        self._types.register(
-            {
-                name_of_type: fields
-                for name_of_type, fields in definitions.items()
-                if name_of_type not in self._types.types
-            }
-        )
-        self._kinds[name] = topic.type
-        self._channels[name] = self._bag.add_topic(topic)
+
+def stamp_within(begin: int, end: int, before: int, stamp: int, times: np.ndarray) -> int:
+    """ROS time of the first sample of an interval, as in the nodes.
+
+    Args:
+        begin: start of the interval [ticks].
+        end: its end [ticks].
+        before: ROS time of the end of the previous interval [ns].
+        stamp: ROS time of its end [ns].
+        times: its sample times [s].
+
+    Returns:
+        The time [ns]; that of the end if there are no samples.
+    """
+    if not len(times):
+        return stamp
+    span = stamp - before
+    paused = span - nanoseconds(end - begin) > _PAUSE
+    pace = 1e9 if paused else span / (end / TICKS - begin / TICKS)
+    return int(stamp + round((times[0] - end / TICKS) * pace))

@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...text.escaping import one_line
+from ..container.integrity import end_of_data
 from ..container.message_index import UNSOUND, Index, LogTimes
 from ..container.records import files_of
-from ..container.walk import may_be_written
-from ..ros2.account import recorded_losses
 from ..ros2.bag import ACCOUNT_RECORD
-from ..ros2.decode import Decoder
+from ..ros2.decode import Described, Topics
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats
@@ -80,10 +79,11 @@ class Info:
 
     @property
     def is_empty(self) -> bool:
-        """Whether there are neither messages nor, undamaged, topics, nor a recorder that writes."""
-        nothing = not any(topic.recorded for topic in self.topics.values())
-        whole = self.topics and not self.remarks
-        return nothing and not whole and not any(map(may_be_written, self.files))
+        """Whether all files are finished, but have no messages, nor topics without damage."""
+        if any(topic.recorded for topic in self.topics.values()):
+            return False
+        whole = bool(self.topics) and not self.remarks
+        return not whole and all(end_of_data(file) is not None for file in self.files)
 
     def figures(self) -> dict[str, Any]:
         """Results for `--json`."""
@@ -154,13 +154,13 @@ class _Collector:
 
     def add(self, file: Path, index: Index) -> None:
         """Add the contents of a file from its index and the few messages that are needed."""
-        decoder = Decoder(file, _is_decoded)
+        topics = Topics(file, _is_decoded)
         self._repeats.next_file()
         for schema in index.summary.schemas.values():
-            decoder.read(schema)
+            topics.of(schema)
         changes = []
         for number, channel in index.summary.channels.items():
-            decoder.read(channel)
+            topics.of(channel)
             kind = index.summary.schemas[channel.schema_id].name
             topic = self.info.topics.setdefault(channel.topic, TopicInfo(type=kind))
             new = self._new(index, number)
@@ -168,9 +168,9 @@ class _Collector:
                 topic.add([index.message(number, k).log_time for k in new])
             else:
                 topic.join(index.times[number])
-            if number not in decoder:
+            if number not in topics.by_channel:
                 continue
-            messages = _Messages(index, number, decoder)
+            messages = _Messages(index, number, topics.by_channel[number])
             if channel.topic.endswith(f"/{STATE}") and len(messages):
                 self._count_missing(channel.topic, messages[0])
                 covered = _cover(messages)
@@ -185,14 +185,7 @@ class _Collector:
                 self.info.report |= _newest_report(messages)
         for _, name, message in sorted(changes, key=lambda change: change[0]):
             self._add_change(name, message)
-        accounts = [
-            record.metadata for record in index.summary.metadata if record.name == ACCOUNT_RECORD
-        ]
-        counts = {
-            channel.topic: index.times[number].recorded
-            for number, channel in index.summary.channels.items()
-        }
-        self._add_losses(file, accounts, counts)
+        self._add_losses(file, index)
 
     def _new(self, index: Index, channel: int) -> Sequence[int]:
         """Numbers of the messages of a channel that are not in the previous files."""
@@ -226,35 +219,34 @@ class _Collector:
                     f"{account}"
                 )
 
-    def _add_losses(
-        self, file: Path, accounts: Sequence[Mapping[str, str]], counts: Mapping[str, int]
-    ) -> None:
-        """Add the losses of a file, which may list topics without messages.
+    def _add_losses(self, file: Path, index: Index) -> None:
+        """Add the losses in the accounts of a file.
 
-        Messages are lost, too, that were recorded by the account and are not among the `counts` of
-        those that can be read, by topic.
+        Messages are lost, too, that were recorded by the account and cannot be read.
         """
-        wrong: list[str] = []
-        unread = Counter[str]()
-        for account in accounts:
-            try:
-                name, lost, missed, recorded = recorded_losses(account)
-            except ValueError as reason:
-                wrong.append(str(reason))
+        channels = index.summary.channels.items()
+        read = {channel.topic: index.times[number].recorded for number, channel in channels}
+        recorded, unreadable = Counter[str](), 0
+        for record in index.summary.metadata:
+            if record.name != ACCOUNT_RECORD:
                 continue
-            if topic := self.info.topics.get(name):
+            account = record.metadata
+            try:
+                lost, missed, written = (int(account[k]) for k in ("lost", "missed", "recorded"))
+                name = account["topic"]
+            except (KeyError, ValueError):
+                unreadable += 1
+                continue
+            if topic := self.info.topics.get(name):  # an account may be of no messages
                 topic.lost = (topic.lost or 0) + lost
                 topic.before += lost - missed
-                unread[name] += recorded
-        unread.subtract({name: counts.get(name, 0) for name in unread})
-        for name, count in (+unread).items():
+                recorded[name] += written
+        for name, count in recorded.items():
             topic = self.info.topics[name]
-            topic.lost = (topic.lost or 0) + count
-        if wrong:
-            which = "an account" if len(wrong) == 1 else f"{len(wrong)} accounts"
-            first = "" if len(wrong) == 1 else "the first: "
+            topic.lost = (topic.lost or 0) + max(count - read.get(name, 0), 0)
+        if unreadable:
             self.info.remarks.append(
-                f"{file.name}: {which} of losses cannot be read: {first}{wrong[0]}"
+                f"{file.name}: accounts of losses that cannot be read: {unreadable}"
             )
 
     def _add_change(self, topic: str, message: Any) -> None:
@@ -269,15 +261,14 @@ class _Collector:
 class _Messages(Sequence[Any]):
     """The messages of a channel, decoded on access."""
 
-    def __init__(self, index: Index, channel: int, decoder: Decoder) -> None:
-        self._index, self._channel, self._decoder = index, channel, decoder
+    def __init__(self, index: Index, channel: int, described: Described) -> None:
+        self._index, self._channel, self._described = index, channel, described
 
     def __len__(self) -> int:
         return self._index.times[self._channel].recorded
 
     def __getitem__(self, number: Any) -> Any:
-        found = self._decoder.read(self._index.message(self._channel, number))
-        return found[1] if found else None
+        return self._described.message(self._index.message(self._channel, number).data)
 
 
 class _Covered(NamedTuple):

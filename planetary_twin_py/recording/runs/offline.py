@@ -16,11 +16,10 @@ from ...run.window import Window
 from ...scene import Scene
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
-from .compose import Composer
+from .compose import Composer, stamp_within
 from .origin import Origin, makers_here
 from .reader import SCENE_ATTACHMENT
 from .schedule import nanoseconds
-from .written import stamp_within
 
 NAMESPACE = "/planetary_twin"
 

@@ -75,16 +75,18 @@ def read_origin(text: str) -> Origin:
     Raises:
         RecordingError: the text is invalid.
     """
+    content = _content(text)
     try:
-        content = _mapping(text)
-        scene = parse_scene(_scene(content))
-        begins = int(content["begins"])
-        makers = _read_makers(content)
+        makers = (
+            Measured(content["measured"])
+            if "measured" in content
+            else Makers(content["kernels"], content["machine"], dict(content["software"]))
+        )
+        return Origin(parse_scene(_scene(content)), int(content["begins"]), makers)
     except KeyError as reason:
         raise RecordingError(f"origin of the run: {reason}: missing") from None
     except (TypeError, ValueError, OverflowError) as reason:
         raise RecordingError(f"origin of the run: cannot be read: {reason}") from None
-    return Origin(scene, begins, makers)
 
 
 def scene_of_origin(text: str) -> str:
@@ -93,27 +95,18 @@ def scene_of_origin(text: str) -> str:
     Raises:
         RecordingError: the text is invalid.
     """
+    return _scene(_content(text))
+
+
+def _content(text: str) -> dict[str, Any]:
     try:
-        return _scene(_mapping(text))
-    except (KeyError, ValueError) as reason:
+        content = read_yaml(text, "text")
+    except ValueError as reason:
         raise RecordingError(f"origin of the run: cannot be read: {reason}") from None
-
-
-def _mapping(text: str) -> dict[str, Any]:
-    content = read_yaml(text, "text")
-    if not isinstance(content, dict):
-        raise ValueError("must be a mapping")
+    if not isinstance(content, dict) or "scene" not in content:
+        raise RecordingError("origin of the run: cannot be read: must be a mapping with a scene")
     return content
 
 
 def _scene(content: dict[str, Any]) -> str:
     return yaml.safe_dump(content["scene"], sort_keys=False)
-
-
-def _read_makers(content: dict[str, Any]) -> Makers | Measured:
-    if "measured" in content:
-        return Measured(content["measured"])
-    software = content["software"]
-    if not isinstance(software, dict):
-        raise ValueError("software: must be a mapping")
-    return Makers(content["kernels"], content["machine"], software)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -16,17 +16,30 @@ from numpy.typing import NDArray
 
 from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of, sections_of
-from ..ros2.decode import Topics
+from ..ros2.decode import Described, Topics
 from ..ros2.definitions import KINDS
-from ..ros2.layout import Layouts
 from ..ros2.namespaces import choose_namespace
 from ..ros2.no_run import no_run_yet
 from ..ros2.repeats import Repeats
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..ros2.typestore import absent
-from .axes_samples import AxesBlocks, AxesInFile, AxesInMemory, joined_axes
 from .origin import scene_of_origin
-from .waveform import Blocks, InMemory, Ranges, Samples, Source, TimeSpan, Waveform, joined, stamps
+from .waveform import (
+    AxesSamples,
+    Blocks,
+    InFile,
+    InMemory,
+    RangedBlocks,
+    Ranges,
+    Source,
+    TimeSpan,
+    Waveform,
+    WaveformInFile,
+    WaveformInMemory,
+    joined,
+    last_times,
+    stamps,
+)
 
 SCENE_ATTACHMENT = "scene.yaml"
 SERIES = (STATE, POINT, AXES_STATE)
@@ -65,11 +78,11 @@ class Recording:
     planets: int
     state: Series
     operating_point: Series
-    blocks: Samples
+    blocks: RangedBlocks
     axes_state: Series
     """States of axes that move; without rows where they are held."""
-    axes_blocks: AxesBlocks
-    scene_yaml: str | None
+    axes_blocks: Blocks[AxesSamples]
+    scene_yaml: str | None = None
     remarks: list[str] = field(default_factory=list)
     topics: frozenset[str] = frozenset()
     """Names of all topics in the files."""
@@ -102,17 +115,13 @@ class Recording:
         Raises:
             OSError: the file no longer exists.
         """
-        return self.blocks.waveform(begin, end)
+        return self.blocks.samples(begin, end)
 
     def within(self, spans: Sequence[TimeSpan]) -> Recording:
         """Recording with only the samples of these time spans [s], in memory."""
-        waveforms = [self.samples(begin, end) for begin, end in spans]
-        axes = [self.axes_blocks.samples(begin, end) for begin, end in spans]
-        return replace(
-            self,
-            blocks=InMemory(joined([part for part in waveforms if part is not None])),
-            axes_blocks=AxesInMemory(joined_axes([part for part in axes if part is not None])),
-        )
+        waveform = joined([self.samples(begin, end) for begin, end in spans])
+        axes = joined([self.axes_blocks.samples(begin, end) for begin, end in spans])
+        return replace(self, blocks=WaveformInMemory(waveform), axes_blocks=InMemory(axes))
 
     @property
     def moves_axes(self) -> bool:
@@ -156,28 +165,31 @@ def read_recording(
     Raises:
         RecordingError: there is nothing to read, or no state in `span`.
     """
+    path = Path(path)
     collected = _Collector(math.inf if most is None else most, span)
-    for file in files_of(Path(path), collected.remarks):
+    for file in files_of(path, collected.remarks):
         if collected.complete:
             collected.read(file)
     counts = collected.counts()
     namespace = choose_namespace(counts, namespace, path)
-    collected.remarks += filter(None, [no_run_yet(Path(path), counts)])
+    collected.remarks += filter(None, [no_run_yet(path, counts)])
     series = {name: series_of(name, collected.taken(f"{namespace}/{name}")) for name in SERIES}
     if not len(series[STATE]):
         raise RecordingError(f"{path}: has no state from {span[0]:g} to {span[1]:g} s")
-    blocks = collected.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
-    axes_blocks = collected.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
-    recording = assemble(series, blocks, axes_blocks, Path(path), namespace)
-    scene = collected.scene_yaml or _scene(
-        collected.taken(f"{namespace}/{ORIGIN}"), collected.remarks
-    )
-    topics = frozenset(collected.topics)
-    return replace(
-        recording,
-        scene_yaml=scene,
+    waveform, axes_waveform = f"{namespace}/{WAVEFORM}", f"{namespace}/{AXES_WAVEFORM}"
+    return Recording(
+        path=path,
+        namespace=namespace,
+        planets=planets_in(series[STATE], path, namespace),
+        state=series[STATE],
+        operating_point=series[POINT],
+        blocks=collected.blocks.get(waveform, WaveformInFile()),
+        axes_state=series[AXES_STATE],
+        axes_blocks=collected.axes_blocks.get(axes_waveform, InFile(AxesSamples)),
+        scene_yaml=collected.scene_yaml
+        or _scene(collected.taken(f"{namespace}/{ORIGIN}"), collected.remarks),
         remarks=collected.remarks,
-        topics=topics,
+        topics=frozenset(collected.topics),
         complete=collected.complete,
     )
 
@@ -192,45 +204,25 @@ def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
     return None
 
 
-def assemble(
-    series: Mapping[str, Series],
-    blocks: Samples,
-    axes_blocks: AxesBlocks,
-    path: Path,
-    namespace: str,
-) -> Recording:
-    """Make a recording from messages.
+def planets_in(state: Series, path: Path, namespace: str) -> int:
+    """Number of planets in the states of a gearbox.
 
     Args:
-        series: messages of each of `SERIES`, with at least one state.
-        blocks: blocks of the waveform.
-        axes_blocks: blocks of the waveform of axes that move.
+        state: at least one state.
         path: path of the recording, for error messages.
         namespace: namespace of the gearbox.
 
     Raises:
-        RecordingError: the number of planets is invalid or changes.
+        RecordingError: the number is invalid or changes.
     """
-    state = series[STATE]
-    planets = np.unique(state["planets"])
-    room = state["planet_angle"].shape[1]
+    planets, room = np.unique(state["planets"]), state["planet_angle"].shape[1]
     if len(planets) != 1 or not 1 <= planets[0] <= room:
         listed = ", ".join(map(str, planets[:3]))
         raise RecordingError(
             f"{path}: {namespace}/{STATE}: planets = {listed}: must be one number in all messages, "
             f"within 1 and {room}"
         )
-    return Recording(
-        path=path,
-        namespace=namespace,
-        planets=int(planets[0]),
-        state=state,
-        operating_point=series[POINT],
-        blocks=blocks,
-        axes_state=series[AXES_STATE],
-        axes_blocks=axes_blocks,
-        scene_yaml=None,
-    )
+    return int(planets[0])
 
 
 def _is_read(topic: str) -> bool:
@@ -249,8 +241,8 @@ class _Collector:
         self._begin, self._end = span
         self._seen: Counter[str] = Counter()
         self._parts: dict[str, list[tuple[int, NDArray[Any]]]] = {}
-        self.blocks: dict[str, Blocks] = {}
-        self.axes_blocks: dict[str, AxesInFile] = {}
+        self.blocks: dict[str, WaveformInFile] = {}
+        self.axes_blocks: dict[str, InFile[AxesSamples]] = {}
         self.scene_yaml: str | None = None
         self.remarks: list[str] = []
         self.topics: set[str] = set()
@@ -269,16 +261,12 @@ class _Collector:
                 if self._repeats.repeated(record):
                     continue
                 if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
-                    self.scene_yaml = self.scene_yaml or self._attachment_text(file, record)
+                    self.scene_yaml = self.scene_yaml or record.data.decode(errors="replace")
                 elif described := topics.of(record):
                     channel = record.channel_id
                     if channel not in sources:
-                        fields = described.types.fielddefs
-                        self._remark_absent(
-                            described.topic, absent(described.kind, dict(fields[described.kind][1]))
-                        )
-                        layouts = Layouts(fields, described.kind)
-                        sources[channel] = Source(file, channel, described.topic, layouts)
+                        sources[channel] = Source(file, channel, described)
+                        self._remark_absent(described)
                     messages.setdefault(channel, []).append(record)
             for channel, found in messages.items():
                 self._add(sources[channel], section.place, found)
@@ -295,44 +283,36 @@ class _Collector:
         """Messages by topic, also outside the span; 1 for topics that are not read."""
         return {topic: self._seen[topic] if _is_read(topic) else 1 for topic in self.topics}
 
-    def _remark_absent(self, topic: str, fields: Collection[str]) -> None:
-        remark = f"{topic}: recorded by another version, without {', '.join(fields)}"
+    def _remark_absent(self, topic: Described) -> None:
+        fields = absent(topic.kind, topic.fields)
+        remark = f"{topic.topic}: recorded by another version, without {', '.join(fields)}"
         if fields and remark not in self.remarks:
             self.remarks.append(remark)
 
-    def _attachment_text(self, file: Path, attached: Attachment) -> str | None:
-        """Text of an attachment; None and a warning if it is not UTF-8."""
-        try:
-            return attached.data.decode()
-        except UnicodeDecodeError as reason:
-            self.remarks.append(
-                f"{file.name}: its attachment {SCENE_ATTACHMENT} must be in UTF-8, byte "
-                f"{reason.start + 1} is not"
-            )
-            return None
-
     def _add(self, source: Source, place: int, messages: list[Message]) -> None:
-        topic = source.topic.rpartition("/")[2]
+        name = source.described.topic
+        topic = name.rpartition("/")[2]
         messages.sort(key=lambda message: message.log_time)
         begin = messages[0].log_time
-        for every in source.arrays([message.data for message in messages]):
-            self._seen[source.topic] += len(every)
+        for every in source.described.arrays([message.data for message in messages]):
+            self._seen[name] += len(every)
             rows = self._within(topic, every)
             self._room -= len(rows) if topic == STATE else 0
             if not len(rows):
                 continue
-            if topic == AXES_WAVEFORM:
-                self.axes_blocks.setdefault(source.topic, AxesInFile()).add(source, place, rows)
-            elif topic == WAVEFORM:
-                self.blocks.setdefault(source.topic, Blocks()).add(source, place, rows)
+            if topic == WAVEFORM:
+                self.blocks.setdefault(name, WaveformInFile()).add(source, place, rows)
+            elif topic == AXES_WAVEFORM:
+                blocks = self.axes_blocks.setdefault(name, InFile(AxesSamples))
+                blocks.add(source, place, rows)
             else:
-                self._parts.setdefault(source.topic, []).append((begin, rows))
+                self._parts.setdefault(name, []).append((begin, rows))
 
     def _within(self, topic: str, rows: NDArray[Any]) -> NDArray[Any]:
         """The rows whose times overlap the span; all of operating points."""
         if topic in (WAVEFORM, AXES_WAVEFORM):
-            first = rows["start_time"]
-            last = first + (np.maximum(rows["samples"], 1) - 1.0) * rows["sample_period"]
+            rows = rows[rows["samples"] > 0]
+            first, last = rows["start_time"], last_times(rows)
         elif topic in (STATE, AXES_STATE):
             first = last = rows["simulated_time"]
         else:

@@ -9,8 +9,7 @@ import numpy as np
 from ...model.clock import TICKS
 from ...run.commands import NAMES, Commands
 from ..container.records import RecordingError
-from ..ros2.namespaces import choose_namespace
-from ..ros2.playback import Playback
+from ..ros2.namespaces import namespace_in
 from .schedule import read_runs
 
 
@@ -28,11 +27,11 @@ def recorded_commands(path: Path, remarks: list[str]) -> Commands:
         ValueError: the recording cannot be read, or has no commands.
         OSError: the file cannot be read.
     """
-    namespace = choose_namespace(Playback(path).counts, None, path)
+    namespace = namespace_in(path)
     run = read_runs(path, namespace, remarks)[-1]
-    missing = run.intervals[-1].number - run.intervals[0].number + 1 - len(run.intervals)
-    if missing:
-        remarks.append(f"{path}: {missing} intervals are missing, and commands that acted in them")
+    if run.missing:
+        lost = f"{run.missing} intervals are missing, and commands that acted in them"
+        remarks.append(f"{path}: {lost}")
     given = [
         (each.begin, run.given[each.stamp]) for each in run.intervals if each.stamp in run.given
     ]

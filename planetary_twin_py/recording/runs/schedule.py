@@ -14,12 +14,11 @@ from typing import Any, NamedTuple
 from ...model.clock import TICKS
 from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
-from ..container.records import RecordingError, files_of
-from ..ros2.decode import Decoder, MessageError
+from ..container.records import RecordingError
+from ..ros2.decode import described_messages
 from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
-from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
 from .commands_by_stamp import CommandsByStamp
@@ -50,6 +49,11 @@ class RecordedRun:
     changes: list[Change] = field(default_factory=list)
     given: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
     """Commands at the ports in an interval, by its stamp [ns]."""
+
+    @property
+    def missing(self) -> int:
+        """Number of intervals between the first and the last that are not recorded."""
+        return self.intervals[-1].number - self.intervals[0].number + 1 - len(self.intervals)
 
 
 def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRun]:
@@ -120,19 +124,8 @@ def messages_of(
         Name of the topic, and message.
     """
     wanted = {f"{namespace}/{name}": name for name in names}
-    repeats = Repeats()
-    for file in files_of(path, remarks):
-        decoder = Decoder(file, wanted.__contains__)
-        for record in unrepeated(file, remarks, repeats):
-            try:
-                decoded = decoder.read(record)
-            except MessageError as reason:
-                if not reason.topic.endswith(f"/{ORIGIN}"):
-                    raise
-                remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
-                continue
-            if decoded:
-                yield wanted[decoded[0]], decoded[1]
+    for described, record in described_messages(path, wanted.__contains__, remarks):
+        yield wanted[described.topic], described.message(record.data)
 
 
 class _Collector:

@@ -9,8 +9,7 @@ from pathlib import Path
 from ...model.clock import TICKS
 from ...model.gearbox import Gearbox
 from ..container.records import RecordingError
-from ..ros2.namespaces import choose_namespace
-from ..ros2.playback import Playback
+from ..ros2.namespaces import namespace_in
 from .intervals import Interval
 from .schedule import RecordedRun, read_runs
 
@@ -25,7 +24,7 @@ def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float]
         namespace: namespace of the gearbox; None if there is only one.
     """
     try:
-        runs = read_runs(path, choose_namespace(Playback(path).counts, namespace, path), [])
+        runs = read_runs(path, namespace_in(path, namespace), [])
     except RecordingError:  # the times of its operating points are unknown
         return None
     _, part = longest_steady_part(runs)

@@ -101,7 +101,7 @@ def verify(
     _refuse_measured(path, runs)
     here = makers_here()
     result.same_makers = all(run.origin.makers == here for run in runs)
-    result.not_recorded = sum(_missing(run) for run in runs)
+    result.not_recorded = sum(run.missing for run in runs)
     resimulation = Resimulation(runs, result.remarks)
     strays, balance, loosest = list[tuple[str, int]](), Balance(), 0.0
     newest = 0  # stamp of a state [ns]
@@ -156,12 +156,6 @@ def _ports(change: Change) -> Ports:
 
 def _bytes_in(path: Path) -> int:
     return sum(file.stat().st_size for file in files_of(path))
-
-
-def _missing(run: RecordedRun) -> int:
-    """Count the intervals between a run's first and last that are not recorded."""
-    first, last = run.intervals[0], run.intervals[-1]
-    return last.number - first.number + 1 - len(run.intervals)
 
 
 def _refuse_measured(path: Path, runs: list[RecordedRun]) -> None:

@@ -5,18 +5,19 @@ A minute has 18 million samples of each quantity, so a long recording does not f
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...run.window import MeshSamples
-from ...units.catalogue import WAVEFORM
+from ...units.catalogue import MEMBERS, WAVEFORM
 from ..container.records import RecordingError, section_at
-from ..ros2.layout import LayoutError, Layouts
+from ..ros2.decode import Described
 
 QUANTITIES = tuple(WAVEFORM)
 Values = dict[str, NDArray[np.float32]]
@@ -25,14 +26,54 @@ TimeSpan = tuple[float, float]
 
 
 @dataclass(kw_only=True)
-class Waveform(MeshSamples):
-    """Recorded samples, in single precision, with their `stamp` [ns], (n,).
+class BlockSamples:
+    """Recorded samples in single precision, with their `time` [s] and `stamp` [ns], (n,).
 
     `block` holds the index of the first sample of each recorded block.
     """
 
+    time: NDArray[np.float64]
     stamp: NDArray[np.int64]
     block: NDArray[np.int64]
+
+    @classmethod
+    def shapes(cls, planets: Any) -> dict[str, tuple[Any, ...]]:
+        """Shape of a sample of each quantity, by the number of planets."""
+        raise NotImplementedError
+
+
+@dataclass(kw_only=True)
+class Waveform(MeshSamples, BlockSamples):
+    """Samples of every mesh, (n, meshes)."""
+
+    @classmethod
+    def shapes(cls, planets: Any) -> dict[str, tuple[Any, ...]]:
+        """Shape of a sample of each quantity, by the number of planets."""
+        return dict.fromkeys(QUANTITIES, (2 * planets,))
+
+
+@dataclass(kw_only=True)
+class AxesSamples(BlockSamples):
+    """Samples of every axis.
+
+    Bodies are sun, ring, carrier, planet_1..N. `displacement` [m] and `bearing_force` [N] are
+    (n, bodies, 2) on the carrier, `orbit` [m] of the first three (n, 3, 2) in the housing.
+    """
+
+    displacement: NDArray[np.float32]
+    bearing_force: NDArray[np.float32]
+    orbit: NDArray[np.float32]
+
+    @classmethod
+    def shapes(cls, planets: Any) -> dict[str, tuple[Any, ...]]:
+        """Shape of a sample of each quantity, by the number of planets."""
+        members = len(MEMBERS)
+        of_all = dict.fromkeys(("displacement", "bearing_force"), (planets + members, 2))
+        return {**of_all, "orbit": (members, 2)}
+
+
+S = TypeVar("S", bound=BlockSamples)
+S_co = TypeVar("S_co", bound=BlockSamples, covariant=True)
 
 
 @dataclass
@@ -52,58 +93,56 @@ class Ranges:
 
 
 class Source(NamedTuple):
-    """The messages of a topic in a file, and their layouts."""
+    """The messages of a topic in a file."""
 
     file: Path
     channel: int
-    topic: str
-    layouts: Layouts
-
-    def arrays(self, messages: list[bytes]) -> Iterator[NDArray[Any]]:
-        """Structured arrays of messages, in order.
-
-        Raises:
-            RecordingError: a message does not match its definition.
-        """
-        try:
-            yield from self.layouts.arrays(messages)
-        except LayoutError as reason:
-            raise RecordingError(f"{self.file}: {self.topic}: a message {reason}") from None
+    described: Described
 
 
-class Stored(NamedTuple):
-    """Messages with samples in one section of a file."""
-
-    source: Source
-    place: int
-    """Position of the section."""
-    begin: float
-    """Simulated time of the first sample [s]."""
-    end: float
-    """Simulated time of the last sample [s]."""
-
-
-class Samples(Protocol):
+class Blocks(Protocol[S_co]):
     """The recorded blocks of one gearbox, in memory or in a file."""
 
-    def ranges(self) -> Ranges | None:
-        """Ranges of all blocks; None if there are none."""
-
-    def waveform(self, begin: float, end: float) -> Waveform | None:
+    def samples(self, begin: float, end: float) -> S_co | None:
         """Samples of all blocks that overlap the time span [s]; None if there are none."""
 
 
-@dataclass
-class InMemory:
-    """Blocks in memory."""
-
-    samples: Waveform | None
+class RangedBlocks(Blocks[Waveform], Protocol):
+    """The recorded blocks of the waveform, with their ranges."""
 
     def ranges(self) -> Ranges | None:
         """Ranges of all blocks; None if there are none."""
-        if self.samples is None:
+
+
+@dataclass
+class InMemory(Generic[S]):
+    """Blocks in memory."""
+
+    found: S | None
+
+    def samples(self, begin: float, end: float) -> S | None:
+        """Samples of all blocks that overlap the time span [s]; None if there are none."""
+        if self.found is None:
             return None
-        wave, block = self.samples, self.samples.block
+        time, block = self.found.time, self.found.block
+        counts = np.diff(np.append(block, len(time)))
+        touched = (time[block] <= end) & (time[block + counts - 1] >= begin)
+        if not touched.any():
+            return None
+        rows = np.repeat(touched, counts)
+        first = np.cumsum([0, *counts[touched][:-1]])
+        columns = {name: getattr(self.found, name)[rows] for name in _columns(self.found)}
+        return replace(self.found, block=first, **columns)
+
+
+class WaveformInMemory(InMemory[Waveform]):
+    """Blocks of the waveform in memory."""
+
+    def ranges(self) -> Ranges | None:
+        """Ranges of all blocks; None if there are none."""
+        if self.found is None:
+            return None
+        wave, block = self.found, self.found.block
         lowest, highest = (
             {name: reduce.reduceat(getattr(wave, name), block, axis=0) for name in QUANTITIES}
             for reduce in (np.fmin, np.fmax)
@@ -112,42 +151,71 @@ class InMemory:
         period = wave.time[following] - wave.time[block]
         return Ranges(wave.time[block], wave.stamp[block], period, lowest, highest)
 
-    def waveform(self, begin: float, end: float) -> Waveform | None:
-        """Samples of all blocks that overlap the time span [s]; None if there are none."""
-        wave = self.samples
-        if wave is None:
-            return None
-        counts = np.diff(np.append(wave.block, len(wave.time)))
-        last = wave.time[wave.block + counts - 1]
-        touched = (wave.time[wave.block] <= end) & (last >= begin)
-        if not touched.any():
-            return None
-        rows = np.repeat(touched, counts)
-        first = np.concatenate(([0], np.cumsum(counts[touched])))[:-1]
-        columns = {name: getattr(wave, name)[rows] for name in QUANTITIES}
-        return Waveform(time=wave.time[rows], stamp=wave.stamp[rows], block=first, **columns)
+
+class _Stored(NamedTuple):
+    """Messages with samples in one section of a file, from `begin` to `end` [s]."""
+
+    source: Source
+    place: int
+    """Position of the section."""
+    begin: float
+    end: float
 
 
-class Blocks:
-    """The recorded blocks of one gearbox, in file order."""
+class InFile(Generic[S]):
+    """The recorded blocks in a file, in its order.
 
-    def __init__(self) -> None:
-        self._stored: list[Stored] = []
-        self._ranges: list[Ranges] = []
+    Args:
+        kind: class of the samples.
+    """
+
+    def __init__(self, kind: type[S]) -> None:
+        self._kind = kind
+        self._stored: list[_Stored] = []
 
     def add(self, source: Source, place: int, rows: NDArray[Any]) -> None:
-        """Add messages from the section at position `place` of a file.
+        """Add messages from the section at position `place` of a file, all with samples.
 
         Raises:
             RecordingError: samples are missing in a message.
         """
-        rows = rows[rows["samples"] > 0]
-        if not len(rows):
-            return
-        meshes = 2 * rows["planets"].astype(int)
-        self._stored.append(stored_at(source, place, rows, dict.fromkeys(QUANTITIES, meshes)))
+        for name, shape in self._kind.shapes(rows["planets"].astype(np.int64)).items():
+            if (math.prod(shape) * rows["samples"] != rows.dtype[name].shape[0]).any():
+                topic = source.described.topic
+                raise RecordingError(f"{source.file}: {topic}: samples are missing in a message")
+        begin, end = float(rows["start_time"].min()), float(last_times(rows).max())
+        self._stored.append(_Stored(source, place, begin, end))
+
+    def samples(self, begin: float, end: float) -> S | None:
+        """Samples of all blocks that overlap the time span [s]; None if there are none."""
+        return samples_of(self._kind, self._read(begin, end))
+
+    def _read(self, begin: float, end: float) -> Iterator[NDArray[Any]]:
+        """Read again the messages whose blocks overlap a time span [s]."""
+        overlapping = (part for part in self._stored if part.begin <= end and part.end >= begin)
+        for source, place in dict.fromkeys(part[:2] for part in overlapping):
+            records = section_at(source.file, place)
+            data = [r.data for r in records if getattr(r, "channel_id", None) == source.channel]
+            for rows in source.described.arrays(data):
+                yield rows[(rows["start_time"] <= end) & (last_times(rows) >= begin)]
+
+
+class WaveformInFile(InFile[Waveform]):
+    """The recorded blocks of the waveform in a file, with their ranges in memory."""
+
+    def __init__(self) -> None:
+        super().__init__(Waveform)
+        self._ranges: list[Ranges] = []
+
+    def add(self, source: Source, place: int, rows: NDArray[Any]) -> None:
+        """Add messages as `InFile.add` does."""
+        super().add(source, place, rows)
+        meshes = 2 * int(rows["planets"][0])
         lowest, highest = (
-            {name: end.reduce(_samples(rows, name), axis=2) for name in QUANTITIES}
+            {
+                name: end.reduce(rows[name].reshape(len(rows), meshes, -1), axis=2)
+                for name in WAVEFORM
+            }
             for end in (np.fmin, np.fmax)
         )
         time, period = (rows[name].astype(np.float64) for name in ("start_time", "sample_period"))
@@ -170,91 +238,51 @@ class Blocks:
         )
         return Ranges(time, stamp, period, lowest, highest)
 
-    def waveform(self, begin: float, end: float) -> Waveform | None:
-        """Samples of all blocks that overlap the time span [s]; None if there are none."""
-        return waveform_of(list(read_stored(self._stored, begin, end)))
 
-
-def stored_at(
-    source: Source, place: int, rows: NDArray[Any], series: Mapping[str, NDArray[np.int64]]
-) -> Stored:
-    """Where messages are, to read them again with `read_stored`.
+def samples_of(kind: type[S], messages: Iterable[NDArray[Any]]) -> S | None:
+    """The samples of structured arrays of messages; None if there are none.
 
     Args:
-        source: topic and file.
-        place: position of their section.
-        rows: the messages, all with samples.
-        series: number of series in each message, by quantity.
-
-    Raises:
-        RecordingError: samples are missing in a message.
+        kind: class of the samples.
+        messages: messages of MeshWaveform or AxesWaveform.
     """
-    if any((n * rows["samples"] != rows.dtype[name].shape[0]).any() for name, n in series.items()):
-        raise RecordingError(f"{source.file}: {source.topic}: samples are missing in a message")
-    last = rows["start_time"] + (rows["samples"] - 1) * rows["sample_period"]
-    return Stored(source, place, float(rows["start_time"].min()), float(last.max()))
-
-
-def read_stored(stored: Iterable[Stored], begin: float, end: float) -> Iterator[NDArray[Any]]:
-    """Read again the messages whose blocks overlap a time span [s]."""
-    wanted = {
-        (part.source, part.place): None
-        for part in stored
-        if part.begin <= end and part.end >= begin
-    }
-    for source, place in wanted:
-        records = section_at(source.file, place)
-        data = [r.data for r in records if getattr(r, "channel_id", None) == source.channel]
-        for rows in source.arrays(data):
-            last = rows["start_time"] + (rows["samples"] - 1.0) * rows["sample_period"]
-            yield rows[(rows["start_time"] <= end) & (last >= begin) & (rows["samples"] > 0)]
-
-
-def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
-    """The samples of structured arrays of MeshWaveform; None if there are none."""
     arrays = [rows[rows["samples"] > 0] for rows in messages]
     arrays = [rows for rows in arrays if len(rows)]
     if not arrays:
         return None
-    counts = np.concatenate([rows["samples"] for rows in arrays]).astype(np.int64)
-    first = np.concatenate(([0], np.cumsum(counts)))
     columns = {
         name: np.concatenate(
-            [mesh.T for rows in arrays for mesh in _samples(rows, name)], dtype=np.float32
-        )
-        for name in QUANTITIES
+            [one.reshape(math.prod(shape), -1).T for rows in arrays for one in rows[name]],
+            dtype=np.float32,
+        ).reshape(-1, *shape)
+        for name, shape in kind.shapes(int(arrays[0]["planets"][0])).items()
     }
-    time, stamp = times(arrays)
-    return Waveform(time=time, stamp=stamp, block=first[:-1], **columns)
-
-
-def times(found: Sequence[NDArray[Any]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Simulated time [s] and stamp [ns] of every sample of structured arrays of messages."""
-    counts = np.concatenate([rows["samples"] for rows in found]).astype(np.int64)
-    offset = np.concatenate(
-        [
-            np.arange(count) * period
-            for rows in found
-            for count, period in zip(rows["samples"], rows["sample_period"], strict=True)
-        ]
+    counts = np.concatenate([rows["samples"] for rows in arrays]).astype(np.int64)
+    start, period, stamp = (
+        np.repeat(np.concatenate(parts), counts)
+        for parts in (
+            [rows["start_time"] for rows in arrays],
+            [rows["sample_period"] for rows in arrays],
+            [stamps(rows) for rows in arrays],
+        )
     )
-    start = np.concatenate([rows["start_time"] for rows in found])
-    stamp = np.concatenate([stamps(rows) for rows in found])
-    return (
-        np.repeat(start, counts) + offset,
-        np.repeat(stamp, counts) + np.rint(offset * 1e9).astype(np.int64),
-    )
+    first = np.cumsum([0, *counts[:-1]])
+    offset = (np.arange(len(start)) - np.repeat(first, counts)) * period
+    stamp = stamp + np.rint(offset * 1e9).astype(np.int64)
+    return kind(time=start + offset, stamp=stamp, block=first, **columns)
 
 
-def joined(parts: Sequence[Waveform]) -> Waveform | None:
+def joined(parts: Iterable[S | None]) -> S | None:
     """Concatenate parts; None if there are none."""
-    if not parts:
+    found = [part for part in parts if part is not None]
+    if not found:
         return None
-    before = np.cumsum([0, *(len(part.time) for part in parts)])
-    block = np.concatenate([part.block + n for part, n in zip(parts, before, strict=False)])
-    names = ("time", "stamp", *QUANTITIES)
-    columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    return Waveform(block=block, **columns)
+    before = np.cumsum([0, *(len(part.time) for part in found)])
+    block = np.concatenate([part.block + n for part, n in zip(found, before, strict=False)])
+    columns = {
+        name: np.concatenate([getattr(part, name) for part in found]) for name in _columns(found[0])
+    }
+    return replace(found[0], block=block, **columns)
 
 
 def stamps(rows: NDArray[Any]) -> NDArray[np.int64]:
@@ -263,6 +291,12 @@ def stamps(rows: NDArray[Any]) -> NDArray[np.int64]:
     return np.asarray(stamp["sec"].astype(np.int64) * 1_000_000_000 + stamp["nanosec"])
 
 
-def _samples(rows: NDArray[Any], name: str) -> NDArray[np.float32]:
-    """Samples of messages with the same layout, shape (messages, meshes, samples)."""
-    return np.asarray(rows[name].reshape(len(rows), 2 * int(rows["planets"][0]), -1))
+def _columns(samples: BlockSamples) -> Sequence[str]:
+    """Names of the arrays with a row for each sample."""
+    return [field.name for field in fields(samples) if field.name != "block"]
+
+
+def last_times(rows: NDArray[Any]) -> NDArray[np.float64]:
+    """Simulated time of the last sample of each message [s]."""
+    last = rows["start_time"] + (rows["samples"] - 1.0) * rows["sample_period"]
+    return np.asarray(last)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,12 +16,12 @@ from ..ros2.metadata import Topic
 from ..ros2.playback import Playback
 from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
-from .compose import Composer
+from .compose import Composer, stamp_within
 from .intervals import Intervals
 from .origin import Measured
 from .reader import SCENE_ATTACHMENT
+from .resimulation import steps
 from .schedule import RecordedRun, messages_of, read_runs, without_gaps
-from .written import write_run
 
 BRANCH_ATTACHMENT = "branch.yaml"
 
@@ -86,6 +86,30 @@ def resimulate(
     finally:  # an incomplete recording is valid, too
         bag.close()
     return Made(bag.file, begins, end, run.origin.scene, remarks)
+
+
+def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
+    """Simulate `run` and write its messages.
+
+    Args:
+        composer: writes the messages.
+        run: origin, intervals and changes.
+
+    Yields:
+        Simulated time after each interval [s].
+    """
+    composer.begin(run.origin)
+    stamp = run.origin.begins
+    values = run.origin.scene.live_values
+    for interval, changes, window in steps(run):
+        for change in changes:
+            values = values | change.values
+            composer.point(values, change.time, change.stamp)
+        times = window.waveform.time
+        first = stamp_within(interval.begin, interval.end, stamp, interval.stamp, times)
+        composer.window(window, interval.stamp, first)
+        stamp = interval.stamp
+        yield window.end
 
 
 def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:

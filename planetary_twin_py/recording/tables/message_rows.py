@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from mcap.records import Message
 
-from ..container.records import files_of
-from ..ros2.decode import Topics
-from ..ros2.layout import Layouts
-from ..ros2.repeats import Repeats, unrepeated
-from ..runs.waveform import Source
+from ..ros2.decode import Described, described_messages
 from .message_tables import Rows
 
 MESSAGES = 4096  # per batch, at most
@@ -36,31 +32,31 @@ def rows_of(
         RecordingError: a message does not match its definition.
     """
     wanted = {f"{namespace}/{name}": name for name in names}
-    repeats = Repeats()
-    for file in files_of(path, remarks):
-        waiting: dict[int, _Waiting] = {}
-        topics = Topics(file, wanted.__contains__)
-        for record in unrepeated(file, remarks, repeats):
-            if not (described := topics.of(record)):
-                continue
-            channel = record.channel_id
-            if channel not in waiting:
-                layouts = Layouts(described.types.fielddefs, described.kind)
-                waiting[channel] = _Waiting(Source(file, channel, described.topic, layouts))
-            of_channel = waiting[channel]
-            of_channel.add(record)
-            if of_channel.full:
-                yield wanted[described.topic], of_channel.taken()
-        for of_channel in waiting.values():
-            if of_channel.messages:
-                yield wanted[of_channel.source.topic], of_channel.taken()
+    waiting: dict[Described, _Waiting] = {}
+    for described, record in described_messages(path, wanted.__contains__, remarks):
+        if described not in waiting:  # perhaps of the next file
+            yield from _taken(waiting, wanted)
+            waiting[described] = _Waiting(described)
+        waiting[described].add(record)
+        if waiting[described].full:
+            yield wanted[described.topic], waiting[described].taken()
+    yield from _taken(waiting, wanted)
+
+
+def _taken(
+    waiting: Mapping[Described, _Waiting], wanted: Mapping[str, str]
+) -> Iterator[tuple[str, list[Rows]]]:
+    """All messages that wait."""
+    for described, of_topic in waiting.items():
+        if of_topic.messages:
+            yield wanted[described.topic], of_topic.taken()
 
 
 class _Waiting:
     """The next batch of a channel."""
 
-    def __init__(self, source: Source) -> None:
-        self.source = source
+    def __init__(self, described: Described) -> None:
+        self.described = described
         self.messages: list[bytes] = []
         self._size = 0
 
@@ -75,4 +71,4 @@ class _Waiting:
     def taken(self) -> list[Rows]:
         """The messages, which no longer wait."""
         messages, self.messages, self._size = self.messages, [], 0
-        return list(self.source.arrays(messages))
+        return list(self.described.arrays(messages))

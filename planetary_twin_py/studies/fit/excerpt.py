@@ -13,8 +13,7 @@ import numpy as np
 
 from ...model.clock import TICKS
 from ...recording.container.records import RecordingError
-from ...recording.ros2.namespaces import choose_namespace
-from ...recording.ros2.playback import Playback
+from ...recording.ros2.namespaces import namespace_in
 from ...recording.ros2.topics import STATE, WAVEFORM
 from ...recording.runs.intervals import Interval
 from ...recording.runs.origin import Measured
@@ -109,7 +108,7 @@ def read_excerpt(
         RecordingError: no run has a scene, or there are too few intervals.
     """
     remarks: list[str] = []
-    chosen = choose_namespace(Playback(path).counts, namespace, path)
+    chosen = namespace_in(path, namespace)
     runs = read_runs(path, chosen, remarks)
     if begin is None and end is None:
         run, intervals = longest_steady_part(runs)

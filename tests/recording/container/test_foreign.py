@@ -17,7 +17,7 @@ from rosbags.typesys import Stores, get_typestore
 from tiers import first_rows
 from twin_recording import NAMESPACE
 
-from planetary_twin_py.recording.container.foreign import how_stored
+from planetary_twin_py.recording.container.bag_folder import how_stored
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover

@@ -80,6 +80,8 @@ def test_the_folder_lists_its_files_as_rosbag2_does(tmp_path):
     assert begins == [START, START + 100 * PERIOD, START + 150 * PERIOD]
     assert spans == [100 * PERIOD, 50 * PERIOD, 10 * PERIOD]
     assert metadata["duration"]["nanoseconds"] == 160 * PERIOD
+    topics = [topic["message_count"] for topic in metadata["topics_with_message_count"]]
+    assert metadata["message_count"] == sum(topics) == 164
     with Reader(folder) as reader:
         messages = list(reader.messages())
         assert reader.message_count == len(messages) == 164

@@ -63,37 +63,26 @@ def test_changes_are_listed_with_their_instants(sound):
 
 
 def test_a_file_that_is_no_recording_is_refused_in_one_line(tmp_path):
-    answer = CliRunner().invoke(build_app(), ["info", str(tmp_path)])
-    assert answer.exit_code == 2
-    assert len(answer.output.strip().splitlines()) == 1
+    code, lines = said(tmp_path)
+    assert code == 2 and len(lines) == 1
 
 
-def without_index(file):
-    raise ValueError("no index")
-
-
-def test_the_index_of_a_file_agrees_with_all_its_records(tmp_path, monkeypatch):
+def test_the_index_agrees_with_all_records_and_counts_losses(tmp_path, monkeypatch):
     def lose(topic, number, row):
         return None if topic == "gearbox_state" and number in (7, 8, 20) else row
 
+    def without_index(file):
+        raise ValueError("no index")
+
     file = record(tmp_path / "bag", lose)
     by_index = read_info(file)
+    (remark,) = by_index.remarks  # not of the end of a run before a reset
+    assert remark.startswith(f"3 messages of {NAMESPACE}/gearbox_state are missing between")
     monkeypatch.setattr(Index, "of_summary", without_index)
     by_records = read_info(file)
     assert by_index.simulated == pytest.approx(by_records.simulated, rel=1e-12)
     by_index.simulated = by_records.simulated
     assert by_index == by_records
-
-
-def test_missing_states_are_counted_by_their_numbers(sound, tmp_path):
-    """Not the end of a run before a reset, after which the numbers continue."""
-
-    def lose(topic, number, row):
-        return None if topic == "gearbox_state" and number in (7, 8, 20) else row
-
-    (remark,) = read_info(record(tmp_path / "bag", lose)).remarks
-    assert remark.startswith(f"3 messages of {NAMESPACE}/gearbox_state are missing between")
-    assert read_info(sound).remarks == []
 
 
 def test_the_index_leads_to_every_message(sound):
@@ -107,21 +96,6 @@ def test_the_index_leads_to_every_message(sound):
         assert astuple(index.times[channel]) == (len(times), times[0], times[-1], gap)
         for number, message in enumerate(messages):
             assert index.message(channel, number) == message
-
-
-def test_a_file_without_a_valid_index_is_read(sound, tmp_path):
-    whole = sound.read_bytes()
-    flipped = bytearray(whole)
-    flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, with the operating point
-    for name, data, remarks in (
-        ("truncated", whole[: len(whole) // 2], 1),
-        ("cut", whole[:20], 2),  # it holds no run yet, too
-        ("damaged", bytes(flipped), 1),
-        ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 1),
-    ):
-        file = tmp_path / f"{name}.mcap"
-        file.write_bytes(data)
-        assert len(read_info(file).remarks) == remarks
 
 
 def test_the_command_lists_the_events(sound, tmp_path):
@@ -193,18 +167,14 @@ def listed_changes(file):
 
 def test_a_ramp_is_one_line(tmp_path):
     legs = (50, {"input_torque": 30.0}), (20, {"backlash": 4e-7, "lambda_ratio": 2.0})
-    start, *ways = listed_changes(ramped(tmp_path / "bag", *legs))
+    file = ramped(tmp_path / "bag", *legs)
+    start, *ways = listed_changes(file)
     assert start.startswith("0.0000 s  backlash = 2e-07 m")
     assert ways == [
         "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
         "0.5500 s  backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
     ]
-
-
-def test_the_figures_of_a_ramp_are_still_those_of_every_step(tmp_path):
-    file, out = ramped(tmp_path / "bag", (50, {"input_torque": 30.0})), tmp_path / "figures.json"
-    CliRunner().invoke(build_app(), ["info", str(file), "--events", "--json", str(out)])
-    assert len(json.loads(out.read_text())["changes"]) == 51
+    assert len(read_info(file).changes) == 1 + 50 + 20
 
 
 def turned(*points, name="input_torque", namespace="/one"):
@@ -244,11 +214,7 @@ def test_unreadable_accounts_are_one_line(tmp_path):
     code, lines = said(rewritten(SAMPLE, tmp_path / "bad.mcap", alter))
     (line,) = [line for line in lines if "of losses" in line]
     assert code == 0
-    assert re.fullmatch(
-        r"planetary-twin: bad\.mcap: \d+ accounts of losses cannot be read: the first: "
-        r"lost = 'inf': must be a whole number",
-        line,
-    )
+    assert re.search(r"bad\.mcap: accounts of losses that cannot be read: [1-9]", line)
 
 
 def test_a_finished_recording_of_nothing_ends_with_code_1(tmp_path):

@@ -29,7 +29,7 @@ def taken_by(make):
     return made, taken
 
 
-def test_intervals_are_those_that_were_added():
+def test_intervals_are_those_added_also_when_they_are_cut_off():
     expected = [interval(n) for n in range(50)]
     found = Intervals(expected[:40])
     for each in expected[40:]:
@@ -38,6 +38,11 @@ def test_intervals_are_those_that_were_added():
     assert (found[0], found[-1]) == (expected[0], expected[-1])
     assert found[10:20] == expected[10:20] and isinstance(found[1].recorded, bool)
     assert not Intervals()
+    rest = found.cut(30)
+    assert (list(found), list(rest)) == (expected[:30], expected[30:])
+    whole = found.cut(0)
+    assert not found and list(whole) == expected[:30]
+    assert list(whole.stamps) == [each.stamp for each in expected[:30]]
 
 
 def test_an_interval_takes_some_bytes():
@@ -81,13 +86,3 @@ def test_rounded_times_give_exact_ticks(hours, length):
         found = in_ticks(number, end, end - begin / TICKS, before)
         assert found == (begin, begin + ticks)
         before = Interval(number, 0, *found, 1e-4, 5e4)
-
-
-def test_intervals_that_are_cut_off_keep_their_values():
-    expected = [interval(n) for n in range(50)]
-    first = Intervals(expected)
-    rest = first.cut(30)
-    assert (list(first), list(rest)) == (expected[:30], expected[30:])
-    whole = first.cut(0)
-    assert not first and list(whole) == expected[:30]
-    assert list(whole.stamps) == [each.stamp for each in expected[:30]]

@@ -24,8 +24,7 @@ from planetary_twin_py.recording.runs.schedule import (
     read_runs,
 )
 from planetary_twin_py.recording.runs.verify import verify
-from planetary_twin_py.recording.runs.what_if import resimulate
-from planetary_twin_py.recording.runs.written import write_run
+from planetary_twin_py.recording.runs.what_if import resimulate, write_run
 
 DRIVEN = {"drive.input.port": "torque", "drive.output.port": "torque"}
 BRAKE = range(6, 12)  # intervals with the brake

@@ -1,7 +1,6 @@
 """An altered recording is detected; an unaltered one is identical bit for bit."""
 
 import json
-import struct
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +11,8 @@ from twin_recording import NAMESPACE, record
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.recording.container.records import RecordingError, sections_of
+from planetary_twin_py.recording.container.integrity import end_of_data
+from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.runs.origin import makers_here
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import BOUND, verify
@@ -41,15 +41,6 @@ def next_bit(value):
         changed[2] = np.nextafter(value[2], np.array(np.inf, value.dtype))
         return changed
     return float(np.nextafter(value, np.inf))
-
-
-def end_of_data(file):
-    """The last possible end of a file whose recorder was killed between two records."""
-    *_, last = (section.place for section in sections_of(file, []))
-    with file.open("rb") as stream:
-        stream.seek(last)
-        _, length = struct.unpack("<BQ", stream.read(9))
-    return last + 9 + length
 
 
 def test_an_unaltered_recording_is_identical_bit_for_bit(sound):

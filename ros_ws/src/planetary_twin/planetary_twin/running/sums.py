@@ -12,7 +12,6 @@ import numpy as np
 
 from planetary_twin_py.recording.container.records import sections_of
 from planetary_twin_py.recording.ros2.decode import Topics
-from planetary_twin_py.recording.ros2.layout import Layouts
 from planetary_twin_py.recording.ros2.topics import STATE
 
 
@@ -56,15 +55,12 @@ def sums_of(files: Sequence[Path]) -> Sums:
     sums = Sums()
     for file in files:
         topics = Topics(file, lambda topic: topic.endswith(f"/{STATE}"))
-        layouts: dict[int, Layouts] = {}
         for section in sections_of(file, []):
             messages: dict[int, list[bytes]] = {}
             for record in section.records:
-                if described := topics.of(record):
-                    fields = described.types.fielddefs
-                    layouts.setdefault(record.channel_id, Layouts(fields, described.kind))
+                if topics.of(record):
                     messages.setdefault(record.channel_id, []).append(record.data)
             for channel, data in messages.items():
-                for rows in layouts[channel].arrays(data):
+                for rows in topics.by_channel[channel].arrays(data):
                     sums.add(rows.__getitem__)
     return sums

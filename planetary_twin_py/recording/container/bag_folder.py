@@ -1,4 +1,4 @@
-"""Files that a split bag lacks."""
+"""What the names of files say of a bag of rosbag2: another storage format, or missing files."""
 
 from __future__ import annotations
 
@@ -8,7 +8,31 @@ from pathlib import Path
 
 import yaml
 
+CONVERT = "to convert it: rosbags-convert --src BAG --dst NEW --dst-storage mcap"
+_FORMATS = {
+    ".db3": "a bag in SQLite",
+    ".db3.zstd": "a bag in SQLite, compressed by file",
+    ".mcap.zstd": "a bag compressed by file",
+}
 _MOST = 5  # names in a remark
+
+
+def how_stored(path: Path) -> str | None:
+    """Detect a storage format that cannot be read.
+
+    Args:
+        path: path of the folder of a bag, or of one of its files.
+
+    Returns:
+        The format and the command that converts the bag, as the end of an error message; None for
+        other bags.
+    """
+    folder, files = (path, list(path.iterdir())) if path.is_dir() else (path.parent, [path])
+    hint = CONVERT.replace("BAG", str(folder)).replace("NEW", f"{folder.absolute().name}_mcap")
+    for suffix, storage in _FORMATS.items():
+        if any(file.name.endswith(suffix) for file in files):
+            return f"{storage}; {hint}"
+    return None
 
 
 def missing_files(folder: Path, present: Collection[str]) -> str:
