@@ -5,22 +5,18 @@ from __future__ import annotations
 import contextlib
 import signal
 import subprocess
-from pathlib import Path
 
 import pytest
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
-from .conftest import Start
-from .peer import LONG, TWIN, Peer
+from .peer import LONG, TWIN
 from .recordings import counts
 from .reported import recorded
 
 STATES = f"{TWIN}/gearbox_state"
 
 
-def test_every_message_is_recorded_until_signals_end_it(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_every_message_is_recorded_until_signals_end_it(peer, start, tmp_path):
     twin = start("planetary_twin.twin", name="bag")
     states = peer.listen(GearboxState, STATES, 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
@@ -46,9 +42,7 @@ def test_every_message_is_recorded_until_signals_end_it(
         ("input_torque:=1e9", "simulation: "),
     ],
 )
-def test_a_node_that_cannot_start_ends_both_with_one_line(
-    start: Start, tmp_path: Path, setting: str, reason: str
-) -> None:
+def test_a_node_that_cannot_start_ends_both_with_one_line(start, tmp_path, setting, reason):
     (tmp_path / "file").write_text("in the way")
     twin = start("planetary_twin.twin", "--ros-args", "-p", setting)
     _, errors = twin.communicate(timeout=LONG)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import GearboxState
 
-from .conftest import Start
-from .peer import LONG, TWIN, Peer
+from .peer import LONG, TWIN
 
 
-def test_statuses_of_twins_have_distinct_names(peer: Peer, start: Start) -> None:
+def test_statuses_of_twins_have_distinct_names(peer, start):
     for side in ("left", "right"):
         start("planetary_twin.simulation", "--ros-args", "-r", f"__ns:=/{side}")
         start("planetary_twin.logger", "--ros-args", "-r", f"__ns:=/{side}")
@@ -26,7 +25,7 @@ def test_statuses_of_twins_have_distinct_names(peer: Peer, start: Start) -> None
         assert names(side) == {f"{side}/{task}" for task in tasks}
 
 
-def test_two_twins_of_one_name_both_warn_and_give_the_remedy(peer: Peer, start: Start) -> None:
+def test_two_twins_of_one_name_both_warn_and_give_the_remedy(peer, start):
     twins = [start("planetary_twin.simulation") for _ in range(2)]
     own = ("simulation", TWIN)
     peer.until(lambda: peer.node.get_node_names_and_namespaces().count(own) == 2)

@@ -79,9 +79,7 @@ def begin(start: Start, node: str, **given: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_legal_transition_is_made_and_every_other_refused(
-    peer: Peer, start: Start, name: str
-) -> None:
+def test_every_legal_transition_is_made_and_every_other_refused(peer, start, name):
     process = begin(start, name)
     managed = Managed(peer, name)
     state = "unconfigured"
@@ -111,7 +109,7 @@ def test_every_legal_transition_is_made_and_every_other_refused(
     assert "Traceback" not in errors
 
 
-def test_a_logger_that_cannot_write_recovers(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_logger_that_cannot_write_recovers(peer, start, tmp_path):
     place = tmp_path / "recordings"
     place.write_text("in the way")
     process = begin(start, "logger", name="bag")
@@ -128,7 +126,7 @@ def test_a_logger_that_cannot_write_recovers(peer: Peer, start: Start, tmp_path:
     assert counts(place / "bag") == {}
 
 
-def test_services_of_an_inactive_simulation_answer_in_one_line(peer: Peer, start: Start) -> None:
+def test_services_of_an_inactive_simulation_answer_in_one_line(peer, start):
     begin(start, "simulation")
     managed = Managed(peer, "simulation")
     calls = (
@@ -160,7 +158,7 @@ def simulation(
     rclpy.try_shutdown()
 
 
-def test_cleanup_releases_the_model(simulation: Simulation) -> None:
+def test_cleanup_releases_the_model(simulation):
     assert simulation.trigger_configure().name == "SUCCESS"
     assert simulation.trigger_activate().name == "SUCCESS"
     held = [weakref.ref(simulation.running()), weakref.ref(simulation.running()._twin._engine)]
@@ -170,9 +168,7 @@ def test_cleanup_releases_the_model(simulation: Simulation) -> None:
     assert [reference() for reference in held] == [None, None]
 
 
-def test_a_twin_that_fails_moves_the_node_to_the_error_state(
-    simulation: Simulation,
-) -> None:
+def test_a_twin_that_fails_moves_the_node_to_the_error_state(simulation):
     states = []
     close = simulation.close
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from planetary_twin.clients.measured_rows import beside_rows, pairs
+from planetary_twin.clients.monitor import beside_rows, pairs
 from planetary_twin_msgs.msg import FollowerEstimate, FollowerEvent, GearboxState
 
 
@@ -15,14 +15,14 @@ def estimate() -> FollowerEstimate:
     )  # fmt: skip
 
 
-def test_residuals_are_measured_less_simulated() -> None:
+def test_residuals_are_measured_less_simulated():
     state = GearboxState(input_torque=63.0, input_speed=-104.0, power_loss=70.0)
     torque, speed, loss = pairs(estimate(), state)
     assert torque.residual == -0.5 and speed.residual == 0.0
     assert loss.measured == 78.0 and loss.residual == 8.0
 
 
-def test_what_is_not_identifiable_is_named() -> None:
+def test_what_is_not_identifiable_is_named():
     unknown = estimate()
     unknown.friction_level, unknown.loss_torque = math.nan, math.nan
     unknown.friction_level_status = "NOT_IDENTIFIABLE"

@@ -127,7 +127,7 @@ def numbers_in(path: Path) -> list[int]:
     return found
 
 
-def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> None:
+def test_messages_before_a_recording_are_no_loss(peer, start):
     logger = Logger(peer, start, name="bag")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
@@ -144,7 +144,7 @@ def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> No
     assert all(report.level == DiagnosticStatus.OK for report in logger.reports)
 
 
-def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_kill_loses_one_flush_period_at_most(peer, start, tmp_path):
     """By stamps, however late the timers of the logger are."""
     period = 0.5
     logger = Logger(peer, start, name="bag", flush_period=period)
@@ -162,9 +162,7 @@ def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_pat
     assert safe <= len(numbers) <= ticker.sent
 
 
-def test_recordings_start_split_and_end_on_request(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_recordings_start_split_and_end_on_request(peer, start, tmp_path):
     logger = Logger(peer, start, name="bag", compression="lz4")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
@@ -208,7 +206,7 @@ def test_recordings_start_split_and_end_on_request(
     assert counts(second.parent)[DESCRIPTION] == 1
 
 
-def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_snapshot_writes_the_last_seconds(peer, start, tmp_path):
     logger = Logger(peer, start, name="bag", snapshot_duration=0.5)
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 300)
@@ -231,9 +229,7 @@ def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: 
     assert files[0].parent != files[1].parent
 
 
-def test_a_managed_logger_goes_to_its_error_state_and_recovers(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_managed_logger_goes_to_its_error_state_and_recovers(peer, start, tmp_path):
     logger = Logger(peer, start, autostart="false", flush_period=0.1)
     Ticker(peer)
     node = f"{TWIN}/logger"
@@ -253,9 +249,7 @@ def test_a_managed_logger_goes_to_its_error_state_and_recovers(
     assert len(numbers_in(folder)) > 20
 
 
-def test_a_full_disk_ends_the_logger_with_one_line(
-    peer: Peer, start: Start, small_disk: Path, count: Count
-) -> None:
+def test_a_full_disk_ends_the_logger_with_one_line(peer, start, small_disk, count):
     given = {"compression": "none", "flush_period": 0.05}
     logger = Logger(peer, start, directory=small_disk, **given)
     count(200.0, 10_000, 10_000, 100)
@@ -267,9 +261,7 @@ def test_a_full_disk_ends_the_logger_with_one_line(
     assert len(numbers) > 30
 
 
-def test_recorded_plus_lost_equals_published_under_overload(
-    peer: Peer, start: Start, tmp_path: Path, count: Count
-) -> None:
+def test_recorded_plus_lost_equals_published_under_overload(peer, start, tmp_path, count):
     """The logger stands still, as on an overloaded machine, until all is sent."""
     logger = Logger(peer, start, name="bag", topics=f"['{TOPIC}']")
     sender = count(4000.0, 20_000, 100, 1)
@@ -299,7 +291,7 @@ def test_recorded_plus_lost_equals_published_under_overload(
     assert (reported.recorded, reported.lost) == (recorded, lost)
 
 
-def test_a_later_publisher_with_weaker_qos_is_recorded(peer: Peer, start: Start) -> None:
+def test_a_later_publisher_with_weaker_qos_is_recorded(peer, start):
     logger = Logger(peer, start, name="bag", topics=f"['{TOPIC}']")
 
     def publish_until_received(qos: QoSProfile) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import subprocess
-from pathlib import Path
 
 import pytest
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
@@ -38,9 +37,7 @@ def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]
     return states
 
 
-def test_a_signal_finishes_the_file(
-    peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path
-) -> None:
+def test_a_signal_finishes_the_file(peer, start, logger, tmp_path):
     _record(peer, start)
     logger.send_signal(signal.SIGINT)
     _, errors = logger.communicate(timeout=LONG)
@@ -51,9 +48,7 @@ def test_a_signal_finishes_the_file(
     assert recorded[f"{TWIN}/gearbox_state"] >= 100
 
 
-def test_an_existing_recording_is_refused_in_one_line(
-    start: Start, logger: subprocess.Popen[str], tmp_path: Path, peer: Peer
-) -> None:
+def test_an_existing_recording_is_refused_in_one_line(start, logger, tmp_path, peer):
     peer.until(lambda: (tmp_path / "recordings/bag").exists())
     _refused(start("planetary_twin.logger", name="bag"), "bag exists")
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from planetary_twin.process.environment import choose_log_folder
 
 
-def test_a_node_without_home_says_only_what_is_wrong(domain: int, tmp_path: Path) -> None:
+def test_a_node_without_home_says_only_what_is_wrong(domain, tmp_path):
     environment = {k: v for k, v in os.environ.items() if k not in ("HOME", "ROS_HOME")}
     environment["TMPDIR"] = str(tmp_path)
     done = subprocess.run(
@@ -36,9 +35,7 @@ def test_a_node_without_home_says_only_what_is_wrong(domain: int, tmp_path: Path
         ({"HOME": "/nonexistent"}, f"/tmp/ros_log_{os.getuid()}"),
     ],
 )
-def test_a_folder_of_the_user_is_kept(
-    monkeypatch: pytest.MonkeyPatch, given: dict[str, str], log_folder: str | None
-) -> None:
+def test_a_folder_of_the_user_is_kept(monkeypatch, given, log_folder):
     for name in ("HOME", "ROS_HOME", "ROS_LOG_DIR"):
         monkeypatch.delenv(name, raising=False)
     for name, value in given.items():

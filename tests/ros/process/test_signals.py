@@ -15,12 +15,11 @@ end = time.monotonic() + 2.0
 while time.monotonic() < end:
     pass
 SIGNALS.ignore()
-print(SIGNALS.stop.is_set(), flush=True)
-SIGNALS.stop.wait()
+print(SIGNALS.received, flush=True)
 """
 
 
-def test_thousands_of_signals_interrupt_one_another() -> None:
+def test_thousands_of_signals_interrupt_one_another():
     with subprocess.Popen([sys.executable, "-c", WORK], stdout=subprocess.PIPE, text=True) as child:
         assert child.stdout
         assert child.stdout.readline() == "ready\n"

@@ -11,14 +11,13 @@ from planetary_twin_msgs.srv import SetOperatingPoint
 
 import planetary_twin_py as pt
 
-from ..conftest import Start
-from ..peer import LATCHED, LONG, TWIN, Peer
+from ..peer import LATCHED, LONG, TWIN
 
 ROOT = Path(__file__).parents[3]
 NODE = f"{TWIN}/simulation"
 
 
-def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoint]) -> None:
+def test_a_number_may_be_sent_in_any_type(user, points):
     for typed in ("3e-7", 0, 2.5e-7):
         assert user.set(NODE, backlash=typed).successful
         assert user.get(NODE, "backlash") == float(typed)
@@ -28,9 +27,7 @@ def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoin
     assert points[-1].changed == "lambda_ratio"
 
 
-def test_invalid_values_are_refused_with_the_reason(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_invalid_values_are_refused_with_the_reason(user, points):
     before = {name: user.get(NODE, name) for name in ("backlash", "lambda_ratio")}
     for values in (
         {"backlash": "wide"},
@@ -56,9 +53,7 @@ def test_invalid_values_are_refused_with_the_reason(
     assert len(points) == 1
 
 
-def test_values_set_atomically_apply_from_one_instant(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_values_set_atomically_apply_from_one_instant(user, points):
     values = {"backlash": "3e-7", "lambda_ratio": 2, "input_speed": 200.0}
     assert user.set(NODE, atomically=True, **values).successful
     user.until(lambda: len(points) == 2)
@@ -68,9 +63,7 @@ def test_values_set_atomically_apply_from_one_instant(
     assert point.simulated_time > points[0].simulated_time
 
 
-def test_the_service_answers_with_the_instant_of_the_change(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_the_service_answers_with_the_instant_of_the_change(user, points):
     service = f"{NODE}/set_operating_point"
     request = SetOperatingPoint.Request(names=["backlash", "lambda_ratio"], values=[3e-7, 1.5])
     answer = user.call(SetOperatingPoint, service, request)
@@ -88,9 +81,7 @@ def test_the_service_answers_with_the_instant_of_the_change(
     assert len(points) == 2
 
 
-def test_a_ramp_reaches_the_values_in_the_requested_time(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_a_ramp_reaches_the_values_in_the_requested_time(user, points):
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=0.5
     )
@@ -110,7 +101,7 @@ def test_a_ramp_reaches_the_values_in_the_requested_time(
     user.until(lambda: len(points) == settled + 1)
 
 
-def test_setting_a_quantity_ends_its_ramp(user: Peer, points: list[OperatingPoint]) -> None:
+def test_setting_a_quantity_ends_its_ramp(user, points):
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=2.0
     )
@@ -123,7 +114,7 @@ def test_setting_a_quantity_ends_its_ramp(user: Peer, points: list[OperatingPoin
 
 
 @pytest.mark.parametrize("ramp", [-1.0, math.nan, 1e6])
-def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ramp: float) -> None:
+def test_an_invalid_ramp_is_refused(user, points, ramp):
     request = SetOperatingPoint.Request(names=["backlash"], values=[4e-7], ramp=ramp)
     answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
     assert not answer.success and answer.message.startswith("ramp = ")
@@ -138,7 +129,7 @@ def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ra
         "scene:=nowhere",
     ],
 )
-def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given: str) -> None:
+def test_an_invalid_start_value_ends_the_node_with_one_line(start, given):
     process = start("planetary_twin.simulation", "--ros-args", "-p", given)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
@@ -146,7 +137,7 @@ def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given:
     assert given.split(":=")[1] in errors
 
 
-def test_the_default_parameter_file_leaves_values_to_the_scene(peer: Peer, start: Start) -> None:
+def test_the_default_parameter_file_leaves_values_to_the_scene(peer, start):
     file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"
     given = ("--ros-args", "--params-file", str(file))
     start("planetary_twin.simulation", *given, scene="lightly_loaded")
@@ -156,7 +147,7 @@ def test_the_default_parameter_file_leaves_values_to_the_scene(peer: Peer, start
     assert {name: getattr(point, name) for name in pt.TUNABLES} == scene.model_dump()
 
 
-def test_the_shipped_parameter_file_is_the_packaged_scene(peer: Peer, start: Start) -> None:
+def test_the_shipped_parameter_file_is_the_packaged_scene(peer, start):
     file = ROOT / "ros_ws/src/planetary_twin/config/paper.yaml"
     start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)

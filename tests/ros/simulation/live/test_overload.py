@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from pathlib import Path
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
@@ -12,8 +11,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.run.quality_control import HALVINGS, Setting
 from planetary_twin_py.run.tolerance import LADDER
 
-from ...conftest import Start
-from ...peer import LATCHED, LONG, TWIN, Peer
+from ...peer import LATCHED, LONG, TWIN
 from ...reported import assert_simulated_again, figures, reported_settings
 
 NODE = f"{TWIN}/simulation"
@@ -23,9 +21,7 @@ FLOOR = SAMPLE_RATE / 2**HALVINGS
 MOVING_AXES = "{base: floating_sun, operating_point: {input_speed: 1000.0}}"
 
 
-def test_an_overloaded_twin_degrades_in_order_and_reports_it(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_an_overloaded_twin_degrades_in_order_and_reports_it(peer, start, tmp_path):
     scene = tmp_path / "moving_axes.yaml"
     scene.write_text(MOVING_AXES)
     given = {"rate_factor": 100, "publish_rate": 10, "tolerance": 0.0}

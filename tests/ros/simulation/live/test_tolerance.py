@@ -11,7 +11,7 @@ from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
 import planetary_twin_py as pt
 
 from ...conftest import Start
-from ...peer import LATCHED, TWIN, Peer
+from ...peer import LATCHED, TWIN
 from ...reported import assert_simulated_again, figures, reported_settings
 
 NODE = f"{TWIN}/simulation"
@@ -25,9 +25,7 @@ def simulation(start: Start) -> subprocess.Popen[str]:
     return start("planetary_twin.simulation", **given)
 
 
-def test_reports_reproduce_published_waveforms_bit_for_bit(
-    peer: Peer, simulation: subprocess.Popen[str]
-) -> None:
+def test_reports_reproduce_published_waveforms_bit_for_bit(peer, simulation):
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     reports = peer.listen(DiagnosticArray, "/diagnostics")

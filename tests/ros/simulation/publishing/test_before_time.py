@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from ...conftest import Start
 from ...peer import LATCHED, TWIN, Peer
 from ...reported import check_verified
 from .test_clocks import Ticking
@@ -22,7 +19,7 @@ def step(peer: Peer) -> Step.Response:
     return peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05))
 
 
-def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_steps_before_the_first_clock_are_refused(peer, start, tmp_path):
     logger = start("planetary_twin.logger", name="clockless")
     start("planetary_twin.simulation", use_sim_time="true", wait_for="logger")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
@@ -44,7 +41,7 @@ def test_steps_before_the_first_clock_are_refused(peer: Peer, start: Start, tmp_
     check_verified(logger, tmp_path / "recordings/clockless")
 
 
-def test_a_clock_without_time_makes_steps_refused(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_clock_without_time_makes_steps_refused(peer, start, tmp_path):
     logger = start("planetary_twin.logger", name="changed")
     start("planetary_twin.simulation", wait_for="logger")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
@@ -62,7 +59,7 @@ def test_a_clock_without_time_makes_steps_refused(peer: Peer, start: Start, tmp_
     check_verified(logger, tmp_path / "recordings/changed")
 
 
-def test_a_plant_begins_with_the_first_clock(peer: Peer, start: Start) -> None:
+def test_a_plant_begins_with_the_first_clock(peer, start):
     measured = peer.listen(JointState, f"{TWIN}/measured/joint_states")
     plant = start("planetary_twin.plant", use_sim_time="true", duration=0.5)
     assert peer.state(f"{TWIN}/plant") == "active"

@@ -8,12 +8,11 @@ import time
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin.base.clock import STEADY
-from planetary_twin.clients.real_time_figures import real_time_figures
+from planetary_twin.base.diagnostics import real_time_figures
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 
-from ...conftest import Start
 from ...peer import TWIN, Peer
 
 MODULE = "planetary_twin.simulation"
@@ -57,7 +56,7 @@ def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
     return real_time_figures(reports[-1], TWIN) if reports else {}
 
 
-def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) -> None:
+def test_stamps_increase_when_an_external_clock_jumps(peer, start):
     start(MODULE, use_sim_time="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -84,7 +83,7 @@ def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) 
     assert all(after > before for before, after in itertools.pairwise(stamps))
 
 
-def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> None:
+def test_a_twin_as_fast_as_possible_is_never_late(peer, start):
     start(MODULE, rate_factor=0, sample_rate=5000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)

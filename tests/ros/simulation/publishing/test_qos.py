@@ -15,7 +15,6 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from ...conftest import Start
 from ...peer import LONG, TWIN, Peer
 
 LATCHED = {f"{TWIN}/operating_point": OperatingPoint, f"{TWIN}/robot_description": String}
@@ -60,7 +59,7 @@ class Subscriptions:
                 )
 
 
-def test_subscribers_receive_messages_or_the_reason_why_not(peer: Peer, start: Start) -> None:
+def test_subscribers_receive_messages_or_the_reason_why_not(peer, start):
     process = start("planetary_twin.simulation", clock="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 10)

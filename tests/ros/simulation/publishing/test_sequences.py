@@ -9,13 +9,12 @@ from planetary_twin_msgs.srv import Step
 from rclpy.time import Time
 from std_srvs.srv import Trigger
 
-from ...conftest import Start
-from ...peer import LATCHED, TWIN, Peer
+from ...peer import LATCHED, TWIN
 
 NODE = f"{TWIN}/simulation"
 
 
-def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Start) -> None:
+def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer, start):
     start("planetary_twin.simulation")
     topics = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform}
     received = {name: peer.listen(kind, f"{TWIN}/{name}", 1000) for name, kind in topics.items()}
@@ -29,6 +28,7 @@ def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Sta
         peer.until(lambda: len(states) > count + 5)
 
     run()
+    peer.until(lambda: points)
     assert peer.set(NODE, lambda_ratio=1.6).successful
     peer.until(lambda: points[-1].lambda_ratio == 1.6)
     peer.pause(NODE)

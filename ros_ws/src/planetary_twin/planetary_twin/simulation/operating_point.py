@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from concurrent.futures import Future
-from typing import Protocol
 
 from planetary_twin_msgs.srv import SetOperatingPoint
 from rclpy.node import Node
@@ -11,28 +10,12 @@ from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 
+from ..base.clock import set_stamp
 from ..base.parameters import brief
-from .live.live_twin import LiveTwin
+from ..base.services import answer, executed
 from .live.ramps import LONGEST_RAMP
 from .parameters import TOLERANCE, changing
-
-
-class RunningSimulation(Protocol):
-    """The part of a simulation that changes of its operating point use."""
-
-    @property
-    def live(self) -> LiveTwin | None:
-        """Return the live twin, or None unless the node is active."""
-
-    @property
-    def longest_wait(self) -> float:
-        """Longest wait for a command [s]."""
-
-    def renew_quality(self) -> None:
-        """Apply the parameter `tolerance` to the live twin."""
-
-    def stamp(self, instant: float) -> int:
-        """Return the ROS time [ns] of a simulated instant [s]."""
+from .time_services import SimulationControl
 
 
 class OperatingPointControl:
@@ -42,7 +25,7 @@ class OperatingPointControl:
     The service `~/set_operating_point` sets several of them at one instant, or in a ramp.
     """
 
-    def __init__(self, node: Node, simulation: RunningSimulation) -> None:
+    def __init__(self, node: Node, simulation: SimulationControl) -> None:
         self._node, self._simulation = node, simulation
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] duration of the ramp for the parameters being set
@@ -75,17 +58,13 @@ class OperatingPointControl:
     def _set_operating_point(
         self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
     ) -> SetOperatingPoint.Response:
-        try:
+        def change() -> str:
             instant, remark = self._change(request.names, request.values, request.ramp)
-        except (ValueError, TimeoutError) as refusal:
-            response.success, response.message = False, str(refusal)
-            return response
-        response.success, response.message = True, remark
-        response.simulated_time = instant
-        response.stamp.sec, response.stamp.nanosec = divmod(
-            self._simulation.stamp(instant), 1_000_000_000
-        )
-        return response
+            response.simulated_time = instant
+            set_stamp(response.stamp, self._simulation.stamp(instant))
+            return remark
+
+        return answer(response, change)
 
     def _change(self, names: list[str], values: list[float], ramp: float) -> tuple[float, str]:
         """
@@ -107,7 +86,7 @@ class OperatingPointControl:
             self._ramp = 0.0
         if not result.successful or self._submitted is None:
             raise ValueError(result.reason)
-        instant = self._submitted.result(timeout=self._simulation.longest_wait)
+        instant = executed(self._submitted, self._simulation.longest_wait)
         return instant, str(result.reason)
 
 

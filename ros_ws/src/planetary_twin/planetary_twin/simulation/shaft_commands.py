@@ -12,7 +12,7 @@ from typing import NamedTuple
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
-from planetary_twin_py import Twin
+from planetary_twin_py import Scene, Twin
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
 from planetary_twin_py.run.commands import Command
 from planetary_twin_py.scene.drive import Ports
@@ -21,7 +21,7 @@ from planetary_twin_py.text.escaping import one_line
 from ..base.diagnostics import Row
 from .diagnostics.commands import CommandReport
 from .input_brake import InputBrake, for_ports
-from .parameters import SimulationParameters
+from .parameters import SimulationSettings
 
 _TURN = 2.0 * math.pi
 _OUT_OF_RANGE = "out of range"
@@ -55,13 +55,14 @@ class ShaftCommands:
 
     def __init__(
         self,
-        given: SimulationParameters,
+        scene: Scene,
+        settings: SimulationSettings,
         now: Callable[[], int],
         take: Callable[[], Iterable[tuple[int, JointState]]],
     ) -> None:
-        self.joints = joint_names(given.scene)
-        self._timeout, self._silence = given.command_timeout, given.command_silence
-        self._continuous = given.continuous_joints
+        self.joints = joint_names(scene)
+        self._timeout, self._silence = settings.command_timeout, settings.command_silence
+        self._continuous = settings.continuous_joints
         self._now, self._take = now, take
         self._lock = threading.Lock()
         self._arrived: dict[str, _Arrived] = {}  # by side, since the last interval

@@ -9,18 +9,32 @@ from typing import Protocol
 from planetary_twin_msgs.srv import Step
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py import Twin
 from planetary_twin_py.recording.ros2.given import joint_names
 
 from ..base.clock import set_stamp
-from ..base.command_queue import answer
+from ..base.services import answer, executed, serve_pause, serve_triggers
 from .live.live_twin import LiveTwin
 
 
-class TimeControl(Protocol):
+class SimulationControl(Protocol):
     """The part of a simulation that its services use."""
+
+    @property
+    def live(self) -> LiveTwin | None:
+        """Return the live twin, or None unless the node is active."""
+
+    @property
+    def longest_wait(self) -> float:
+        """Longest wait for a command [s]."""
+
+    @property
+    def interval(self) -> float:
+        """Simulated time of a published interval [s]."""
+
+    def renew_quality(self) -> None:
+        """Apply the parameter `tolerance` to the live twin."""
 
     def running(self) -> LiveTwin:
         """Return the live twin; raises `ValueError` if there is none."""
@@ -47,19 +61,11 @@ def show_ports(twin: Twin, message: JointState) -> None:
 class TimeServices:
     """The services `~/pause`, `~/step` and `~/reset` of `node` for `control`."""
 
-    def __init__(self, node: Node, control: TimeControl) -> None:
+    def __init__(self, node: Node, control: SimulationControl) -> None:
         self._control = control
-        node.create_service(SetBool, "~/pause", self._pause)
+        serve_pause(node, lambda paused: control.running().pause(paused))
         node.create_service(Step, "~/step", self._step)
-        node.create_service(Trigger, "~/reset", self._reset)
-
-    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        word = "paused" if request.data else "runs"
-        return answer(
-            response,
-            lambda: self._control.running().pause(request.data),
-            lambda instant: f"{word} from {instant:.9g} s",
-        )
+        serve_triggers(node, {"reset": self._reset})
 
     def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
         states: list[JointState] = []
@@ -69,15 +75,16 @@ class TimeServices:
             response.state = states[-1]
             self._date(response, twin.time)
 
-        def step() -> Future[float]:
+        def step() -> str:
             if request.commands and request.command.name:
                 raise ValueError("command: must be empty if there are commands")
             each = [
                 self._control.command(every) for every in request.commands or [request.command]
             ]
-            return self._control.running().step(request.duration, each, show)
+            executed(self._control.running().step(request.duration, each, show))
+            return ""
 
-        answer(response, step, lambda instant: "")
+        answer(response, step)
         if not states:
             self._date_refusal(response)
         if request.commands:
@@ -102,7 +109,5 @@ class TimeServices:
             show_ports(twin, message)
         return message
 
-    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return answer(
-            response, self._control.reset, lambda instant: f"starts again at {instant:.9g} s"
-        )
+    def _reset(self) -> str:
+        return f"starts again at {executed(self._control.reset()):.9g} s"

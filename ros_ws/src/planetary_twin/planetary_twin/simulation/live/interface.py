@@ -7,24 +7,13 @@ from typing import NamedTuple, Protocol
 
 from planetary_twin_py import Twin, Window
 from planetary_twin_py.run.quality_control import QualityControl, Setting
-from planetary_twin_py.run.twin import Change
 
 
 class TwinNode(Protocol):
     """Callbacks of a live twin, in its thread, or in that of a command while it halts."""
 
-    def prepare(self, window: Window) -> None:
+    def computed(self, window: Window) -> None:
         """Receive a computed interval before the wall time of its end."""
-
-    def publish(self) -> bool:
-        """
-        Publish the prepared interval; its end is at the present wall time.
-
-        Returns whether its stamps have skipped a lag: then the schedule starts again from now.
-        """
-
-    def changed(self, change: Change) -> None:
-        """Receive operating point and ports, and the time from which they apply."""
 
     def refused(self, reason: str) -> None:
         """Receive the reason why a ramp ended early, or why a command had no effect."""
@@ -35,14 +24,8 @@ class TwinNode(Protocol):
     def ready(self) -> bool:
         """Return whether time can pass: for example, the clock to follow is available."""
 
-    def has_clock(self) -> bool:
-        """Return whether there is a time for stamps."""
-
     def has_room(self) -> bool:
         """Return whether the recorder has kept up and the next interval may be published."""
-
-    def resumed(self, twin: Twin) -> None:
-        """Map the present time of `twin` to the present ROS time, after a start or a halt."""
 
     def stopped(self, defect: Exception) -> None:
         """Receive the exception that ended the thread."""

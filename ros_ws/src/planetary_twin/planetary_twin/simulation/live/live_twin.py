@@ -15,6 +15,7 @@ from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.scene.live import PORT_FIELDS
 
 from ...base.command_queue import CommandQueue
+from ..publishing.publishers import Telemetry
 from .hold import Hold
 from .interface import PortCommands, Progress, State, TwinNode
 from .pace import Pace
@@ -37,7 +38,8 @@ class LiveTwin:
     are executed between two intervals, those of a halted twin at once in the thread that gives
     them; their futures return the simulated instant [s].
 
-    `port_commands` are asked for the commands at the ports before each interval.
+    `port_commands` are asked for the commands at the ports before each interval. `telemetry`
+    publishes the intervals and the changes of operating point and ports.
 
     Above real time and in steps, the twin waits for its recorder. At real time or below, it does
     not.
@@ -50,9 +52,11 @@ class LiveTwin:
         rate_factor: float,
         quality: QualityControl,
         node: TwinNode,
+        telemetry: Telemetry,
         port_commands: PortCommands,
     ) -> None:
         self._twin = twin
+        self._telemetry = telemetry
         self._port_commands = port_commands
         self._interval = interval
         self._stop = threading.Event()
@@ -168,7 +172,7 @@ class LiveTwin:
 
     def _resume(self) -> None:
         """Resume time; at time zero, publish a new origin of the run and all changes after it."""
-        self._node.resumed(self._twin)
+        self._telemetry.resume(self._twin)
         if self._twin.time == 0.0:
             self._due = list(self._at_zero)
 
@@ -179,7 +183,7 @@ class LiveTwin:
         if self._halted:
             self._resume()
         for change in self._due:
-            self._node.changed(change)
+            self._telemetry.announce(change)
         self._due.clear()
 
     def _note(self) -> None:
@@ -230,11 +234,12 @@ class LiveTwin:
         except RunawayError as reason:  # nothing of the interval is published
             self._failure = str(reason)
             return False
-        self._node.prepare(window)
+        self._telemetry.prepare(window)
+        self._node.computed(window)
         prepared = time.monotonic()
         wait()
         waited = time.monotonic() - prepared
-        if self._node.publish():
+        if self._telemetry.publish():
             self._pace.start()
         work = time.thread_time() - cpu
         quality.observe(time.monotonic() - begin - waited, work, window.repeated)
@@ -309,7 +314,7 @@ class LiveTwin:
                 f"commands: {len(commands)} steps of {duration:g} s: must be at most "
                 f"{LONGEST_STEP:g} s in total"
             )
-        if not self._node.has_clock():
+        if not self._telemetry.has_clock():
             raise ValueError(f"{NO_CLOCK}; step the twin then")
         self._wait_until(self._node.ready)
         self._resume()
