@@ -9,7 +9,8 @@ import subprocess
 import pytest
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
-from .peer import LONG, TWIN
+from .peer import TWIN
+from .programs import ended
 from .recordings import counts
 from .reported import recorded
 
@@ -45,8 +46,7 @@ def test_every_message_is_recorded_until_signals_end_it(peer, start, tmp_path):
 def test_a_node_that_cannot_start_ends_both_with_one_line(start, tmp_path, setting, reason):
     (tmp_path / "file").write_text("in the way")
     twin = start("planetary_twin.twin", "--ros-args", "-p", setting)
-    _, errors = twin.communicate(timeout=LONG)
-    assert twin.returncode == 1
+    errors = ended(twin, 1)
     lines = [line for line in errors.strip().splitlines() if "[INFO]" not in line]
     assert len(lines) == 1 and lines[0].startswith(reason), errors
     assert setting.partition(":=")[0] in lines[0]

@@ -27,6 +27,7 @@ from planetary_twin_py.recording.runs.info import read_info
 
 from ..conftest import Start
 from ..peer import LATCHED, LONG, TWIN, Peer
+from ..programs import ended
 from ..recordings import counts
 from ..reported import recorded
 
@@ -88,8 +89,7 @@ class Logger:
 
     def ends_with(self, reason: str) -> None:
         """It ends with one line and a non-zero exit code."""
-        _, errors = self.process.communicate(timeout=LONG)
-        assert self.process.returncode == 1
+        errors = ended(self.process, 1)
         lines = [line for line in errors.splitlines() if line.startswith("logger: ")]
         assert len(lines) == 1 and reason in lines[0], errors
         assert "Traceback" not in errors

@@ -26,9 +26,9 @@ from std_srvs.srv import SetBool
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
 
-from ..peer import LONG, TWIN, Peer
+from ..peer import TWIN, Peer
 from ..processes import holding
-from ..programs import Program
+from ..programs import Program, ended
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
 
@@ -87,8 +87,7 @@ def _resume(peer: Peer) -> None:
 
 
 def refused(process: Program, *reasons: str) -> None:
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 2
+    errors = ended(process, 2)
     assert errors.startswith("planetary-twin: ")
     assert len(errors.strip().splitlines()) == 1
     assert all(reason in errors for reason in reasons), errors

@@ -15,6 +15,7 @@ from planetary_twin.running.command import _plant_plan
 from tiers import first_rows
 
 from ..peer import LONG, TWIN
+from ..programs import ended
 from ..recordings import counts
 from .test_run import COMMAND
 
@@ -137,6 +138,5 @@ def test_changes_after_the_end_are_named_before_it_runs(tmp_path, capsys):
 )
 def test_invalid_options_are_refused_in_one_line(run, options, line):
     process = run(*options)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 2
+    errors = ended(process, 2)
     assert line in errors.strip().splitlines()[-1]

@@ -26,6 +26,7 @@ from planetary_twin_py.scene import load_scene, parse_scene
 
 from ..peer import LONG, TWIN
 from ..processes import holding, working_in
+from ..programs import ended, refuses
 from ..recordings import counts, times_received, unfinished_states
 
 COMMAND = (
@@ -89,8 +90,7 @@ def test_parameters_fixed_at_the_start_are_options_of_a_run(run):
     states = json.loads(output)["topics"][f"{TWIN}/gearbox_state"]
     assert states["published"] >= 100  # 50 at the default rate
     refused = run("--param", "rate_factor=2")
-    _, errors = refused.communicate(timeout=180)
-    assert refused.returncode == 2
+    errors = ended(refused, 2)
     assert "--param 'rate_factor=2': must be NAME=VALUE, with NAME of" in " ".join(errors.split())
 
 
@@ -166,8 +166,7 @@ def test_a_run_whose_logger_stalls_long_reports_the_losses(run, peer, tmp_path):
     again = states[-1].simulated_time + 1.0
     peer.until(lambda: states[-1].simulated_time > again)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
+    errors = ended(process, 1)
     reported = json.loads((tmp_path / "figures.json").read_text())["topics"][
         f"{TWIN}/gearbox_state"
     ]
@@ -198,9 +197,7 @@ def test_ctrl_c_during_the_start_leaves_nothing_running(run, tmp_path):
     while not holding(process.pid, "_rclpy"):  # earlier, Python has not read the command yet
         assert time.monotonic() < deadline and process.poll() is None
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 0, errors
-    assert "Traceback" not in errors
+    ended(process)
     assert working_in(tmp_path) == []
     # Either there is a recording of a twin that ran, or no recording.
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
@@ -210,10 +207,7 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(run, tmp_path):
     process = run("--duration", "600")
     _line(process, "rpm")
     os.kill(_process_of("logger", tmp_path), signal.SIGKILL)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
-    assert len(errors.strip().splitlines()) == 1
-    assert "logger: ended by SIGKILL; the recording is in recordings/" in errors
+    refuses(process, "logger: ended by SIGKILL; the recording is in recordings/")
     assert working_in(tmp_path) == []
 
 
@@ -249,18 +243,14 @@ def test_sigkill_of_the_run_ends_its_nodes(run, tmp_path):
 )
 def test_an_invalid_option_ends_before_any_process_starts(run, tmp_path, options, reason):
     process = run(*options)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 2
-    assert len(errors.strip().splitlines()) == 1
-    assert reason in errors
+    refuses(process, reason, code=2)
     assert not (tmp_path / "recordings").exists()
 
 
 def test_a_run_does_not_start_beside_another_publisher_of_a_twin(run, peer, tmp_path):
     peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
     process = run("--duration", "60", "--record", "bag")
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
+    errors = ended(process, 1)
     assert "/peer runs on ROS_DOMAIN_ID" in errors
     assert not (tmp_path / "recordings/bag").exists()
 

@@ -14,6 +14,7 @@ from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 
 from ...peer import TWIN, Peer
+from ...reported import check_rising
 
 MODULE = "planetary_twin.simulation"
 INTERVAL = 0.01  # [s]
@@ -22,14 +23,6 @@ HOUR = 3600.0  # [s]
 
 def seconds(stamp) -> float:
     return stamp.sec + stamp.nanosec * 1e-9
-
-
-def check_rising(*topics: list) -> None:
-    """Sequence numbers have no gaps, and stamps increase."""
-    for messages in topics:
-        for before, after in itertools.pairwise(messages):
-            assert after.sequence == before.sequence + 1
-            assert Time.from_msg(after.header.stamp) > Time.from_msg(before.header.stamp)
 
 
 class Ticking:
