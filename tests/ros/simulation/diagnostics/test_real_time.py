@@ -10,7 +10,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin.base.diagnostics import diagnostics
 from planetary_twin.simulation.diagnostics.real_time import RealTimeReport
-from planetary_twin.simulation.live.interface import Progress, State
+from planetary_twin.simulation.progress import Progress, State
 from planetary_twin.simulation.publishing.stamps import Skip
 
 import planetary_twin_py as pt

@@ -17,13 +17,13 @@ from rclpy.timer import Timer
 from ..process.memory import return_freed_memory
 from ..process.signals import SIGNALS
 from .clock import STEADY
-from .duplicate_names import Namesakes
 from .parameter_node import ParameterNode
 from .parameters import AT_START, brief, declare
 
 NAMESPACE = "planetary_twin"
 _LOG_PERIOD = 1.0  # [s] between two log lines that a client can cause
-_TRIM_PERIOD = 1.0  # [s] between two returns of freed memory
+_NAMES_PERIOD = 60.0  # [s] discovery on a busy machine may lose a node and find it again
+_CARE_PERIOD = 1.0  # [s] between two returns of freed memory, and two looks at other nodes
 
 
 def shut_down(context: Context | None = None) -> None:
@@ -69,9 +69,9 @@ class ManagedNode(ParameterNode):
         self._autostart = bool(
             declare(self, "autostart", True, "configure and activate at the start", when=AT_START)
         )
-        self._namesakes = Namesakes(self)
+        self._namesakes = 0
         # This timer also wakes an executor that rclpy has woken before it shuts down ROS.
-        self.create_timer(_TRIM_PERIOD, return_freed_memory, clock=STEADY)
+        self.create_timer(_CARE_PERIOD, self._take_care, clock=STEADY)
 
     def configure(self) -> None:
         """Acquire the resources of a run."""
@@ -168,16 +168,10 @@ class ManagedNode(ParameterNode):
         return TransitionCallbackReturn.ERROR
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Lifecycle transition."""
-        return self._attempt(self._release)
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Lifecycle transition."""
-        return self._attempt(self._release)
-
-    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Release all resources, so that the node can be configured again."""
         return self._attempt(self._release)
+
+    on_shutdown = on_error = on_cleanup
 
     def _release(self) -> None:
         self.end_timers()
@@ -186,6 +180,19 @@ class ManagedNode(ParameterNode):
         finally:
             while self._publishers_here:
                 self.destroy_lifecycle_publisher(self._publishers_here.pop())
+
+    def _take_care(self) -> None:
+        """Return freed memory, and warn of another node with the same name: both would answer."""
+        return_freed_memory()
+        own = (self.get_name(), self.get_namespace())
+        known = self.get_node_names_and_namespaces().count(own)
+        before, self._namesakes = self._namesakes, max(known - 1, 0)  # it may discover itself late
+        if self._namesakes > before:
+            self.get_logger().warning(
+                f"another node is named {self.get_fully_qualified_name()}: either may answer a "
+                "service, and both publish on its topics; give each a namespace, -r __ns:=/NAME",
+                throttle_duration_sec=_NAMES_PERIOD,
+            )
 
     def _change_state_if_possible(
         self, request: ChangeState.Request, response: ChangeState.Response

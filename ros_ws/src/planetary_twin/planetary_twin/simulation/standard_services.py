@@ -9,12 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.node import Node
-
 from ..base.services import executed
-from .live.interface import State
 from .live.live_twin import LiveTwin
-from .time_services import SimulationControl
+from .progress import State
+from .running import RunningSimulation
 
 try:
     from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
@@ -35,14 +33,11 @@ class SimulationServices:
     """
     The services `~/get_simulator_features`, `~/get_simulation_state` and so on of `node`.
 
-    They act on `control` and need `AVAILABLE`. A step is one published interval.
+    They need `AVAILABLE`. A step is one published interval.
     """
 
-    def __init__(
-        self, node: Node, control: SimulationControl, interval: Callable[[], float]
-    ) -> None:
-        self._control = control
-        self._interval = interval
+    def __init__(self, node: RunningSimulation) -> None:
+        self._node = node
         node.create_service(GetSimulatorFeatures, "~/get_simulator_features", self._features)
         node.create_service(GetSimulationState, "~/get_simulation_state", self._get)
         node.create_service(SetSimulationState, "~/set_simulation_state", self._set)
@@ -79,7 +74,7 @@ class SimulationServices:
         return self._carried_out(response, lambda live: self._move(live, wanted))
 
     def _step(self, request: Any, response: Any) -> Any:
-        duration = request.steps * self._control.interval
+        duration = request.steps * self._node.interval
         return self._carried_out(response, lambda live: executed(live.step(duration)))
 
     def _reset(self, request: Any, response: Any) -> Any:
@@ -89,21 +84,21 @@ class SimulationServices:
         ):
             reason = f"scope = {request.scope}: must be 0 or 255; only all can be reset"
             return _refused(response, Result.RESULT_FEATURE_UNSUPPORTED, reason)
-        return self._carried_out(response, lambda live: executed(self._control.reset()))
+        return self._carried_out(response, lambda live: executed(self._node.reset()))
 
     def _move(self, live: LiveTwin, wanted: int) -> None:
         """Change the state of the time of `live` to `wanted`."""
         if wanted != SimulationState.STATE_PLAYING:
             executed(live.pause(True))
         if wanted == SimulationState.STATE_STOPPED:
-            executed(self._control.reset())
+            executed(self._node.reset())
         if wanted == SimulationState.STATE_PLAYING:
             executed(live.pause(False))
 
     def _state(self) -> int:
         """Return the state in terms of the package: a node that is not active has no world."""
         try:
-            progress = self._control.running().progress
+            progress = self._node.running().progress
         except ValueError:
             return int(SimulationState.STATE_NO_WORLD)
         if progress.state in (State.RUNNING, State.WAITING):
@@ -114,7 +109,7 @@ class SimulationServices:
 
     def _carried_out(self, response: Any, command: Callable[[LiveTwin], None]) -> Any:
         try:
-            live = self._control.running()
+            live = self._node.running()
         except ValueError as refusal:
             return _refused(response, Result.RESULT_INCORRECT_STATE, str(refusal))
         try:

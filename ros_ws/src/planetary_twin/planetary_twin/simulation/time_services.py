@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from concurrent.futures import Future
-from typing import Protocol
 
 from planetary_twin_msgs.srv import Step
-from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Twin
@@ -15,38 +12,7 @@ from planetary_twin_py.recording.ros2.given import joint_names
 
 from ..base.clock import set_stamp
 from ..base.services import answer, executed, serve_pause, serve_triggers
-from .live.live_twin import LiveTwin
-
-
-class SimulationControl(Protocol):
-    """The part of a simulation that its services use."""
-
-    @property
-    def live(self) -> LiveTwin | None:
-        """Return the live twin, or None unless the node is active."""
-
-    @property
-    def longest_wait(self) -> float:
-        """Longest wait for a command [s]."""
-
-    @property
-    def interval(self) -> float:
-        """Simulated time of a published interval [s]."""
-
-    def renew_quality(self) -> None:
-        """Apply the parameter `tolerance` to the live twin."""
-
-    def running(self) -> LiveTwin:
-        """Return the live twin; raises `ValueError` if there is none."""
-
-    def reset(self) -> Future[float]:
-        """Start again at simulated time zero; the future returns the instant [s]."""
-
-    def command(self, message: JointState) -> dict[str, float]:
-        """Return what a command gives at the ports, as arguments of `Twin.advance`."""
-
-    def stamp(self, instant: float) -> int:
-        """Return the ROS time [ns] of a simulated instant [s]."""
+from .running import RunningSimulation
 
 
 def show_ports(twin: Twin, message: JointState) -> None:
@@ -59,11 +25,11 @@ def show_ports(twin: Twin, message: JointState) -> None:
 
 
 class TimeServices:
-    """The services `~/pause`, `~/step` and `~/reset` of `node` for `control`."""
+    """The services `~/pause`, `~/step` and `~/reset` of `node`."""
 
-    def __init__(self, node: Node, control: SimulationControl) -> None:
-        self._control = control
-        serve_pause(node, lambda paused: control.running().pause(paused))
+    def __init__(self, node: RunningSimulation) -> None:
+        self._node = node
+        serve_pause(node, lambda paused: node.running().pause(paused))
         node.create_service(Step, "~/step", self._step)
         serve_triggers(node, {"reset": self._reset})
 
@@ -78,10 +44,8 @@ class TimeServices:
         def step() -> str:
             if request.commands and request.command.name:
                 raise ValueError("command: must be empty if there are commands")
-            each = [
-                self._control.command(every) for every in request.commands or [request.command]
-            ]
-            executed(self._control.running().step(request.duration, each, show))
+            each = [self._node.command(every) for every in request.commands or [request.command]]
+            executed(self._node.running().step(request.duration, each, show))
             return ""
 
         answer(response, step)
@@ -94,20 +58,20 @@ class TimeServices:
     def _date(self, response: Step.Response, instant: float) -> None:
         """Set the time of a response to a simulated instant [s]."""
         response.simulated_time = instant
-        set_stamp(response.stamp, self._control.stamp(instant))
+        set_stamp(response.stamp, self._node.stamp(instant))
 
     def _date_refusal(self, response: Step.Response) -> None:
         """Set the time of a response to the present one, which exists if the node is active."""
         with contextlib.suppress(ValueError):
-            self._date(response, self._control.running().progress.simulated)
+            self._date(response, self._node.running().progress.simulated)
 
     def _state(self, twin: Twin) -> JointState:
         """Return the present state of the shafts."""
         message = JointState()
-        set_stamp(message.header.stamp, self._control.stamp(twin.time))
+        set_stamp(message.header.stamp, self._node.stamp(twin.time))
         if not twin.scene.quasi_static:
             show_ports(twin, message)
         return message
 
     def _reset(self) -> str:
-        return f"starts again at {executed(self._control.reset()):.9g} s"
+        return f"starts again at {executed(self._node.reset()):.9g} s"

@@ -7,17 +7,18 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, Protocol
 
-from planetary_twin_py import Twin
+from planetary_twin_py import Twin, Window
 from planetary_twin_py.run.limits import RunawayError
 from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.scene.live import PORT_FIELDS
 
 from ...base.command_queue import CommandQueue
+from ..progress import Progress, State
 from ..publishing.publishers import Telemetry
+from ..shaft_commands import ShaftCommands
 from .hold import Hold
-from .interface import PortCommands, Progress, State, TwinNode
 from .pace import Pace
 from .ramps import Ramps
 from .turns import Turns
@@ -27,6 +28,28 @@ SHORTEST_STEP, LONGEST_STEP = 1e-6, 10.0  # [s] of a paused twin; stamps have wh
 _STOP_POLL = 0.1  # [s] between two checks of a halted twin whether it may run
 _ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
 _STOPPED = "the simulation has stopped"
+
+
+class TwinNode(Protocol):
+    """Callbacks of a live twin, in its thread, or in that of a command while it halts."""
+
+    def computed(self, window: Window) -> None:
+        """Receive a computed interval before the wall time of its end."""
+
+    def refused(self, reason: str) -> None:
+        """Receive the reason why a ramp ended early, or why a command had no effect."""
+
+    def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
+        """From simulated time `instant` [s], the setting of `quality` replaces `before`."""
+
+    def ready(self) -> bool:
+        """Return whether time can pass: for example, the clock to follow is available."""
+
+    def has_room(self) -> bool:
+        """Return whether the recorder has kept up and the next interval may be published."""
+
+    def stopped(self, defect: Exception) -> None:
+        """Receive the exception that ended the thread."""
 
 
 class LiveTwin:
@@ -53,7 +76,7 @@ class LiveTwin:
         quality: QualityControl,
         node: TwinNode,
         telemetry: Telemetry,
-        port_commands: PortCommands,
+        port_commands: ShaftCommands,
     ) -> None:
         self._twin = twin
         self._telemetry = telemetry
