@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,17 +19,13 @@ from ..base.lifecycle_node import ManagedNode, NodeError, shut_down
 from ..base.parameters import AT_ONCE, declare_settings, setting, settings_of
 from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from ..base.spin import run_node
-from .player import Excerpt, Player
+from .player import DISCOVERY, Excerpt, Player
 from .publishers import Outlets
 from .services import PlayingServices
 
-# Participants discover each other at once, or, if a packet of the first exchange was lost, at the
-# next announcement: every 3 s. An existing subscriber must not miss the first messages.
-_DISCOVERY = 4.0  # [s]
 # Longest wait for subscribers to acknowledge the last messages; one that was killed never does.
 _DELIVERY = 30.0  # [s]
 _LONGEST = 1e7  # [s]
-_SHOW_PERIOD = 0.1  # [s]
 _RATE = "rate_factor"
 
 
@@ -99,9 +94,6 @@ class Replay(ManagedNode):
         self._active = False
         self._begin = self._end = 0  # [ns]
         self._warned = 0  # number of damages
-        self._opened = 0.0
-        self._played = 0
-        self._shown = 0.0
         PlayingServices(self, self._playing, self._stamp)
 
     def configure(self) -> None:
@@ -111,7 +103,7 @@ class Replay(ManagedNode):
             raise NodeError("file is not given: -p file:=RECORDING")
         chosen = [topic for topic in given.topics if topic]
         playback = self._playback = Playback(Path(given.file).expanduser(), chosen)
-        self._warned = self._played = 0
+        self._warned = 0
         self._warn_of_damage()
         self._begin, self._end = self._excerpt(playback)
         # A bag may contain topics without messages, whose types may not be installed here.
@@ -125,20 +117,20 @@ class Replay(ManagedNode):
             )
         own = {name: name for name in topics}
         names = moved(topics, given.namespace) if given.namespace else own
-        self._outlets = Outlets(self, topics.values(), names)
-        self._opened = time.monotonic()
+        outlets = self._outlets = Outlets(self, topics.values(), names)
         excerpt = Excerpt(
             self._begin,
             self._end,
             given.loop,
             lambda begin: self._messages(playback, begin, ticking),
         )
-        self._player = Player(excerpt, given.start_paused, self)
+        callbacks = self._show, self._announce, self._finish
+        self._player = Player(excerpt, given.start_paused, outlets, *callbacks)
 
     def activate(self) -> None:
         """Start after the time for discovery, or continue."""
-        if not self.ready():
-            self._display.say(f"waiting {_DISCOVERY:g} s for subscribers")
+        if not self._player.ready:
+            self._display.say(f"waiting {DISCOVERY:g} s for subscribers")
         self._player.start(self.get_parameter(_RATE).value)
         self._active = True
 
@@ -155,16 +147,12 @@ class Replay(ManagedNode):
         self._active = False
         player.stop()
         self._display.say(
-            f"replayed {self._played} messages, at most {player.lateness * 1e3:.1f} ms late"
+            f"replayed {player.played} messages, at most {player.lateness * 1e3:.1f} ms late"
         )
 
     # Called by the player, in its thread.
 
-    def ready(self) -> bool:
-        """Return whether the time for discovery is over."""
-        return time.monotonic() - self._opened > _DISCOVERY
-
-    def begin(self) -> None:
+    def _announce(self) -> None:
         """Report what is played, and topics that have other publishers."""
         length = (self._end - self._begin) * 1e-9
         self._display.say(
@@ -175,27 +163,15 @@ class Replay(ManagedNode):
                 f"other publishers exist, subscribers receive both: {', '.join(shared)}"
             )
 
-    def has_room(self, message: TimedMessage) -> bool:
-        """Return whether `message` overwrites no unacknowledged message."""
-        return self._outlets.has_room(message)
+    def _show(self, instant: int) -> None:
+        self._display.move(instant * 1e-9, self._end * 1e-9)
 
-    def play(self, message: TimedMessage) -> None:
-        """Publish a message as it was recorded."""
-        self._outlets.publish(message)
-        self._played += 1
-        now = time.monotonic()
-        if now - self._shown > _SHOW_PERIOD:
-            self._shown = now
-            self._display.move(message.time * 1e-9, self._end * 1e-9)
-
-    def ended(self) -> None:
-        """End the process once subscribers have acknowledged the last messages."""
-        self._outlets.wait(_DELIVERY)
-        shut_down(self.context)
-
-    def stopped(self, defect: Exception) -> None:
-        """End the process with the reason, unless a signal has shut down ROS."""
-        if self.context.ok():
+    def _finish(self, defect: Exception | None) -> None:
+        """End the process once the last messages are acknowledged, or with the reason."""
+        if defect is None:
+            self._outlets.wait(_DELIVERY)
+            shut_down(self.context)
+        elif self.context.ok():
             self.fail(f"{self._given.file}: {type(defect).__name__}: {defect}")
 
     def _playing(self) -> Player:
