@@ -129,9 +129,10 @@ class Plant(ManagedNode):
             if math.isnan(begin):
                 begin = time.monotonic() - one.time
                 origin = self.get_clock().now().nanoseconds - round(one.time * 1e9)
-            message = self._messages.message(one, origin)
             if self._stop.wait(max(begin + one.time - time.monotonic(), 0.0)):
+                self._measured = itertools.chain([one], self._measured)
                 return False
+            message = self._messages.message(one, origin)
             self._outlets[type(message)].publish(message)
         return True
 
