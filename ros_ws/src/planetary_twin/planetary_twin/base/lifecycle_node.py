@@ -62,7 +62,7 @@ class ManagedNode(ParameterNode):
         self._reason = ""
         self._broken = ""
         self._starting = False
-        self._publishers_here: list[LifecyclePublisher] = []
+        self._configured_publishers: list[LifecyclePublisher] = []
         self._ticking: list[Timer] = []
         service = self.service_of(ChangeState)
         self._change_state, service.callback = service.callback, self._change_state_if_possible
@@ -70,7 +70,7 @@ class ManagedNode(ParameterNode):
             declare(self, "autostart", True, "configure and activate at the start", when=AT_START)
         )
         self._namesakes = 0
-        # This timer also wakes an executor that rclpy has woken before it shuts down ROS.
+        # This timer also wakes an executor that rclpy woke before it shut down ROS (test_waking.py).
         self.create_timer(_CARE_PERIOD, self._take_care, clock=STEADY)
 
     def configure(self) -> None:
@@ -100,8 +100,8 @@ class ManagedNode(ParameterNode):
 
     def outlet(self, kind: type, topic: str, qos: QoSProfile | int = 10) -> LifecyclePublisher:
         """Create a publisher for the time until the node is cleaned up."""
-        self._publishers_here.append(self.create_lifecycle_publisher(kind, topic, qos))
-        return self._publishers_here[-1]
+        self._configured_publishers.append(self.create_lifecycle_publisher(kind, topic, qos))
+        return self._configured_publishers[-1]
 
     def every(self, period: float, work: Callable[[], None]) -> None:
         """Call `work` every `period` [s] of the steady clock, until the node is deactivated."""
@@ -178,8 +178,8 @@ class ManagedNode(ParameterNode):
         try:
             self.close()
         finally:
-            while self._publishers_here:
-                self.destroy_lifecycle_publisher(self._publishers_here.pop())
+            while self._configured_publishers:
+                self.destroy_lifecycle_publisher(self._configured_publishers.pop())
 
     def _take_care(self) -> None:
         """Return freed memory, and warn of another node with the same name: both would answer."""

@@ -45,7 +45,6 @@ class Operator(RunClient):
         self._advanced = 0.0  # [s] when the newest state was received
         self._answered = 0.0  # [s] when a state was last received or expected
         self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, _QUEUED)
-        self.subscribe()
 
     def next_state(self, after: int, seconds: float) -> GearboxState | None:
         """

@@ -75,7 +75,6 @@ class FollowerListener(RunClient):
         subscribe(FollowerEvent, "follower/event", self._on_event, LATCHED)
         subscribe(JointState, "measured/joint_states", self._on_joints, 10)
         self.keep("teeth", FollowerTeeth, "follower/teeth", 100)
-        self.subscribe()
 
     def finish(self) -> None:
         """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
@@ -17,10 +18,9 @@ _REPEAT = 10.0  # [s] then ask again: the response may have been lost
 class RunClient(Client):
     """Keeps the newest status of the logger, see `Client`."""
 
-    recorder = RecorderStatus()
-
-    def subscribe(self) -> None:
-        """Subscribe to the reports of the nodes."""
+    def __init__(self, name: str, namespace: str, watch: Callable[[], None]) -> None:
+        super().__init__(name, namespace, watch)
+        self.recorder = RecorderStatus()
         self.node.create_subscription(RecorderStatus, "logger/status", self.on_status, 10)
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self.on_diagnostics, 100)
 
