@@ -70,7 +70,7 @@ class ManagedNode(ParameterNode):
             declare(self, "autostart", True, "configure and activate at the start", when=AT_START)
         )
         self._namesakes = 0
-        # This timer also wakes an executor that rclpy woke before it shut down ROS (test_waking.py).
+        # It also wakes an executor that rclpy woke before it shut down ROS (test_waking.py).
         self.create_timer(_CARE_PERIOD, self._take_care, clock=STEADY)
 
     def configure(self) -> None:
