@@ -107,7 +107,7 @@ class SimulationServices:
             return int(SimulationState.STATE_STOPPED)
         return int(SimulationState.STATE_PAUSED)
 
-    def _carried_out(self, response: Any, command: Callable[[LiveTwin], None]) -> Any:
+    def _carried_out(self, response: Any, command: Callable[[LiveTwin], object]) -> Any:
         try:
             live = self._node.running()
         except ValueError as refusal:

@@ -59,7 +59,7 @@ class Telemetry:
         self._node = node
         settings = given.settings
         self._kept = round(STALL * settings.publish_rate)
-        self._published = Counter(before._published if before else {})  # by topic
+        self._published: Counter[str] = Counter(before._published if before else {})  # by topic
         self._streams: dict[LifecyclePublisher, Any] = {}  # messages about intervals
         self._open_streams(given)
         # Late subscribers receive these, too, in order.
