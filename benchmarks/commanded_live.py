@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.base.diagnostics import real_time_figures
 from planetary_twin.clients.client import Client
 from planetary_twin.clients.loopback import stay_on_this_machine
-from planetary_twin.clients.real_time_figures import real_time_figures
 from planetary_twin.running.node_process import Child
 from planetary_twin_live.figures import Quantiles
 from planetary_twin_live.process import processor_time

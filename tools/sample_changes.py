@@ -35,16 +35,16 @@ def main() -> None:
         newest[0] = state.simulated_time
 
     with Client("changes", "/planetary_twin") as client:
-        service = client.node.create_client(SetOperatingPoint, "simulation/set_operating_point")
-        wait(client, service.service_is_ready)
+        kind, service = SetOperatingPoint, "simulation/set_operating_point"
+        wait(client, lambda: client.serves(kind, service))
         client.node.create_subscription(GearboxState, TOPIC, keep, 10)
         transition(client, "configure")
         wait(client, lambda: client.node.count_subscribers(TOPIC) >= SUBSCRIBERS)
         transition(client, "activate")
         for instant, values in CHANGES.items():
             wait(client, partial(reached, newest, instant))
-            request = SetOperatingPoint.Request(names=list(values), values=list(values.values()))
-            answer = client.call(service, request)
+            request = kind.Request(names=list(values), values=list(values.values()))
+            answer = client.call(kind, service, request)
             if answer is None or not answer.success:
                 raise SystemExit(f"{values}: {answer.message if answer else 'no answer'}")
         wait(client, partial(reached, newest, END))
@@ -52,11 +52,11 @@ def main() -> None:
 
 def transition(client: Client, label: str) -> None:
     """Change the lifecycle state of the simulation."""
-    service = client.node.create_client(ChangeState, "simulation/change_state")
-    wait(client, service.service_is_ready)
+    service = "simulation/change_state"
+    wait(client, lambda: client.serves(ChangeState, service))
     request = ChangeState.Request()
     request.transition.label = label
-    answer = client.call(service, request, STARTS)
+    answer = client.call(ChangeState, service, request, STARTS)
     if answer is None or not answer.success:
         raise SystemExit(f"{label}: failed")
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.base.diagnostics import real_time_figures
 from planetary_twin.clients.client import Client
-from planetary_twin.clients.real_time_figures import real_time_figures
 from planetary_twin.running.node_process import Child, RunError
 from planetary_twin_msgs.msg import GearboxState
 from rcl_interfaces.srv import SetParametersAtomically

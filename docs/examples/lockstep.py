@@ -1,4 +1,4 @@
-"""Steps a running twin in lockstep: the scene driven.yaml of docs/howto/drive-from-outside.md."""
+"""Steps a running twin in lockstep: the scene driven.yaml of docs/howto/robot.md."""
 
 import time
 from typing import Any

@@ -19,6 +19,8 @@ from typing import IO, Any
 
 import pytest
 
+from .peer import LONG
+
 _WARM = multiprocessing.get_context("forkserver")
 
 
@@ -172,3 +174,19 @@ def _run(
         program = importlib.import_module(f"{module}.node")
     sys.argv = [str(program.__file__), *arguments]
     sys.exit(program.main())
+
+
+def ended(process: Program | subprocess.Popen[str], code: int = 0) -> str:
+    """Its standard error, once it has ended with `code` and without a traceback."""
+    _, errors = process.communicate(timeout=LONG)
+    assert process.returncode == code, errors
+    assert "Traceback" not in errors
+    return errors
+
+
+def refuses(process: Program | subprocess.Popen[str], *reasons: str, code: int = 1) -> str:
+    """The one line with which it ends, which contains the reasons."""
+    errors = ended(process, code)
+    (line,) = [line for line in errors.strip().splitlines() if "[INFO]" not in line]
+    assert all(reason in line for reason in reasons), line
+    return line

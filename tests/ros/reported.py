@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 import signal
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint, RecorderStatus
+from rclpy.time import Time
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status
@@ -27,6 +30,14 @@ def check_verified(logger: Program, folder: Path) -> None:
     logger.communicate(timeout=LONG)
     verdict = verify(folder, TWIN)
     assert verdict.identical, verdict
+
+
+def check_rising(*topics: Sequence[Any]) -> None:
+    """Sequence numbers have no gaps, and stamps increase."""
+    for messages in topics:
+        for before, after in itertools.pairwise(messages):
+            assert after.sequence == before.sequence + 1
+            assert Time.from_msg(after.header.stamp) > Time.from_msg(before.header.stamp)
 
 
 def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:

@@ -1,26 +1,24 @@
-"""Simulation and logger share a process without losing messages, and end together."""
+"""Nodes in one process and twins side by side: nothing is lost, and they end together or warn."""
 
 from __future__ import annotations
 
 import contextlib
 import signal
 import subprocess
-from pathlib import Path
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
-from .conftest import Start
-from .peer import LONG, TWIN, Peer
+from .peer import LONG, TWIN
+from .programs import ended
 from .recordings import counts
 from .reported import recorded
 
 STATES = f"{TWIN}/gearbox_state"
 
 
-def test_every_message_is_recorded_until_signals_end_it(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_every_message_is_recorded_until_signals_end_it(peer, start, tmp_path):
     twin = start("planetary_twin.twin", name="bag")
     states = peer.listen(GearboxState, STATES, 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
@@ -46,13 +44,43 @@ def test_every_message_is_recorded_until_signals_end_it(
         ("input_torque:=1e9", "simulation: "),
     ],
 )
-def test_a_node_that_cannot_start_ends_both_with_one_line(
-    start: Start, tmp_path: Path, setting: str, reason: str
-) -> None:
+def test_a_node_that_cannot_start_ends_both_with_one_line(start, tmp_path, setting, reason):
     (tmp_path / "file").write_text("in the way")
     twin = start("planetary_twin.twin", "--ros-args", "-p", setting)
-    _, errors = twin.communicate(timeout=LONG)
-    assert twin.returncode == 1
+    errors = ended(twin, 1)
     lines = [line for line in errors.strip().splitlines() if "[INFO]" not in line]
     assert len(lines) == 1 and lines[0].startswith(reason), errors
     assert setting.partition(":=")[0] in lines[0]
+
+
+def test_statuses_of_twins_have_distinct_names(peer, start):
+    for side in ("left", "right"):
+        start("planetary_twin.simulation", "--ros-args", "-r", f"__ns:=/{side}")
+        start("planetary_twin.logger", "--ros-args", "-r", f"__ns:=/{side}")
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+
+    def names(side: str) -> set[str]:
+        statuses = (status for report in reports for status in report.status)
+        return {status.name for status in statuses if status.hardware_id == f"/{side}"}
+
+    simulation = ("real time", "energy ledger", "accuracy")
+    tasks = (*(f"simulation: {task}" for task in simulation), "logger: recording")
+    peer.until(lambda: len(names("left")) == len(names("right")) == len(tasks))
+    for side in ("left", "right"):
+        assert names(side) == {f"{side}/{task}" for task in tasks}
+
+
+def test_two_twins_of_one_name_both_warn_and_give_the_remedy(peer, start):
+    twins = [start("planetary_twin.simulation") for _ in range(2)]
+    own = ("simulation", TWIN)
+    peer.until(lambda: peer.node.get_node_names_and_namespaces().count(own) == 2)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(states) > 600)  # three seconds of both
+    for twin in twins:
+        twin.terminate()
+    for twin in twins:
+        _, log = twin.communicate(timeout=LONG)
+        warned = [line for line in log.splitlines() if "another node is named" in line]
+        assert len(warned) == 1 and "[WARN]" in warned[0]
+        assert f"{TWIN}/simulation" in warned[0] and "-r __ns:=" in warned[0]
+        assert "gearbox_state has another publisher" in log

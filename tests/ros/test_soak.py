@@ -17,8 +17,7 @@ from planetary_twin_msgs.msg import GearboxState, MeshWaveform, RecorderStatus
 from rclpy.serialization import deserialize_message
 from rosbags.rosbag2 import Reader
 
-from .conftest import Start
-from .peer import LONG, TWIN, Peer
+from .peer import LONG, TWIN
 from .reported import figures, listen_to_reports, published
 
 DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
@@ -59,9 +58,7 @@ def check_recording(folder: Path, reported: dict[str, str], lost: dict[str, int]
 
 
 @pytest.mark.timeout(DURATION + 300.0)
-def test_a_long_run_neither_grows_nor_loses_nor_is_late(
-    peer: Peer, start: Start, tmp_path: Path, record_property
-) -> None:
+def test_a_long_run_neither_grows_nor_loses_nor_is_late(peer, start, tmp_path, record_property):
     logger = start("planetary_twin.logger", name="bag")
     process = start("planetary_twin.simulation", autostart="false")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status", 1)

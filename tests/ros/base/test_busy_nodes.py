@@ -15,7 +15,6 @@ from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
 
-from ..conftest import Start
 from ..peer import TWIN, Peer
 
 HERE = Path(__file__).parents[1]
@@ -33,7 +32,7 @@ def assert_answers(peer: Peer, node: str, parameter: str) -> None:
     assert len(answers.splitlines()) == REQUESTS
 
 
-def test_a_replay_as_fast_as_possible_answers(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_replay_as_fast_as_possible_answers(peer, start, tmp_path):
     bag = BagWriter(tmp_path / "bag")
     kind = "std_msgs/msg/String"
     channel = bag.add_topic(Topic(NUMBERS, kind, "", message_definition(kind)))
@@ -51,7 +50,7 @@ def test_a_replay_as_fast_as_possible_answers(peer: Peer, start: Start, tmp_path
     assert peer.set(node, rate_factor=1.0).successful
 
 
-def test_a_simulation_as_fast_as_possible_answers(peer: Peer, start: Start) -> None:
+def test_a_simulation_as_fast_as_possible_answers(peer, start):
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     start("planetary_twin.simulation", rate_factor=0.0)
@@ -63,7 +62,7 @@ def test_a_simulation_as_fast_as_possible_answers(peer: Peer, start: Start) -> N
     assert peer.set(node, backlash=3e-7).successful
 
 
-def test_an_overloaded_logger_answers(peer: Peer, start: Start) -> None:
+def test_an_overloaded_logger_answers(peer, start):
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     start("planetary_twin.logger", topics=f"['{NUMBERS}']")
     count, size, depth = map(str, (10**9, 400, 1000))

@@ -31,7 +31,7 @@ def execute(commands: CommandQueue) -> None:
         answer()
 
 
-def test_changes_between_two_intervals_are_merged() -> None:
+def test_changes_between_two_intervals_are_merged():
     twin = Twin()
     commands = CommandQueue(twin.change)
     futures = [commands.change({"backlash": float(n), f"other_{n}": 1.0}) for n in range(3)]
@@ -43,7 +43,7 @@ def test_changes_between_two_intervals_are_merged() -> None:
     assert twin.executed[1:] == [{"backlash": 7.0}] and later.result(0) == 2.0
 
 
-def test_no_change_overtakes_another_command() -> None:
+def test_no_change_overtakes_another_command():
     twin = Twin()
     commands = CommandQueue(twin.change)
     commands.change({"backlash": 1.0})
@@ -53,7 +53,7 @@ def test_no_change_overtakes_another_command() -> None:
     assert twin.executed == [{"backlash": 1.0}, "pause", {"backlash": 2.0}]
 
 
-def test_commands_given_during_execution_wait_for_the_next_one() -> None:
+def test_commands_given_during_execution_wait_for_the_next_one():
     twin = Twin()
     commands = CommandQueue(twin.change)
 
@@ -66,7 +66,7 @@ def test_commands_given_during_execution_wait_for_the_next_one() -> None:
     assert twin.executed == ["pause"]
 
 
-def test_a_refusal_reaches_the_caller_and_a_defect_the_twin_too() -> None:
+def test_a_refusal_reaches_the_caller_and_a_defect_the_twin_too():
     twin = Twin()
     commands = CommandQueue(twin.change)
     refused = commands.change({"backlash": -1.0})

@@ -18,7 +18,6 @@ from rcl_interfaces.srv import (
 )
 from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
 
-from ..conftest import Start
 from ..peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
@@ -59,7 +58,7 @@ def set_all(peer: Peer, parameters: list[Parameter]) -> SetParametersResult:
     return peer.call(SetParametersAtomically, f"{NODE}/set_parameters_atomically", request).result
 
 
-def test_a_dumped_file_restores_its_values(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_dumped_file_restores_its_values(peer, start, tmp_path):
     first = start("planetary_twin.simulation", **TYPED)
     file = tmp_path / "dumped.yaml"
     dumped = dump(peer, file)
@@ -105,7 +104,7 @@ def test_a_dumped_file_restores_its_values(peer: Peer, start: Start, tmp_path: P
         assert values(peer) == changed
 
 
-def test_only_unknown_start_parameters_cause_a_warning(peer: Peer, start: Start) -> None:
+def test_only_unknown_start_parameters_cause_a_warning(peer, start):
     """All parameters of the packaged file are known."""
     config = Path(get_package_share_directory("planetary_twin")) / "config" / "paper.yaml"
     given = ("--ros-args", "--params-file", str(config))

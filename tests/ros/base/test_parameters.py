@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import get_args
 
-from planetary_twin_msgs.msg import OperatingPoint
 from planetary_twin_msgs.srv import SetOperatingPoint
 from pydantic import BaseModel
 from rcl_interfaces.msg import ParameterDescriptor
@@ -15,8 +14,8 @@ from rclpy.parameter import parameter_value_to_python
 import planetary_twin_py as pt
 from planetary_twin_py.scene.drive import Causality
 
-from ..conftest import Start
-from ..peer import LONG, TWIN, Peer
+from ..peer import TWIN, Peer
+from ..programs import ended
 
 NODE = f"{TWIN}/simulation"
 BEFORE = ("autostart", "scene")  # the others depend on these
@@ -39,9 +38,7 @@ def described(peer: Peer) -> dict[str, ParameterDescriptor]:
     return dict(zip(names.result.names, answer.descriptors, strict=True))
 
 
-def test_every_parameter_has_a_description_and_constraints(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_every_parameter_has_a_description_and_constraints(user, points):
     own = {name: descriptor for name, descriptor in described(user).items() if name not in ROS}
     for name, descriptor in own.items():
         assert (
@@ -60,7 +57,7 @@ def test_every_parameter_has_a_description_and_constraints(
         assert set(named.split(", ")) == allowed
 
 
-def test_changeable_parameters_are_listed_first(user: Peer, points: list[OperatingPoint]) -> None:
+def test_changeable_parameters_are_listed_first(user, points):
     """Tools such as rqt_reconfigure show parameters in the order in which a node lists them."""
     own = [
         descriptor for name, descriptor in described(user).items() if name not in (*ROS, *BEFORE)
@@ -69,9 +66,7 @@ def test_changeable_parameters_are_listed_first(user: Peer, points: list[Operati
     assert changing == sorted(changing, reverse=True) and changing[0] and not changing[-1]
 
 
-def test_geometry_is_that_of_the_scene_and_cannot_be_set(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_geometry_is_that_of_the_scene_and_cannot_be_set(user, points):
     every = leaves("gearset", pt.load_scene("paper").gearset)
     geometry = {name: value for name, value in every.items() if value is not None}
     descriptors = described(user)
@@ -100,6 +95,13 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
         ("tolerance = 0.5: must be a number within 0 and 0.1 (", "1e-08 to 0.1; 0:"),
     ),
     ("backlash", -math.inf, ("-inf", "0.001")),
+    ("backlash", 1.0, ("1.0", "0.001")),
+    ("lambda_ratio", True, ("True", "number")),
+    ("lambda_ratio", "inf", ("inf", "10")),
+    ("tolerance", 5e-09, ("5e-09", "1e-08")),
+    ("tolerance", math.nan, ("nan",)),
+    ("tolerance", "tight", ("'tight'", "number")),
+    ("scene", "other", ("'other'", "fixed")),
     ("lambda_ratio", 10.5, ("10.5", "10")),
     ("lambda_ratio", "1 000", ("'1 000'", "number")),
     ("oil_temperature", 20, ("20", "233.15")),
@@ -110,19 +112,20 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
 )
 
 
-def test_a_refusal_names_field_value_and_range(user: Peer, points: list[OperatingPoint]) -> None:
+def test_a_refusal_names_field_value_and_range(user, points):
     for name, value, reason in REFUSED:
         for given in ({name: value}, {"torque_ripple": 1.0, name: value}):
             result = user.set(NODE, atomically=len(given) == 2, **given)
             assert not result.successful
             assert all(part in result.reason for part in (name, *reason)), result.reason
+    assert len(points) == 1
     assert user.get(NODE, "torque_ripple") == 0.0
     assert user.set(NODE, torque_ripple=0.5).successful
     user.until(lambda: len(points) == 2)
     assert points[-1].changed == "torque_ripple"
 
 
-def test_a_quantity_without_effect_comes_with_a_remark(peer: Peer, start: Start) -> None:
+def test_a_quantity_without_effect_comes_with_a_remark(peer, start):
     start("planetary_twin.simulation", scene="wind_turbine_stage")
     remark = "lambda_ratio: has no effect: the scene computes it"
     result = peer.set(NODE, lambda_ratio=1.2)
@@ -134,9 +137,8 @@ def test_a_quantity_without_effect_comes_with_a_remark(peer: Peer, start: Start)
     assert answer.success and answer.message.startswith(remark)
 
 
-def test_a_start_value_of_the_geometry_must_be_the_scene_s(start: Start) -> None:
+def test_a_start_value_of_the_geometry_must_be_the_scene_s(start):
     process = start("planetary_twin.simulation", "--ros-args", "-p", "gearset.teeth.sun:=31")
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
+    errors = ended(process, 1)
     assert errors.startswith("simulation: gearset.teeth.sun = 31: geometry is fixed")
     assert len(errors.strip().splitlines()) == 1

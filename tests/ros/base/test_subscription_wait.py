@@ -11,7 +11,6 @@ from planetary_twin.base.subscription_wait import RECORDER, TIMEOUT, Subscriptio
 from planetary_twin.base.topics import UNKNOWN_NODE
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
-from ..conftest import Start
 from ..peer import LONG, TWIN, Peer
 from ..reported import figures, listen_to_reports, recorded
 
@@ -25,14 +24,14 @@ def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderSt
     return status[-1]
 
 
-def test_nodes_that_start_together_record_every_message(peer: Peer, start: Start) -> None:
+def test_nodes_that_start_together_record_every_message(peer, start):
     start("planetary_twin.logger")
     start("planetary_twin.simulation", wait_for="logger")
     status = accounted(peer)
     assert not any(status.lost)
 
 
-def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer: Peer, start: Start) -> None:
+def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer, start):
     start("planetary_twin.simulation", wait_for="logger")
     reports = listen_to_reports(peer)
     peer.until(lambda: figures(reports).get("state") == "waits")
@@ -42,7 +41,7 @@ def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer: Peer, star
     assert not any(status.lost)
 
 
-def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) -> None:
+def test_a_twin_without_its_logger_warns_and_starts(peer, start):
     simulation = start("planetary_twin.simulation", wait_for="nobody")
     states = peer.listen(GearboxState, STATES)
     peer.until(lambda: states, TIMEOUT + 60.0)
@@ -51,7 +50,7 @@ def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) ->
     assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
 
 
-def test_a_recorder_that_has_gone_is_an_error(peer: Peer, start: Start) -> None:
+def test_a_recorder_that_has_gone_is_an_error(peer, start):
     logger = start("planetary_twin.logger")
     start("planetary_twin.simulation", wait_for="logger")
     arrays = peer.listen(DiagnosticArray, "/diagnostics")
@@ -109,17 +108,13 @@ def waited(
     return clock.now - 100.0
 
 
-def test_a_subscription_of_an_unknown_node_ends_the_wait(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_subscription_of_an_unknown_node_ends_the_wait(monkeypatch, capsys):
     assert waited(monkeypatch, "logger") < 1.0
     assert 3.0 < waited(monkeypatch, UNKNOWN_NODE) < 4.0
     assert "has not subscribed" not in capsys.readouterr().out
 
 
-def test_a_logger_that_subscribes_slowly_is_waited_for(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_logger_that_subscribes_slowly_is_waited_for(monkeypatch):
     """And one that has subscribed to all is waited for no longer."""
     delays = {STATES: 0.0, "/tf": 0.9, "/diagnostics": 1.8, f"{TWIN}/joint_states": 4.0}
     assert 4.0 <= waited(monkeypatch, "logger", delays=delays) < 4.2
@@ -129,14 +124,12 @@ def test_a_logger_that_subscribes_slowly_is_waited_for(
     assert 4.0 <= waited(monkeypatch, "logger", delays=few) < 4.3
 
 
-def test_a_subscription_of_another_node_does_not_end_the_wait(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_subscription_of_another_node_does_not_end_the_wait(monkeypatch, capsys):
     assert waited(monkeypatch, "rviz") > TIMEOUT
     assert "has not subscribed" in capsys.readouterr().out
 
 
-def test_a_node_outside_the_namespace_is_named_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_node_outside_the_namespace_is_named_in_full(monkeypatch):
     """Rosbag2 runs as /rosbag2_recorder, and `ros2 bag record` sets no namespace."""
     assert waited(monkeypatch, "rosbag2_recorder", "/", "/rosbag2_recorder") < 1.0
     assert waited(monkeypatch, "logger", "/") > TIMEOUT

@@ -4,25 +4,21 @@ import subprocess
 import sys
 
 PROGRAM = """
-import os, signal, threading, time
+import threading, time
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.signals import SignalHandlerOptions
-from planetary_twin.base.spin import wake_after_shutdown
-from planetary_twin.process.signals import SIGNALS
+from planetary_twin.base.lifecycle_node import ManagedNode
 
 def as_rclpy_does(executor):
     time.sleep(0.2)
-    os.kill(os.getpid(), signal.SIGTERM)
     executor.wake()
     time.sleep(0.2)  # in which it goes back to waiting
     rclpy.get_default_context().handle.shutdown()
 
-SIGNALS.install()
-rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+rclpy.init()
 executor = SingleThreadedExecutor()
+executor.add_node(ManagedNode("idle"))
 threading.Thread(target=as_rclpy_does, args=[executor]).start()
-threading.Thread(target=wake_after_shutdown, args=[[executor]]).start()
 try:
     executor.spin()
 except ExternalShutdownException:
@@ -31,7 +27,7 @@ print("ended")
 """
 
 
-def test_an_executor_that_wakes_before_ros_is_shut_down_ends_too(domain: int) -> None:
+def test_an_executor_that_wakes_before_ros_is_shut_down_ends_too(domain):
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=30, check=True
     )

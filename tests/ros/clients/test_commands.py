@@ -8,10 +8,9 @@ from pathlib import Path
 from subprocess import CompletedProcess
 
 import pytest
-from planetary_twin.clients.monitor import FIGURES, sparkline
-from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from planetary_twin.clients.monitor import FIGURES, beside_rows, pairs, sparkline
+from planetary_twin_msgs.msg import FollowerEstimate, FollowerEvent, GearboxState
 
-from ..peer import Peer
 from ..programs import Forked
 
 Command = Callable[..., CompletedProcess[str]]
@@ -30,9 +29,7 @@ def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Command:
     return run
 
 
-def test_values_may_have_units_and_the_result_is_printed(
-    command: Command, user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_values_may_have_units_and_the_result_is_printed(command, user, points):
     answer = command("param", "set", "backlash", "0.3 um")
     assert (answer.returncode, answer.stdout.strip()) == (
         0,
@@ -51,34 +48,28 @@ def test_values_may_have_units_and_the_result_is_printed(
     assert answer.stderr.strip() == f"planetary-twin: {echo}"
 
 
-def test_without_a_twin_in_the_namespace_others_are_named(
-    command: Command, points: list[OperatingPoint]
-) -> None:
+def test_without_a_twin_in_the_namespace_others_are_named(command, points):
     assert points
     answer = command("param", "get", "backlash", "--namespace", "/elsewhere")
     assert answer.returncode != 0 and answer.stderr.count("\n") == 1
     assert "there is one in /planetary_twin: choose with --namespace" in answer.stderr
 
 
-def test_a_mistyped_name_is_refused_with_a_similar_one(
-    command: Command, points: list[OperatingPoint]
-) -> None:
+def test_a_mistyped_name_is_refused_with_a_similar_one(command, points):
     assert points
     answer = command("param", "set", "backlas", "1")
     assert answer.returncode != 0 and answer.stderr.count("\n") == 1
     assert "backlas: no such parameter; did you mean backlash?" in answer.stderr
 
 
-def test_values_may_be_negative(command: Command, points: list[OperatingPoint]) -> None:
+def test_values_may_be_negative(command, points):
     for typed in ("-104 rad/s", "-104", "-1e2"):
         answer = command("param", "set", "input_speed", typed)
         assert answer.returncode == 0, answer.stderr
     assert answer.stdout == "input_speed = -100 rad/s (-954.9 rpm)\n"
 
 
-def test_every_parameter_is_listed_with_its_range(
-    command: Command, points: list[OperatingPoint]
-) -> None:
+def test_every_parameter_is_listed_with_its_range(command, points):
     listed = command("param", "list").stdout
     for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
         assert words in listed
@@ -91,7 +82,7 @@ def test_every_parameter_is_listed_with_its_range(
     assert "0 to 0.001" in line and line.rstrip().endswith("[m]")
 
 
-def test_invalid_arguments_end_in_one_line(command: Command, points: list[OperatingPoint]) -> None:
+def test_invalid_arguments_end_in_one_line(command, points):
     for arguments, reason in (
         (("param", "set", "backlash", "3"), "backlash"),
         (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
@@ -115,13 +106,13 @@ def test_invalid_arguments_end_in_one_line(command: Command, points: list[Operat
     assert len(points) == 1
 
 
-def test_a_command_reports_that_no_twin_runs(command: Command, domain: int) -> None:
+def test_a_command_reports_that_no_twin_runs(command, domain):
     for arguments in (("param", "list"), ("monitor",)):
         answer = command(*arguments)
         assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
 
 
-def test_a_duration_too_short_to_watch_is_refused_in_one_line(command: Command) -> None:
+def test_a_duration_too_short_to_watch_is_refused_in_one_line(command):
     for duration in ("0.01", "-1", "nan"):
         answer = command("monitor", "--duration", duration)
         assert answer.returncode == 2
@@ -129,7 +120,7 @@ def test_a_duration_too_short_to_watch_is_refused_in_one_line(command: Command) 
         assert line.endswith(f"--duration = {float(duration):g} s: must be at least 0.1 s")
 
 
-def test_the_monitor_shows_every_figure(command: Command, points: list[OperatingPoint]) -> None:
+def test_the_monitor_shows_every_figure(command, points):
     answer = command("monitor", "--duration", "2.5")
     assert answer.returncode == 0, answer.stderr
     for figure in FIGURES:
@@ -138,7 +129,7 @@ def test_the_monitor_shows_every_figure(command: Command, points: list[Operating
     assert "1000 " in answer.stdout and "Mesh cycles" in answer.stdout
 
 
-def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan() -> None:
+def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan():
     assert sparkline([0.0, 7.0, math.nan, 3.5]) == "▁█ ▅"
     assert sparkline([2.0, 2.0]) == "▁▁"
     assert sparkline([0.0, 0.0]) == "▁▁"
@@ -147,7 +138,7 @@ def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan() -> None:
     assert sparkline([math.nan]) == ""
 
 
-def test_figures_are_numbers_also_for_gearsets_with_few_planets() -> None:
+def test_figures_are_numbers_also_for_gearsets_with_few_planets():
     state = GearboxState(planets=2)
     for name, kind in state.get_fields_and_field_types().items():
         if kind == "double[7]":
@@ -155,7 +146,7 @@ def test_figures_are_numbers_also_for_gearsets_with_few_planets() -> None:
     assert all(math.isfinite(figure.value(state)) for figure in FIGURES)
 
 
-def test_every_figure_of_one_kind_of_mesh_names_it() -> None:
+def test_every_figure_of_one_kind_of_mesh_names_it():
     for kind in ("sun_planet", "planet_ring"):
         states = []
         for level in (1.0, 2.0):
@@ -166,3 +157,28 @@ def test_every_figure_of_one_kind_of_mesh_names_it() -> None:
             states.append(state)
         moved = [figure.title for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
         assert moved and all(kind.replace("_", "-") in name for name in moved)
+
+
+def estimate() -> FollowerEstimate:
+    return FollowerEstimate(
+        input_torque=62.5, input_speed=-104.0, loss_torque=0.75, friction_level=1.1,
+        friction_level_low=0.9, friction_level_high=1.3,
+    )  # fmt: skip
+
+
+def test_residuals_are_measured_less_simulated():
+    state = GearboxState(input_torque=63.0, input_speed=-104.0, power_loss=70.0)
+    torque, speed, loss = pairs(estimate(), state)
+    assert torque.residual == -0.5 and speed.residual == 0.0
+    assert loss.measured == 78.0 and loss.residual == 8.0
+
+
+def test_what_is_not_identifiable_is_named():
+    unknown = estimate()
+    unknown.friction_level, unknown.loss_torque = math.nan, math.nan
+    unknown.friction_level_status = "NOT_IDENTIFIABLE"
+    event = FollowerEvent(what="sun tooth 7 changed", evidence="z = 13.0")
+    rows = {row[0]: row for row in beside_rows(unknown, GearboxState(), [event])}
+    assert rows["Friction level"][1:] == ("-", "", "NOT IDENTIFIABLE")
+    assert rows["Power loss, measured"][1:] == ("-", "W", "")
+    assert rows["Change"][3] == "sun tooth 7 changed: z = 13.0"

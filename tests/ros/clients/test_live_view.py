@@ -5,16 +5,15 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 from mcap.records import Message
 from planetary_twin.clients.live_view import follow
-from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from planetary_twin_msgs.msg import GearboxState
 from rerun.chunk import RrdReader
 
-from ..peer import TWIN, Peer
+from ..peer import TWIN
 
 COMMAND = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", "view"]
 
@@ -26,9 +25,7 @@ def _view(*options: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.exhaustive
-def test_a_running_twin_is_drawn_or_said_to_be_absent(
-    user: Peer, points: list[OperatingPoint], tmp_path: Path
-) -> None:
+def test_a_running_twin_is_drawn_or_said_to_be_absent(user, points, tmp_path):
     states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
     shown, nobody = (
         _view("--during", ":2", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
@@ -57,9 +54,7 @@ def test_a_running_twin_is_drawn_or_said_to_be_absent(
     assert not (tmp_path / "nobody.rrd").exists()
 
 
-def test_what_arrives_while_the_last_batch_is_drawn_is_drawn_too(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_what_arrives_while_the_last_batch_is_drawn_is_drawn_too(user, points):
     states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
     duration = 2.0  # [s]
     batches = follow(TWIN, duration)

@@ -110,7 +110,7 @@ def changing(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
     yield from play(tmp_path_factory.mktemp("changing"), ERRORS + CHANGES, 15.0)
 
 
-def test_hidden_changes_are_found(changing: Played) -> None:
+def test_hidden_changes_are_found(changing):
     events = {event.what: event for event in changing.messages["event"]}
     assert set(events) == {"loss torque stepped", "sun tooth 3 changed"}
     step, crack = events["loss torque stepped"], events["sun tooth 3 changed"]
@@ -133,7 +133,7 @@ def tooth_friction() -> float:
     return float(run.energy.friction / (run.duration * scene.operating_point.input_speed))
 
 
-def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing: Played) -> None:
+def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing):
     for name in ("estimate", "residuals", "teeth", "event", "baseline"):
         messages = changing.messages[name]
         assert [one.sequence for one in messages] == list(range(1, len(messages) + 1))
@@ -145,16 +145,14 @@ def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing: Played) -> 
         assert one in fresh or stamp_of(one) == stamp_of(before)
 
 
-def test_an_estimate_follows_every_tenth_of_a_second(
-    changing: Played,
-) -> None:
+def test_an_estimate_follows_every_tenth_of_a_second(changing):
     stamps = np.array([stamp_of(one) for one in estimates(changing)])
     assert np.diff(stamps[:-1]) == pytest.approx(0.1, abs=1e-6)  # the last one ends with the play
     begin = stamp_of(changing.messages["encoders"][0])
     assert stamps[0] - begin < 2.0 and stamps[-1] - begin == pytest.approx(15.0, abs=0.11)
 
 
-def test_the_recording_followed_again_gives_the_same_bits(changing: Played) -> None:
+def test_the_recording_followed_again_gives_the_same_bits(changing):
     again = following(changing)
     repeated = {round(one.time * 1e9): one for one in again}
     live = estimates(changing)

@@ -123,7 +123,7 @@ def begin(start: Start, rig: Rig, **given: Any) -> None:
     rig.wait_for_the_follower()
 
 
-def test_spoilt_readings_are_counted_and_not_used(rig: Rig, start: Start) -> None:
+def test_spoilt_readings_are_counted_and_not_used(rig, start):
     begin(start, rig)
     rig.send(0.0, 3.0)
     late, doubled, early = rig.reading(1.0), rig.reading(2.995), rig.reading(500.0)
@@ -153,9 +153,7 @@ def test_spoilt_readings_are_counted_and_not_used(rig: Rig, start: Start) -> Non
         ({"torque": -1.0}, "output_torque/input_torque = -2.3"),
     ],
 )
-def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(
-    rig: Rig, start: Start, scale: dict[str, float], words: str
-) -> None:
+def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(rig, start, scale, words):
     begin(start, rig)
     rig.send(0.0, 6.0, **scale)
     found = rig.reported("inputs", DiagnosticStatus.ERROR, words)
@@ -173,7 +171,7 @@ def test_another_unit_or_sign_is_named_and_mended_by_a_parameter(
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].input_torque_status == "ESTIMATED")
 
 
-def test_a_follower_outlives_readings_that_no_machine_has(rig: Rig, start: Start) -> None:
+def test_a_follower_outlives_readings_that_no_machine_has(rig, start):
     """A spike, a code for a missing reading, a cable, stamps of 0 and positions that stand."""
     begin(start, rig)
     for n in range(1200):
@@ -208,7 +206,7 @@ def test_a_follower_outlives_readings_that_no_machine_has(rig: Rig, start: Start
     assert not events
 
 
-def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:
+def test_silence_makes_estimates_stale(rig, start):
     begin(start, rig, sensor_timeout=0.5)
     rig.send(0.0, 3.0)
     stale = rig.user.until(
@@ -222,7 +220,7 @@ def test_silence_makes_estimates_stale(rig: Rig, start: Start) -> None:
 
 
 @pytest.mark.parametrize("restarts", [False, True])
-def test_stamps_that_jump_back_are_reported(rig: Rig, start: Start, restarts: bool) -> None:
+def test_stamps_that_jump_back_are_reported(rig, start, restarts):
     begin(start, rig, reset_on_time_jump=restarts)
     rig.send(100.0, 103.0)
     rig.user.until(lambda: rig.estimates and rig.estimates[-1].header.stamp.sec >= BEGIN + 102)
@@ -235,7 +233,7 @@ def test_stamps_that_jump_back_are_reported(rig: Rig, start: Start, restarts: bo
         assert rig.estimates[-1].header.stamp.sec >= BEGIN + 100
 
 
-def test_several_publishers_of_one_sensor_are_a_warning(start: Start, rig: Rig) -> None:
+def test_several_publishers_of_one_sensor_are_a_warning(start, rig):
     """Those of joints are none: each may publish other joints."""
     begin(start, rig)
     second = rig.user.node.create_publisher(EncoderBlock, f"{TWIN}/measured/encoders", 100)
@@ -250,7 +248,7 @@ def test_several_publishers_of_one_sensor_are_a_warning(start: Start, rig: Rig) 
     rig.user.node.destroy_publisher(another)
 
 
-def test_a_reset_forgets_all_readings(rig: Rig, start: Start) -> None:
+def test_a_reset_forgets_all_readings(rig, start):
     begin(start, rig)
     rig.send(100.0, 103.0)
     last = rig.reading(103.0)
@@ -265,7 +263,7 @@ def test_a_reset_forgets_all_readings(rig: Rig, start: Start) -> None:
     assert rig.estimates[-1].header.stamp.sec < BEGIN + 100
 
 
-def test_publishers_that_are_best_effort_are_received_too(peer: Peer, start: Start) -> None:
+def test_publishers_that_are_best_effort_are_received_too(peer, start):
     qos = QoSProfile(depth=2000, reliability=ReliabilityPolicy.BEST_EFFORT)
     rig = Rig(peer)
     peer.node.destroy_publisher(rig.joints)
@@ -283,7 +281,7 @@ def test_publishers_that_are_best_effort_are_received_too(peer: Peer, start: Sta
     peer.until(estimated)
 
 
-def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> None:
+def test_blocks_of_encoders_must_keep_their_format(rig, start):
     begin(start, rig)
     for counts in (2**20, 2**18):
         block = EncoderBlock(
@@ -297,7 +295,7 @@ def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> No
     )
 
 
-def test_blocks_of_vibration_must_keep_their_channels(rig: Rig, start: Start) -> None:
+def test_blocks_of_vibration_must_keep_their_channels(rig, start):
     vibration = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 100)
     begin(start, rig)
     rig.user.until(lambda: rig.is_matched(vibration))
@@ -320,7 +318,7 @@ def test_blocks_of_vibration_must_keep_their_channels(rig: Rig, start: Start) ->
     rig.reported("inputs", DiagnosticStatus.ERROR, "must be housing, 0.00025 s as in the blocks")
 
 
-def test_parameters_are_refused_in_one_line(rig: Rig, start: Start) -> None:
+def test_parameters_are_refused_in_one_line(rig, start):
     start("planetary_twin.follower", autostart="false")
     for name, value, words in (
         ("period", 0.001, "within 0.01 and 60"),

@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 import threading
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from planetary_twin.follower.live_follower import LiveFollower
-from planetary_twin.follower.parameters import FollowerOptions
+from planetary_twin.follower.parameters import Followed
 from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
@@ -58,7 +59,7 @@ class Received:
     def jumped(self, seconds: float) -> None:
         self.faults.append(seconds)
 
-    def broke(self, defect: Exception) -> None:
+    def stopped(self, defect: Exception) -> None:
         self.faults.append(defect)
 
 
@@ -84,12 +85,10 @@ def arrived(sender: str, kind: str, message: JointState | Temperature, time: flo
 
 def estimates_of(portions: list[list[Arrived]]) -> list[Following]:
     """Estimates from these portions."""
-    joints = JointNames()
-    options = FollowerOptions(
-        pt.load_scene("paper"), pt.Sensors(), joints, {}, 0.1, 10.0, 3600.0, False, "", "", ""
-    )
+    settings = SimpleNamespace(publish_rate=10.0, sensor_timeout=3600.0, reset_on_time_jump=False)
+    followed = Followed(pt.load_scene("paper"), pt.Sensors(), JointNames(), {}, 0.1)
     source, received = Taken(portions), Received()
-    live = LiveFollower(options, source, received)
+    live = LiveFollower(followed, settings, source, received)
     assert source.empty.wait(120.0)
     live.stop()
     assert received.faults == []
@@ -101,18 +100,14 @@ def at_once() -> list[Following]:
     return estimates_of([messages()])
 
 
-def test_messages_taken_at_once_give_every_estimate(
-    at_once: list[Following],
-) -> None:
+def test_messages_taken_at_once_give_every_estimate(at_once):
     times = [one.time - BEGIN for one in at_once]
     assert np.diff(times[:-1]) == pytest.approx(0.1, abs=1e-6)
     assert times[0] < 2.0 and times[-1] == pytest.approx(DURATION, abs=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_estimates_are_the_same_however_messages_are_taken(
-    at_once: list[Following], seed: int
-) -> None:
+def test_estimates_are_the_same_however_messages_are_taken(at_once, seed):
     every = messages()
     cuts = np.sort(np.random.default_rng(seed).choice(len(every), 12, replace=False))
     ends = [0, *cuts.tolist(), len(every)]
@@ -121,7 +116,7 @@ def test_estimates_are_the_same_however_messages_are_taken(
 
 
 @pytest.mark.parametrize("late", ["joints", "oil"])
-def test_estimates_are_the_same_if_one_topic_is_late(at_once: list[Following], late: str) -> None:
+def test_estimates_are_the_same_if_one_topic_is_late(at_once, late):
     def place(one: Arrived) -> float:
         return one.time + 0.5 * (one.sender == late)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-from pathlib import Path
 
 import pytest
 from planetary_twin_msgs.msg import FollowerEstimate
@@ -13,8 +12,7 @@ from planetary_twin_py.following.follower import Readings
 from planetary_twin_py.following.measured_recording import read_recording
 from planetary_twin_py.following.sensors import JointNames
 
-from ..conftest import Start
-from ..peer import LONG, TWIN, Peer
+from ..peer import LONG, TWIN
 from .test_inputs import Rig, stamp
 
 REMAPPED = {"joint_states": "/rig/joint_states", "oil_temperature": "/plant/oil"}
@@ -25,9 +23,7 @@ COUNT = 400
     "programs",
     [("planetary_twin.logger", "planetary_twin.follower"), ("planetary_twin.recorded_follower",)],
 )
-def test_remapped_inputs_are_recorded_completely(
-    peer: Peer, start: Start, tmp_path: Path, programs: tuple[str, ...]
-) -> None:
+def test_remapped_inputs_are_recorded_completely(peer, start, tmp_path, programs):
     remaps = [f"measured/{name}:={topic}" for name, topic in REMAPPED.items()]
     options = [word for remap in remaps for word in ("-r", remap)]
     nodes = [start(program, "--ros-args", *options, name="bag") for program in programs]

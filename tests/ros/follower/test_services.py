@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticStatus
 from planetary_twin_msgs.msg import SampledBlock
 from std_srvs.srv import Trigger
 
-from ..conftest import Start
-from ..peer import TWIN, Peer
+from ..peer import TWIN
 from .test_inputs import BEGIN, FOLLOWER, Rig, begin, stamp
 
 SAMPLED = 2_000.0  # [Hz] of the accelerometer
@@ -38,9 +35,7 @@ def asked(rig: Rig, name: str) -> tuple[bool, str]:
     return answer.success, answer.message
 
 
-def test_a_baseline_is_saved_learned_again_and_loaded(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_baseline_is_saved_learned_again_and_loaded(peer, start, tmp_path):
     rig, file = Rig(peer), tmp_path / "gearbox.npz"
     (tmp_path / "sensors.yaml").write_text("learning: 8\n")
     begin(start, rig, sensors=tmp_path / "sensors.yaml")
@@ -64,7 +59,7 @@ def test_a_baseline_is_saved_learned_again_and_loaded(
         np.testing.assert_array_equal(again[name], values)
 
 
-def test_an_acknowledged_event_is_no_warning_any_more(peer: Peer, start: Start) -> None:
+def test_an_acknowledged_event_is_no_warning_any_more(peer, start):
     rig = Rig(peer)
     begin(start, rig)
     rig.send(0.0, 20.0)

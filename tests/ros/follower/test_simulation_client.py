@@ -10,8 +10,7 @@ from planetary_twin_msgs.srv import SetOperatingPoint
 
 import planetary_twin_py as pt
 
-from ..conftest import Start
-from ..peer import TWIN, Peer
+from ..peer import TWIN
 from .test_inputs import RATIO, Rig
 
 INTERVAL = 0.01  # [s] of a running simulation
@@ -27,7 +26,7 @@ class OtherRig(Rig):
         return message
 
 
-def test_a_running_simulation_reaches_what_is_measured(peer: Peer, start: Start) -> None:
+def test_a_running_simulation_reaches_what_is_measured(peer, start):
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     start("planetary_twin.simulation")
     peer.until(lambda: states)
@@ -39,7 +38,7 @@ def test_a_running_simulation_reaches_what_is_measured(peer: Peer, start: Start)
     peer.until(lambda: abs(states[-1].input_speed - 90.0) < 0.5)
 
 
-def test_changes_are_at_most_one_a_second_and_not_repeated(peer: Peer, start: Start) -> None:
+def test_changes_are_at_most_one_a_second_and_not_repeated(peer, start):
     requests: list[SetOperatingPoint.Request] = []
 
     def answer(
@@ -69,7 +68,7 @@ def test_changes_are_at_most_one_a_second_and_not_repeated(peer: Peer, start: St
     assert len(requests) == 1  # nothing has changed by 0.5 %
 
 
-def test_a_ramp_does_not_ring_the_couplings() -> None:
+def test_a_ramp_does_not_ring_the_couplings():
     """A step of the torque by 20 % does: by more than ten times as much."""
 
     def swing(ramp: float) -> float:

@@ -7,8 +7,7 @@ import signal
 from planetary_twin_live.process import own_memory
 from planetary_twin_msgs.msg import RecorderStatus
 
-from ..conftest import Start
-from ..peer import LONG, TWIN, Peer
+from ..peer import LONG, TWIN
 from ..reported import figures, listen_to_reports
 
 # At the lowest sample rate of an overloaded twin, ten seconds of messages have 7 MB.
@@ -16,7 +15,7 @@ WAITING = 5.0  # [MB]
 KEPT = 2.5  # [MB] histories and a longer mesh cycle at a tighter tolerance are kept for reuse
 
 
-def test_memory_of_messages_that_waited_is_returned(peer: Peer, start: Start) -> None:
+def test_memory_of_messages_that_waited_is_returned(peer, start):
     simulation = start("planetary_twin.simulation", wait_for="logger")
     logger = start("planetary_twin.logger")
     reports = listen_to_reports(peer)

@@ -15,7 +15,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from mcap.reader import make_reader
 from mcap.records import Message
 from planetary_twin.logger.diagnostics import RECORDING
-from planetary_twin_msgs.msg import RecorderStatus
+from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
@@ -27,6 +27,7 @@ from planetary_twin_py.recording.runs.info import read_info
 
 from ..conftest import Start
 from ..peer import LATCHED, LONG, TWIN, Peer
+from ..programs import ended, refuses
 from ..recordings import counts
 from ..reported import recorded
 
@@ -88,8 +89,7 @@ class Logger:
 
     def ends_with(self, reason: str) -> None:
         """It ends with one line and a non-zero exit code."""
-        _, errors = self.process.communicate(timeout=LONG)
-        assert self.process.returncode == 1
+        errors = ended(self.process, 1)
         lines = [line for line in errors.splitlines() if line.startswith("logger: ")]
         assert len(lines) == 1 and reason in lines[0], errors
         assert "Traceback" not in errors
@@ -127,7 +127,7 @@ def numbers_in(path: Path) -> list[int]:
     return found
 
 
-def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> None:
+def test_messages_before_a_recording_are_no_loss(peer, start):
     logger = Logger(peer, start, name="bag")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
@@ -144,7 +144,7 @@ def test_messages_before_a_recording_are_no_loss(peer: Peer, start: Start) -> No
     assert all(report.level == DiagnosticStatus.OK for report in logger.reports)
 
 
-def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_kill_loses_one_flush_period_at_most(peer, start, tmp_path):
     """By stamps, however late the timers of the logger are."""
     period = 0.5
     logger = Logger(peer, start, name="bag", flush_period=period)
@@ -162,9 +162,7 @@ def test_a_kill_loses_one_flush_period_at_most(peer: Peer, start: Start, tmp_pat
     assert safe <= len(numbers) <= ticker.sent
 
 
-def test_recordings_start_split_and_end_on_request(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_recordings_start_split_and_end_on_request(peer, start, tmp_path):
     logger = Logger(peer, start, name="bag", compression="lz4")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
@@ -208,7 +206,7 @@ def test_recordings_start_split_and_end_on_request(
     assert counts(second.parent)[DESCRIPTION] == 1
 
 
-def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_snapshot_writes_the_last_seconds(peer, start, tmp_path):
     logger = Logger(peer, start, name="bag", snapshot_duration=0.5)
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 300)
@@ -231,9 +229,7 @@ def test_a_snapshot_writes_the_last_seconds(peer: Peer, start: Start, tmp_path: 
     assert files[0].parent != files[1].parent
 
 
-def test_a_managed_logger_goes_to_its_error_state_and_recovers(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_managed_logger_goes_to_its_error_state_and_recovers(peer, start, tmp_path):
     logger = Logger(peer, start, autostart="false", flush_period=0.1)
     Ticker(peer)
     node = f"{TWIN}/logger"
@@ -253,9 +249,7 @@ def test_a_managed_logger_goes_to_its_error_state_and_recovers(
     assert len(numbers_in(folder)) > 20
 
 
-def test_a_full_disk_ends_the_logger_with_one_line(
-    peer: Peer, start: Start, small_disk: Path, count: Count
-) -> None:
+def test_a_full_disk_ends_the_logger_with_one_line(peer, start, small_disk, count):
     given = {"compression": "none", "flush_period": 0.05}
     logger = Logger(peer, start, directory=small_disk, **given)
     count(200.0, 10_000, 10_000, 100)
@@ -267,9 +261,7 @@ def test_a_full_disk_ends_the_logger_with_one_line(
     assert len(numbers) > 30
 
 
-def test_recorded_plus_lost_equals_published_under_overload(
-    peer: Peer, start: Start, tmp_path: Path, count: Count
-) -> None:
+def test_recorded_plus_lost_equals_published_under_overload(peer, start, tmp_path, count):
     """The logger stands still, as on an overloaded machine, until all is sent."""
     logger = Logger(peer, start, name="bag", topics=f"['{TOPIC}']")
     sender = count(4000.0, 20_000, 100, 1)
@@ -299,7 +291,7 @@ def test_recorded_plus_lost_equals_published_under_overload(
     assert (reported.recorded, reported.lost) == (recorded, lost)
 
 
-def test_a_later_publisher_with_weaker_qos_is_recorded(peer: Peer, start: Start) -> None:
+def test_a_later_publisher_with_weaker_qos_is_recorded(peer, start):
     logger = Logger(peer, start, name="bag", topics=f"['{TOPIC}']")
 
     def publish_until_received(qos: QoSProfile) -> None:
@@ -312,3 +304,42 @@ def test_a_later_publisher_with_weaker_qos_is_recorded(peer: Peer, start: Start)
 
     publish_until_received(QoSProfile(depth=10))
     publish_until_received(QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))
+
+
+TOPICS = {
+    "/diagnostics",
+    "/tf",
+    *(f"{TWIN}/{name}" for name in ("gearbox_state", "joint_states", "mesh_waveform")),
+    *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")),
+    f"{TWIN}/applied_commands",
+}
+
+
+@pytest.fixture
+def logger(start: Start) -> subprocess.Popen[str]:
+    """A logger that records into recordings/bag."""
+    return start("planetary_twin.logger", name="bag")
+
+
+def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]:
+    """Start a simulation and wait until the logger has that many of its states."""
+    start("planetary_twin.simulation")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    peer.until(lambda: states and recorded(status, f"{TWIN}/gearbox_state") >= messages)
+    return states
+
+
+def test_a_signal_finishes_the_file(peer, start, logger, tmp_path):
+    _record(peer, start)
+    logger.send_signal(signal.SIGINT)
+    ended(logger)
+    recorded = counts(tmp_path / "recordings/bag")
+    assert set(recorded) == TOPICS
+    assert recorded[f"{TWIN}/gearbox_state"] >= 100
+
+
+def test_an_existing_recording_is_refused_in_one_line(start, logger, tmp_path, peer):
+    peer.until(lambda: (tmp_path / "recordings/bag").exists())
+    line = refuses(start("planetary_twin.logger", name="bag"), "bag exists")
+    assert line.startswith("logger: ")

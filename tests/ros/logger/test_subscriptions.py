@@ -90,9 +90,7 @@ def recorded_topics(publishing: int = 0) -> tuple[RecordedTopics, Disk, list[OSE
 
 
 @pytest.mark.parametrize("publishing", [0, 1, 7, 40])
-def test_no_state_is_written_without_its_commands(
-    publishing: int,
-) -> None:
+def test_no_state_is_written_without_its_commands(publishing):
     topics, disk, _ = recorded_topics(publishing)
     topics.drain()
     topics.close()
@@ -103,7 +101,7 @@ def test_no_state_is_written_without_its_commands(
     assert disk.written[STATES] == states
 
 
-def test_a_full_disk_is_raised_at_the_end_and_reported_before() -> None:
+def test_a_full_disk_is_raised_at_the_end_and_reported_before():
     topics, disk, failures = recorded_topics()
     disk.full = True
     with pytest.raises(OSError, match="No space left"):

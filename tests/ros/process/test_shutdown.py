@@ -67,9 +67,7 @@ def ask(peer: Peer, kind: type, service: str, request: object) -> None:
 
 
 @pytest.mark.parametrize("name", first(1, ["simulation", "logger"]))
-def test_a_signal_while_a_node_loads_ends_it_without_output(
-    domain: int, tmp_path: Path, name: str
-) -> None:
+def test_a_signal_while_a_node_loads_ends_it_without_output(domain, tmp_path, name):
     for library in ("numpy", "_rclpy", "fastrtps"):
         for number in (signal.SIGINT, signal.SIGTERM):
             process = subprocess.Popen(
@@ -86,14 +84,14 @@ def test_a_signal_while_a_node_loads_ends_it_without_output(
             ended_well(process)
 
 
-def test_two_signals_at_any_moment_end_a_running_node_cleanly(peer: Peer, start: Start) -> None:
+def test_two_signals_at_any_moment_end_a_running_node_cleanly(peer, start):
     for number in (signal.SIGINT, signal.SIGTERM):
         process = running(peer, start)
         twice(process, number)
         ended_well(process)
 
 
-def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer: Peer, start: Start) -> None:
+def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer, start):
     slow = ("--ros-args", "-p", "rate_factor:=0.01", "-p", "publish_rate:=10.0")
     process = start("planetary_twin.simulation", *slow)
     client = peer.node.create_client(SetBool, f"{NODE}/pause")
@@ -107,7 +105,7 @@ def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer: Peer, start: St
 
 
 @pytest.mark.exhaustive
-def test_a_signal_during_a_call_or_transition_ends_the_node(peer: Peer, start: Start) -> None:
+def test_a_signal_during_a_call_or_transition_ends_the_node(peer, start):
     process = running(peer, start)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     states = peer.listen(GearboxState, STATES)
@@ -126,7 +124,7 @@ def test_a_signal_during_a_call_or_transition_ends_the_node(peer: Peer, start: S
         ended_well(process)
 
 
-def test_both_nodes_end_on_one_ctrl_c(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_both_nodes_end_on_one_ctrl_c(peer, start, tmp_path):
     logger = start("planetary_twin.logger", name="bag")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
@@ -139,7 +137,7 @@ def test_both_nodes_end_on_one_ctrl_c(peer: Peer, start: Start, tmp_path: Path) 
 
 
 @pytest.mark.exhaustive
-def test_each_node_may_be_killed_and_restarted(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_each_node_may_be_killed_and_restarted(peer, start, tmp_path):
     states = peer.listen(GearboxState, STATES)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     simulation = running(peer, start)
@@ -168,9 +166,7 @@ def test_each_node_may_be_killed_and_restarted(peer: Peer, start: Start, tmp_pat
 
 
 @pytest.mark.parametrize("faster", [True, False])
-def test_a_faster_signal_is_no_failure_of_rcl(
-    monkeypatch: pytest.MonkeyPatch, faster: bool
-) -> None:
+def test_a_faster_signal_is_no_failure_of_rcl(monkeypatch, faster):
     context = Context()
     rclpy.init(context=context)
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from planetary_twin_msgs.msg import GearboxState
 
-from ..conftest import Start
-from ..peer import LONG, TWIN, Peer
+from ..peer import LONG, TWIN
+from ..programs import ended
 from ..reported import figures, listen_to_reports
 
 NODE = f"{TWIN}/simulation"
@@ -44,7 +44,7 @@ with nonblocking_stderr():
 """
 
 
-def test_lines_in_a_file_with_other_writers_are_kept(tmp_path: Path) -> None:
+def test_lines_in_a_file_with_other_writers_are_kept(tmp_path):
     file = tmp_path / "log"
     with file.open("wb", buffering=0) as log:
         log.write(b"before\n")
@@ -53,11 +53,10 @@ def test_lines_in_a_file_with_other_writers_are_kept(tmp_path: Path) -> None:
     assert file.read_text() == "before\nof the node\nafter\n"
 
 
-def test_lines_arrive_if_the_pipe_is_read(peer: Peer, start: Start) -> None:
+def test_lines_arrive_if_the_pipe_is_read(peer, start):
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     node = start("planetary_twin.simulation", rate_factor="1e9")
-    _, errors = node.communicate(timeout=LONG)
-    assert node.returncode == 1
+    errors = ended(node, 1)
     assert "rate_factor = 1000000000.0: must be a number within 0 and 100" in errors
     node = start("planetary_twin.simulation")
     peer.until(lambda: len(states) > 300)
@@ -66,9 +65,7 @@ def test_lines_arrive_if_the_pipe_is_read(peer: Peer, start: Start) -> None:
     assert "tolerance" in errors
 
 
-def test_a_stopped_terminal_does_not_delay_the_twin(
-    peer: Peer, stalled: subprocess.Popen[bytes]
-) -> None:
+def test_a_stopped_terminal_does_not_delay_the_twin(peer, stalled):
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     reports = listen_to_reports(peer)
     # The chosen tolerance is the first line that it logs.

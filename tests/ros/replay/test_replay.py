@@ -26,10 +26,9 @@ from std_srvs.srv import SetBool
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
 
-from ..conftest import Play, Start
-from ..peer import LONG, TWIN, Peer
+from ..peer import TWIN, Peer
 from ..processes import holding
-from ..programs import Program
+from ..programs import Program, ended
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
 
@@ -88,14 +87,13 @@ def _resume(peer: Peer) -> None:
 
 
 def refused(process: Program, *reasons: str) -> None:
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 2
+    errors = ended(process, 2)
     assert errors.startswith("planetary-twin: ")
     assert len(errors.strip().splitlines()) == 1
     assert all(reason in errors for reason in reasons), errors
 
 
-def test_every_message_is_replayed_byte_for_byte_in_time(peer: Peer, play: Play, bag: Path) -> None:
+def test_every_message_is_replayed_byte_for_byte_in_time(peer, play, bag):
     recorded = _recorded(bag / "bag_0.mcap")
     begin = min(messages[0][0] for messages in recorded.values())
     received = _receive(peer, bag)
@@ -116,9 +114,7 @@ def test_every_message_is_replayed_byte_for_byte_in_time(peer: Peer, play: Play,
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_cleanly_at_any_moment(
-    peer: Peer, domain: int, bag: Path, number: int
-) -> None:
+def test_a_signal_ends_it_cleanly_at_any_moment(peer, domain, bag, number):
     words = [COMMAND, "replay", bag, "--rate-factor", "0.1"]
     pipe = subprocess.PIPE
     process = subprocess.Popen(words, stdout=pipe, stderr=pipe, text=True)
@@ -128,14 +124,14 @@ def test_a_signal_ends_it_cleanly_at_any_moment(
     _end(process, peer)
 
 
-def test_a_live_twin_on_the_same_topics_causes_a_warning(peer: Peer, play: Play, bag: Path) -> None:
+def test_a_live_twin_on_the_same_topics_causes_a_warning(peer, play, bag):
     other = peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
     output, _ = _end(play(bag, "--rate-factor", "10"), peer)
     peer.node.destroy_publisher(other)
     assert f"other publishers exist, subscribers receive both: {TWIN}/gearbox_state\n" in output
 
 
-def test_the_node_runs_without_the_command_and_pauses(peer: Peer, start: Start, bag: Path) -> None:
+def test_the_node_runs_without_the_command_and_pauses(peer, start, bag):
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     process = start("planetary_twin.replay", file=bag, rate_factor=0.25)
     peer.until(lambda: len(states) > 10)
@@ -154,14 +150,14 @@ def test_the_node_runs_without_the_command_and_pauses(peer: Peer, start: Start, 
     assert [state.sequence for state in states] == list(range(1, count + 1))
 
 
-def test_a_bag_of_another_recorder_is_played(peer: Peer, play: Play, tmp_path: Path) -> None:
+def test_a_bag_of_another_recorder_is_played(peer, play, tmp_path):
     _foreign(tmp_path / "bag", "std_msgs/msg/String", "string data")
     received = peer.listen(String, "/chatter")
     _end(play(tmp_path / "bag"), peer)
     peer.until(lambda: len(received) == 3)
 
 
-def test_unplayable_recordings_end_in_one_line(play: Play, bag: Path, tmp_path: Path) -> None:
+def test_unplayable_recordings_end_in_one_line(play, bag, tmp_path):
     (tmp_path / "text").write_text("no recording")
     (tmp_path / "empty").mkdir()
     refused(play("nowhere"), "nowhere: no such file")
@@ -170,12 +166,12 @@ def test_unplayable_recordings_end_in_one_line(play: Play, bag: Path, tmp_path: 
     refused(play(bag, "--start", "99"), "start = 99", "s long")
 
 
-def test_a_message_type_that_is_not_installed_ends_in_one_line(play: Play, tmp_path: Path) -> None:
+def test_a_message_type_that_is_not_installed_ends_in_one_line(play, tmp_path):
     _foreign(tmp_path / "bag", "foreign_msgs/msg/Odd", "string data")
     refused(play("bag"), "/chatter", "foreign_msgs/msg/Odd is not installed")
 
 
-def test_another_version_of_a_message_type_ends_in_one_line(play: Play, tmp_path: Path) -> None:
+def test_another_version_of_a_message_type_ends_in_one_line(play, tmp_path):
     bag = BagWriter(tmp_path / "bag")
     topic = Topic("/chatter", "std_msgs/msg/String", "RIHS01_" + "0" * 64, "string other")
     bag.write(bag.add_topic(topic), b"\0\1\0\0\1\0\0\0\0", 1, 1, 1)

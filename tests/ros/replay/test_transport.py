@@ -22,7 +22,6 @@ from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
 
-from ..conftest import Play, Start
 from ..peer import LATCHED, TWIN, Peer
 from .test_replay import refused
 
@@ -90,9 +89,7 @@ def expect(peer: Peer, states: list[GearboxState], first: int, last: int) -> Non
     states.clear()
 
 
-def test_a_paused_replay_plays_exactly_the_requested_messages(
-    peer: Peer, start: Start, split: Path
-) -> None:
+def test_a_paused_replay_plays_exactly_the_requested_messages(peer, start, split):
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 5000)
     points = peer.listen(OperatingPoint, "/elsewhere", LATCHED)
     clock = peer.listen(Clock, "/clock", 5000)
@@ -152,7 +149,7 @@ def test_a_paused_replay_plays_exactly_the_requested_messages(
     assert not states
 
 
-def test_a_running_replay_changes_rate_and_position(peer: Peer, play: Play, split: Path) -> None:
+def test_a_running_replay_changes_rate_and_position(peer, play, split):
     received: list[tuple[float, float]] = []  # recorded and received [s]
     clock = peer.listen(Clock, "/clock", 5000)
     peer.node.create_subscription(
@@ -215,9 +212,7 @@ def _pace(messages: list[tuple[float, float]]) -> float:
     return float(np.polyfit(received, np.unwrap(recorded, period=LENGTH * 0.01 - 1.01), 1)[0])
 
 
-def test_as_fast_as_possible_reliable_subscribers_receive_all(
-    peer: Peer, play: Play, tmp_path: Path
-) -> None:
+def test_as_fast_as_possible_reliable_subscribers_receive_all(peer, play, tmp_path):
     file = _write(tmp_path / "shallow", range(LENGTH), depth=5)
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", LENGTH)
     process = play(file, "--rate", "0")
@@ -225,7 +220,7 @@ def test_as_fast_as_possible_reliable_subscribers_receive_all(
     expect(peer, states, 1, LENGTH)
 
 
-def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path) -> None:
+def test_a_recorded_clock_is_played_alone(peer, play, tmp_path):
     bag = BagWriter(tmp_path / "bag")
     kind = "rosgraph_msgs/msg/Clock"
     channel = bag.add_topic(Topic("/clock", kind, "", message_definition(kind)))
@@ -241,7 +236,7 @@ def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path
     assert [message.clock.sec for message in clock] == [0, 1, 2, 3, 4]
 
 
-def test_invalid_names_of_topics_end_in_one_line(play: Play, split: Path) -> None:
+def test_invalid_names_of_topics_end_in_one_line(play, split):
     refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
     refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
     refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")

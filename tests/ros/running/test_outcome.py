@@ -5,8 +5,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from planetary_twin.running.outcome import read_outcome
-from planetary_twin.running.sums import Sums, sums_of
+from planetary_twin.running.outcome import Sums, read_outcome, sums_of
 from synthetic_recording import START_NS
 from twin_recording import NAMESPACE, TwinRecording
 

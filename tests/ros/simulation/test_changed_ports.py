@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,7 +19,6 @@ from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 
-from ..conftest import Start
 from ..peer import LATCHED, TWIN, Peer
 from ..reported import check_verified
 from .test_shaft_commands import RING, SUN, received, torque
@@ -41,9 +39,7 @@ def ports_of(peer: Peer) -> list[str]:
     return [value.string_value for value in answer.values]
 
 
-def test_ports_change_while_the_node_runs_and_verify(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_ports_change_while_the_node_runs_and_verify(peer, start, tmp_path):
     """Two machines, then torque and motion from outside, then machines again."""
     logger = start("planetary_twin.logger", name="changed")
     start("planetary_twin.simulation", wait_for="logger")
@@ -81,9 +77,7 @@ def test_ports_change_while_the_node_runs_and_verify(
     assert verify(made.file.parent, TWIN).identical
 
 
-def test_ports_that_cannot_be_are_refused_in_one_line(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_ports_that_cannot_be_are_refused_in_one_line(user, points):
     for values, reason in (
         (
             {INPUT: "pedal"},
@@ -102,7 +96,7 @@ def test_ports_that_cannot_be_are_refused_in_one_line(
     assert len(points) == 1 and ports(points[-1]) == ("machine", "machine")
 
 
-def test_a_quasi_static_twin_has_no_other_ports(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_quasi_static_twin_has_no_other_ports(peer, start, tmp_path):
     path = tmp_path / "slow.yaml"
     path.write_text("base: paper\nname: slow\ndynamics: quasi_static\n")
     start("planetary_twin.simulation", scene=path)
@@ -112,9 +106,7 @@ def test_a_quasi_static_twin_has_no_other_ports(peer: Peer, start: Start, tmp_pa
     assert result.reason == "drive.input.port = 'torque': requires dynamics other than quasi-static"
 
 
-def test_changes_of_ports_before_the_first_step_are_recorded(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_changes_of_ports_before_the_first_step_are_recorded(peer, start, tmp_path):
     """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
     logger = start("planetary_twin.logger", name="lockstep")
     start("planetary_twin.simulation", wait_for="logger", rate_factor=0.0, tolerance=0.0)
@@ -146,7 +138,7 @@ def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
     return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
 
 
-def test_a_command_for_the_port_before_is_counted() -> None:
+def test_a_command_for_the_port_before_is_counted():
     """One that the new port takes acts, also if it came just before the change."""
     changed = twin("motion", "torque")
     commands = received(JointState(name=[SUN], velocity=[90.0]))
@@ -157,7 +149,7 @@ def test_a_command_for_the_port_before_is_counted() -> None:
     assert early.given(changed, 0.01) == {"input_torque": 50.0}
 
 
-def test_no_command_is_missing_at_a_machine(clock: list[float]) -> None:
+def test_no_command_is_missing_at_a_machine(clock):
     """The timeout of a port that is given again begins with its first command."""
     changed = twin("torque", "torque")
     message = JointState(name=[SUN, RING], effort=[63.0, 147.0])
@@ -171,9 +163,7 @@ def test_no_command_is_missing_at_a_machine(clock: list[float]) -> None:
     assert commands.given(changed, 0.01) == {"input_torque": 0.0}
 
 
-def test_a_brake_begins_again_from_new_ports(
-    clock: list[float],
-) -> None:
+def test_a_brake_begins_again_from_new_ports(clock):
     changed = twin("torque", "torque")
     commands = received(
         JointState(name=[SUN, RING], effort=[63.0, 147.0]), timeout=0.5, silence="brake"
@@ -192,7 +182,7 @@ def test_a_brake_begins_again_from_new_ports(
     assert changed.ports == ("torque", "machine")
 
 
-def test_efforts_are_those_of_the_present_ports() -> None:
+def test_efforts_are_those_of_the_present_ports():
     """Of a machine or a given torque, the torque on its rotor; of a motion, that of the shaft."""
     by_window, by_steps = twin(), twin()
     for each in (by_window, by_steps):

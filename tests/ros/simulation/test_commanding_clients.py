@@ -20,8 +20,7 @@ from std_srvs.srv import Trigger
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.verify import verify
 
-from ..conftest import Start
-from ..peer import TWIN, Peer
+from ..peer import TWIN
 from .test_shaft_commands import NODE, RING, SUN, command, driven, running, speed, torque
 
 COMMANDER = Path(__file__).with_name("commander.py")
@@ -52,9 +51,7 @@ def report(arrays: list[DiagnosticArray]) -> DiagnosticStatus | None:
     return found[-1] if found else None
 
 
-def test_a_client_that_dies_is_noticed_while_the_other_goes_on(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_client_that_dies_is_noticed_while_the_other_goes_on(peer, start, tmp_path):
     """The motor's speed is given by one client, the torque of the load by another one."""
     path = driven(tmp_path, "motion", "torque")
     given = {"command_timeout": 2.0, "command_silence": "zero"}
@@ -81,9 +78,7 @@ def test_a_client_that_dies_is_noticed_while_the_other_goes_on(
             peer.until(lambda: shown() == pytest.approx((104.0, 140.0), rel=1e-2))
 
 
-def test_several_steps_in_one_call_have_the_bits_of_single_ones(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_several_steps_in_one_call_have_the_bits_of_single_ones(peer, start, tmp_path):
     running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
     peer.pause(NODE)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
@@ -114,9 +109,7 @@ def test_several_steps_in_one_call_have_the_bits_of_single_ones(
     assert answer.message == "commands: 11 steps of 1 s: must be at most 10 s in total"
 
 
-def test_positions_by_topic_move_a_shaft_and_are_recorded(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_positions_by_topic_move_a_shaft_and_are_recorded(peer, start, tmp_path):
     """A joint without torque follows a course of positions, which `verify` repeats bit for bit."""
     scene = tmp_path / "driven.yaml"
     driven(tmp_path, "torque", "motion")

@@ -11,14 +11,14 @@ from planetary_twin_msgs.srv import SetOperatingPoint
 
 import planetary_twin_py as pt
 
-from ..conftest import Start
-from ..peer import LATCHED, LONG, TWIN, Peer
+from ..peer import LATCHED, TWIN
+from ..programs import refuses
 
 ROOT = Path(__file__).parents[3]
 NODE = f"{TWIN}/simulation"
 
 
-def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoint]) -> None:
+def test_a_number_may_be_sent_in_any_type(user, points):
     for typed in ("3e-7", 0, 2.5e-7):
         assert user.set(NODE, backlash=typed).successful
         assert user.get(NODE, "backlash") == float(typed)
@@ -28,37 +28,7 @@ def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoin
     assert points[-1].changed == "lambda_ratio"
 
 
-def test_invalid_values_are_refused_with_the_reason(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
-    before = {name: user.get(NODE, name) for name in ("backlash", "lambda_ratio")}
-    for values in (
-        {"backlash": "wide"},
-        {"backlash": 1.0},
-        {"backlash": -1e-9},
-        {"backlash": math.nan},
-        {"lambda_ratio": "inf"},
-        {"lambda_ratio": True},
-        {"tolerance": 5e-09},
-        {"tolerance": -1e-3},
-        {"tolerance": math.nan},
-        {"tolerance": "tight"},
-    ):
-        result = user.set(NODE, **values)
-        assert not result.successful
-        ((name, value),) = values.items()
-        assert name in result.reason
-        assert str(value).lower() in result.reason.lower()
-    assert not user.set(NODE, backlash_typo=1.0).successful
-    assert not user.set(NODE, scene="other").successful
-    assert not user.set(NODE, atomically=True, backlash=3e-7, lambda_ratio=99.0).successful
-    assert {name: user.get(NODE, name) for name in before} == before
-    assert len(points) == 1
-
-
-def test_values_set_atomically_apply_from_one_instant(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_values_set_atomically_apply_from_one_instant(user, points):
     values = {"backlash": "3e-7", "lambda_ratio": 2, "input_speed": 200.0}
     assert user.set(NODE, atomically=True, **values).successful
     user.until(lambda: len(points) == 2)
@@ -68,9 +38,7 @@ def test_values_set_atomically_apply_from_one_instant(
     assert point.simulated_time > points[0].simulated_time
 
 
-def test_the_service_answers_with_the_instant_of_the_change(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_the_service_answers_with_the_instant_of_the_change(user, points):
     service = f"{NODE}/set_operating_point"
     request = SetOperatingPoint.Request(names=["backlash", "lambda_ratio"], values=[3e-7, 1.5])
     answer = user.call(SetOperatingPoint, service, request)
@@ -88,9 +56,7 @@ def test_the_service_answers_with_the_instant_of_the_change(
     assert len(points) == 2
 
 
-def test_a_ramp_reaches_the_values_in_the_requested_time(
-    user: Peer, points: list[OperatingPoint]
-) -> None:
+def test_a_ramp_reaches_the_values_in_the_requested_time(user, points):
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=0.5
     )
@@ -110,7 +76,7 @@ def test_a_ramp_reaches_the_values_in_the_requested_time(
     user.until(lambda: len(points) == settled + 1)
 
 
-def test_setting_a_quantity_ends_its_ramp(user: Peer, points: list[OperatingPoint]) -> None:
+def test_setting_a_quantity_ends_its_ramp(user, points):
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=2.0
     )
@@ -123,7 +89,7 @@ def test_setting_a_quantity_ends_its_ramp(user: Peer, points: list[OperatingPoin
 
 
 @pytest.mark.parametrize("ramp", [-1.0, math.nan, 1e6])
-def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ramp: float) -> None:
+def test_an_invalid_ramp_is_refused(user, points, ramp):
     request = SetOperatingPoint.Request(names=["backlash"], values=[4e-7], ramp=ramp)
     answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
     assert not answer.success and answer.message.startswith("ramp = ")
@@ -138,29 +104,19 @@ def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ra
         "scene:=nowhere",
     ],
 )
-def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given: str) -> None:
+def test_an_invalid_start_value_ends_the_node_with_one_line(start, given):
     process = start("planetary_twin.simulation", "--ros-args", "-p", given)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 1
-    assert len(errors.strip().splitlines()) == 1
-    assert given.split(":=")[1] in errors
+    refuses(process, given.split(":=")[1])
 
 
-def test_the_default_parameter_file_leaves_values_to_the_scene(peer: Peer, start: Start) -> None:
-    file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"
-    given = ("--ros-args", "--params-file", str(file))
-    start("planetary_twin.simulation", *given, scene="lightly_loaded")
+@pytest.mark.parametrize(
+    ("file", "given", "name"),
+    [("twin.yaml", {"scene": "lightly_loaded"}, "lightly_loaded"), ("paper.yaml", {}, "paper")],
+)
+def test_shipped_parameter_files_leave_or_state_the_scene_s_values(peer, start, file, given, name):
+    path = ROOT / "ros_ws/src/planetary_twin/config" / file
+    start("planetary_twin.simulation", "--ros-args", "--params-file", str(path), **given)
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     point = peer.until(lambda: points, 120.0)[0]
-    scene = pt.load_scene("lightly_loaded").operating_point
-    assert {name: getattr(point, name) for name in pt.TUNABLES} == scene.model_dump()
-
-
-def test_the_shipped_parameter_file_is_the_packaged_scene(peer: Peer, start: Start) -> None:
-    file = ROOT / "ros_ws/src/planetary_twin/config/paper.yaml"
-    start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    point = peer.until(lambda: points, 120.0)[0]
-    shipped = pt.load_scene("paper").operating_point
-    for name in pt.TUNABLES:
-        assert math.isclose(getattr(point, name), getattr(shipped, name), rel_tol=1e-6)
+    for field, value in pt.load_scene(name).operating_point:
+        assert math.isclose(getattr(point, field), value, rel_tol=1e-6), field

@@ -16,8 +16,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 
-from ..conftest import Start
-from ..peer import TWIN, Peer
+from ..peer import TWIN
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 TARGET = 0.5  # [rad]
@@ -33,9 +32,7 @@ def topic_system(domain: int) -> Iterator[subprocess.Popen[bytes]]:
     process.wait(60.0)
 
 
-def test_a_controller_of_ros2_control_moves_the_arm(
-    peer: Peer, start: Start, topic_system: subprocess.Popen[bytes]
-) -> None:
+def test_a_controller_of_ros2_control_moves_the_arm(peer, start, topic_system):
     """A tenth of real time leaves a busy machine time for the loop over both topics."""
     scene = EXAMPLES / "geared_joint.yaml"
     given = {"publish_rate": 200.0, "continuous_joints": "true", "rate_factor": 0.1}

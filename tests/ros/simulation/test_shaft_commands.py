@@ -60,7 +60,7 @@ def speed(message: JointState, joint: str) -> float:
     return message.velocity[list(message.name).index(joint)]
 
 
-def test_joint_states_have_the_torques_on_the_shafts(peer: Peer, start: Start) -> None:
+def test_joint_states_have_the_torques_on_the_shafts(peer, start):
     start("planetary_twin.simulation")
     joints = peer.listen(JointState, f"{TWIN}/joint_states")
     peer.until(lambda: len(joints) > 20)
@@ -69,9 +69,7 @@ def test_joint_states_have_the_torques_on_the_shafts(peer: Peer, start: Start) -
     assert all(math.isnan(torque(joints[-1], f"planet_{n}_joint")) for n in (1, 2, 3))
 
 
-def test_lockstep_has_the_bits_of_a_twin_in_python(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_lockstep_has_the_bits_of_a_twin_in_python(peer, start, tmp_path):
     """Pause, reset, then commands in and states out, one call a step, at any load."""
     joints = running(peer, start, tmp_path, tolerance=0.0, compute_share=0.9)
     peer.until(lambda: len(joints) > 200)  # the tolerance has been selected by the load
@@ -113,9 +111,7 @@ def reports_on_commands(arrays: list[DiagnosticArray]) -> set[str]:
     return {each.message for array in arrays for each in array.status if "commands" in each.name}
 
 
-def test_steps_with_a_command_that_no_port_takes_are_refused(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_steps_with_a_command_that_no_port_takes_are_refused(peer, start, tmp_path):
     running(peer, start, tmp_path, rate_factor=0.0, tolerance=0.0)
     peer.pause(NODE)
     now = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3)).simulated_time
@@ -144,9 +140,7 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(
 
 
 @pytest.mark.parametrize("silence", ["hold", "zero", "brake"])
-def test_silence_holds_releases_or_brakes(
-    peer: Peer, start: Start, tmp_path: Path, silence: str
-) -> None:
+def test_silence_holds_releases_or_brakes(peer, start, tmp_path, silence):
     joints = running(peer, start, tmp_path, command_timeout=0.3, command_silence=silence)
     publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
 
@@ -174,13 +168,10 @@ def received(
     continuous: bool = False,
     now: Callable[[], int] = lambda: 1_000,
 ) -> ShaftCommands:
-    given = SimpleNamespace(
-        scene=PAPER,
-        command_timeout=timeout,
-        command_silence=silence,
-        continuous_joints=continuous,
+    settings = SimpleNamespace(
+        command_timeout=timeout, command_silence=silence, continuous_joints=continuous
     )
-    commands = ShaftCommands(given, now, take=lambda: ())
+    commands = ShaftCommands(PAPER, settings, now, take=lambda: ())
     for message in messages:
         commands.receive(message)
     return commands
@@ -194,7 +185,7 @@ def torques(commands: ShaftCommands) -> dict[str, float]:
     return commands.given(twin(), 0.01)
 
 
-def test_repeated_and_reordered_commands_have_no_effect() -> None:
+def test_repeated_and_reordered_commands_have_no_effect():
     commands = received(
         command((1.0, 2.0), 5),
         command((3.0, 4.0), 5),
@@ -206,7 +197,7 @@ def test_repeated_and_reordered_commands_have_no_effect() -> None:
     assert torques(commands) == {}
 
 
-def test_a_fault_is_reported_once_with_its_reason() -> None:
+def test_a_fault_is_reported_once_with_its_reason():
     commands = received(command((1.0, 2.0)), command((1e9, 2.0)))
     torques(commands)
     first, second = commands.row(), commands.row()
@@ -219,7 +210,7 @@ def test_a_fault_is_reported_once_with_its_reason() -> None:
     assert second.values == {"ignored: out of range": 1}
 
 
-def test_a_misspelt_joint_is_named() -> None:
+def test_a_misspelt_joint_is_named():
     commands = received(JointState(name=[SUN, "rin_joint"], effort=[1.0, 2.0]))
     assert torques(commands) == {"input_torque": 1.0}
     status = commands.row()
@@ -235,7 +226,7 @@ def test_a_misspelt_joint_is_named() -> None:
     )
 
 
-def test_a_joint_named_twice_discards_a_command() -> None:
+def test_a_joint_named_twice_discards_a_command():
     other = JointState(name=["elbow", SUN, "elbow"], effort=[7.0, 5.0, 8.0])
     assert fault_of_names(other, (SUN, RING)) == ""
     own = JointState(name=[SUN, RING, SUN], effort=[1.0, 2.0, 3.0])
@@ -245,7 +236,7 @@ def test_a_joint_named_twice_discards_a_command() -> None:
     assert commands.ignored == {"a name twice": 1}
 
 
-def test_messages_with_fewer_values_than_names_are_counted() -> None:
+def test_messages_with_fewer_values_than_names_are_counted():
     """ros2_control sends them, if only the first joint has a command."""
     commands = received(JointState(name=[SUN, RING], effort=[1.0]))
     assert torques(commands) == {"input_torque": 1.0}
@@ -254,11 +245,11 @@ def test_messages_with_fewer_values_than_names_are_counted() -> None:
     assert status.values == {"fewer values than names": 1}
 
 
-def test_a_command_out_of_range_leaves_the_other_joint_its_own() -> None:
+def test_a_command_out_of_range_leaves_the_other_joint_its_own():
     assert torques(received(command((1e9, 2.0)))) == {"output_torque": 2.0}
 
 
-def test_a_shaft_faster_than_the_limit_of_commands_is_reported() -> None:
+def test_a_shaft_faster_than_the_limit_of_commands_is_reported():
     ports = {"drive.input.port": "torque", "drive.output.port": "torque"}
     fast = pt.Twin(PAPER.replace(**ports, **{"drive.speed_limit": 105.0}))
     commands = received()
@@ -281,7 +272,7 @@ def test_a_shaft_faster_than_the_limit_of_commands_is_reported() -> None:
         (-0.2, "repeated or out of order (stamp 0.2 s before that of the last command)"),
     ],
 )
-def test_the_report_gives_the_age_of_a_stamp_and_its_limit(offset: float, words: str) -> None:
+def test_the_report_gives_the_age_of_a_stamp_and_its_limit(offset, words):
     now = 18 * 10**17
     stamp = now + round(offset * 1e9)
     commands = received(
@@ -290,7 +281,7 @@ def test_the_report_gives_the_age_of_a_stamp_and_its_limit(offset: float, words:
     assert commands.row().message == f"without effect since the last report: 1 {words}"
 
 
-def test_a_command_that_waited_to_be_taken_is_not_late() -> None:
+def test_a_command_that_waited_to_be_taken_is_not_late():
     """A paused twin takes commands a few times a second only."""
     now = 10**18
     commands = received(timeout=1.0, now=lambda: now)
@@ -298,7 +289,7 @@ def test_a_command_that_waited_to_be_taken_is_not_late() -> None:
     assert torques(commands) == {"input_torque": 1.0, "output_torque": 2.0}
 
 
-def test_a_command_ahead_of_the_clock_leaves_later_ones() -> None:
+def test_a_command_ahead_of_the_clock_leaves_later_ones():
     now = 10**18
     commands = received(
         command((1.0, 2.0), now + 3600 * 10**9), command((3.0, 4.0), now), now=lambda: now
@@ -307,7 +298,7 @@ def test_a_command_ahead_of_the_clock_leaves_later_ones() -> None:
     assert commands.ignored == {"ahead of the clock": 1}
 
 
-def test_commands_act_after_the_clock_was_set_back() -> None:
+def test_commands_act_after_the_clock_was_set_back():
     now = 10**18
     commands = received(command((1.0, 2.0), now), now=lambda: now)
     now -= 3600 * 10**9
@@ -316,7 +307,7 @@ def test_commands_act_after_the_clock_was_set_back() -> None:
     assert not commands.ignored
 
 
-def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:
+def test_each_joint_may_have_a_client_of_its_own(clock):
     """Stamps and silence of one joint say nothing of the other."""
     sun, ring = JointState(name=[SUN], effort=[5.0]), JointState(name=[RING], effort=[7.0])
     sun.header.stamp.nanosec, ring.header.stamp.nanosec = 20, 10
@@ -336,7 +327,7 @@ def test_each_joint_may_have_a_client_of_its_own(clock: list[float]) -> None:
     [command((1e9, -1e9)), JointState(name=[SUN, RING], velocity=[1.0, 1.0])],
     ids=["out of range", "not of the port"],
 )
-def test_refused_commands_do_not_keep_a_brake_off(clock: list[float], refused: JointState) -> None:
+def test_refused_commands_do_not_keep_a_brake_off(clock, refused):
     commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
     commands.given(braked, 0.01)
     for clock[0] in (0.3, 0.6):
@@ -348,7 +339,7 @@ def test_refused_commands_do_not_keep_a_brake_off(clock: list[float], refused: J
     assert braked.ports == ("brake", "torque")
 
 
-def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> None:
+def test_a_brake_lasts_while_one_joint_has_no_command(clock):
     commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
     assert commands.given(braked, 0.01) == {"input_torque": 63.0, "output_torque": 147.0}
     clock[0] = 0.6
@@ -362,7 +353,7 @@ def test_a_brake_lasts_while_one_joint_has_no_command(clock: list[float]) -> Non
     assert braked.ports == ("torque", "torque")
 
 
-def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) -> None:
+def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock):
     """A recording then has the ports, also where the next command is for one of them."""
     braked = twin("torque", "motion")
     commands = received(
@@ -385,9 +376,7 @@ def test_the_end_of_a_brake_names_what_acts_at_both_ports(clock: list[float]) ->
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("output", ["torque", "motion", "machine"])
 @pytest.mark.parametrize("input", ["torque", "motion"])
-def test_silence_brakes_far_beyond_the_limit_of_commands(
-    clock: list[float], input: str, output: str, sign: float
-) -> None:
+def test_silence_brakes_far_beyond_the_limit_of_commands(clock, input, output, sign):
     """Interval by interval as a node does, with an error until the shaft is at rest."""
     limit, slew = 50.0, PAPER.drive.speed_control.slew_rate
     fast = pt.Twin(
@@ -419,7 +408,7 @@ def test_silence_brakes_far_beyond_the_limit_of_commands(
     assert abs(fast.port_states.input_speed) < 1e-9
 
 
-def test_a_defect_in_taking_commands_is_a_silence(clock: list[float]) -> None:
+def test_a_defect_in_taking_commands_is_a_silence(clock):
     """The thread of the twin goes on, and brakes; without a client, too."""
     commands, braked = received(command((63.0, 147.0)), timeout=0.5, silence="brake"), twin()
     commands.given(braked, 0.01)
@@ -435,7 +424,7 @@ def test_a_defect_in_taking_commands_is_a_silence(clock: list[float]) -> None:
 
 
 @pytest.mark.parametrize("continuous", [False, True])
-def test_positions_are_those_of_joint_states(continuous: bool) -> None:
+def test_positions_are_those_of_joint_states(continuous):
     """Within one turn, the nearest angle is meant; with `continuous_joints`, the angle itself."""
     moved = twin("motion", "torque")
     moved.advance(0.1)  # more than a turn and a half
@@ -451,7 +440,7 @@ def test_positions_are_those_of_joint_states(continuous: bool) -> None:
         assert far.ignored == {"out of range": 1}
 
 
-def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
+def test_values_that_are_missing_or_nan_leave_a_port_as_it_is():
     half = JointState(name=["other", RING, SUN], effort=[1.0, 2.0])
     assert torques(received(half)) == {"output_torque": 2.0}
     assert torques(received(command((math.nan, 5.0)))) == {"output_torque": 5.0}
@@ -461,7 +450,7 @@ def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
     assert empty.ignored == {reason: 1}
 
 
-def test_a_command_for_an_unknown_joint_is_reported() -> None:
+def test_a_command_for_an_unknown_joint_is_reported():
     commands = received(JointState(name=["elbow"], effort=[1.0]))
     text = "of sun_joint or ring_joint (the command names 'elbow')"
     assert text in commands.row().message
@@ -473,9 +462,7 @@ def brakes(status: DiagnosticStatus) -> bool:
     return status.name.endswith("simulation: commands") and status.message.endswith("s: brake")
 
 
-def test_a_driven_run_is_recorded_and_verified_bit_for_bit(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_driven_run_is_recorded_and_verified_bit_for_bit(peer, start, tmp_path):
     """Commands at 1 kHz are in the recording as they acted, and a brake in between."""
     logger = start("planetary_twin.logger", name="driven")
     joints = running(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from planetary_twin_msgs.msg import GearboxState
 
-from ..conftest import Start
 from ..peer import TWIN, Peer
 
 # The wheels of ROS lack it; a ROS installation has it as ros-jazzy-simulation-interfaces.
@@ -47,7 +46,7 @@ def reset(peer: Peer, scope: int) -> Result:
     return peer.call(ResetSimulation, f"{NODE}/reset_simulation", request).result
 
 
-def test_time_is_paused_stepped_reset_and_played(peer: Peer, start: Start) -> None:
+def test_time_is_paused_stepped_reset_and_played(peer, start):
     start("planetary_twin.simulation", publish_rate=50)
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: states)
@@ -86,7 +85,7 @@ def test_time_is_paused_stepped_reset_and_played(peer: Peer, start: Start) -> No
     assert bring(peer, PLAYING).result == Result.RESULT_INCORRECT_STATE
 
 
-def test_the_reported_features_are_those_offered(peer: Peer, start: Start) -> None:
+def test_the_reported_features_are_those_offered(peer, start):
     start("planetary_twin.simulation")
     kind = GetSimulatorFeatures
     answer = peer.call(kind, f"{NODE}/get_simulator_features", kind.Request())

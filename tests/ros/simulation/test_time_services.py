@@ -18,6 +18,7 @@ import planetary_twin_py as pt
 
 from ..conftest import Start
 from ..peer import LATCHED, TWIN, Peer
+from ..reported import check_rising
 
 NODE = f"{TWIN}/simulation"
 INTERVAL = 0.01  # [s]
@@ -37,11 +38,7 @@ class Received:
         peer.until(lambda: self.states and self.points)
 
     def check(self) -> None:
-        """Sequence numbers have no gaps, and stamps increase."""
-        for messages in (self.states, self.waves):
-            for before, after in itertools.pairwise(messages):
-                assert after.sequence == before.sequence + 1
-                assert nanoseconds(after.header.stamp) > nanoseconds(before.header.stamp)
+        check_rising(self.states, self.waves)
 
 
 class Follower:
@@ -83,7 +80,7 @@ def stand(peer: Peer, states: list[GearboxState]) -> float:
     return held
 
 
-def test_a_paused_twin_resumes_at_the_same_time(peer: Peer, received: Received) -> None:
+def test_a_paused_twin_resumes_at_the_same_time(peer, received):
     stand(peer, received.states)
     stood = len(received.states)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
@@ -101,7 +98,7 @@ def test_a_paused_twin_resumes_at_the_same_time(peer: Peer, received: Received) 
     received.check()
 
 
-def test_a_step_of_a_paused_twin_has_the_requested_duration(peer: Peer, received: Received) -> None:
+def test_a_step_of_a_paused_twin_has_the_requested_duration(peer, received):
     before, count = stand(peer, received.states), len(received.states)
     for duration, messages in ((INTERVAL, 1), (0.025, 3), (1e-6, 1)):
         answer = step(peer, duration)
@@ -115,7 +112,9 @@ def test_a_step_of_a_paused_twin_has_the_requested_duration(peer: Peer, received
     received.check()
 
 
-def test_an_invalid_step_is_refused(peer: Peer, received: Received) -> None:
+def test_steps_of_a_running_twin_and_invalid_ones_are_refused(peer, received):
+    answer = step(peer, 0.1)
+    assert not answer.success and "pause it first" in answer.message
     peer.pause(NODE)
     for duration in (0.0, -1.0, math.nan, 1e9):
         answer = step(peer, duration)
@@ -123,12 +122,7 @@ def test_an_invalid_step_is_refused(peer: Peer, received: Received) -> None:
         assert answer.message.startswith("duration = ")
 
 
-def test_a_running_twin_refuses_steps(peer: Peer, received: Received) -> None:
-    answer = step(peer, 0.1)
-    assert not answer.success and "pause it first" in answer.message
-
-
-def test_a_reset_starts_again_with_the_parameters_in_force(peer: Peer, received: Received) -> None:
+def test_a_reset_starts_again_with_the_parameters_in_force(peer, received):
     assert peer.set(NODE, backlash=3e-7).successful
     peer.until(lambda: len(received.points) == 2 and received.states[-1].simulated_time > 0.3)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
@@ -148,7 +142,7 @@ def test_a_reset_starts_again_with_the_parameters_in_force(peer: Peer, received:
     peer.until(lambda: received.points[-1].backlash == 2e-7)
 
 
-def test_the_clock_has_the_time_of_the_messages(peer: Peer, start: Start) -> None:
+def test_the_clock_has_the_time_of_the_messages(peer, start):
     # Launch files set `use_sim_time` for all nodes: the source must not wait for itself.
     start("planetary_twin.simulation", clock="true", use_sim_time="true", rate_factor=0.1)
     clocks = peer.listen(Clock, "/clock")
@@ -168,7 +162,7 @@ def test_the_clock_has_the_time_of_the_messages(peer: Peer, start: Start) -> Non
     assert len(stamps & set(times_of_clock)) >= 20
 
 
-def test_natural_modes_are_those_of_the_scene(peer: Peer, received: Received) -> None:
+def test_natural_modes_are_those_of_the_scene(peer, received):
     answer = peer.call(NaturalModes, f"{NODE}/natural_modes", NaturalModes.Request())
     modes = pt.natural_modes(pt.load_scene("paper"))
     assert list(answer.frequencies) == pytest.approx(list(modes.frequencies))

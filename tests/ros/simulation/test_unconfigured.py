@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 import yaml
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
@@ -13,7 +11,6 @@ from std_msgs.msg import String
 
 import planetary_twin_py as pt
 
-from ..conftest import Start
 from ..peer import LATCHED, TWIN, Peer
 
 OF_ROS = {"/rosout", "/parameter_events"}
@@ -40,7 +37,7 @@ def read_only(peer: Peer, name: str) -> bool:
     return bool(peer.call(DescribeParameters, service, request).descriptors[0].read_only)
 
 
-def test_a_simulation_uses_parameters_set_when_unconfigured(peer: Peer, start: Start) -> None:
+def test_a_simulation_uses_parameters_set_when_unconfigured(peer, start):
     start("planetary_twin.simulation", autostart="false")
     assert peer.state(SIMULATION) == "unconfigured"
     assert topics(peer) == set()
@@ -85,7 +82,7 @@ def test_a_simulation_uses_parameters_set_when_unconfigured(peer: Peer, start: S
     assert peer.set(SIMULATION, publish_rate=20).successful
 
 
-def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
+def test_an_invalid_value_is_refused_and_changes_nothing(peer, start):
     start("planetary_twin.simulation", autostart="false", input_torque=80)
     before = values(peer, "scene", "input_torque", "gearset.teeth.sun")
     for given in (
@@ -103,9 +100,7 @@ def test_an_invalid_value_is_refused_and_changes_nothing(peer: Peer, start: Star
     peer.change_state(SIMULATION, "configure")
 
 
-def test_a_logger_uses_the_name_set_when_unconfigured(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_logger_uses_the_name_set_when_unconfigured(peer, start, tmp_path):
     node = f"{TWIN}/logger"
     start("planetary_twin.logger", autostart="false")
     assert peer.state(node) == "unconfigured"

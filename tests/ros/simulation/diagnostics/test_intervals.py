@@ -16,7 +16,7 @@ def statuses(reports: IntervalReports) -> list[DiagnosticStatus]:
     return diagnostics(reports.rows(), "/twin").status
 
 
-def test_inaccurate_intervals_warn_until_the_next_report() -> None:
+def test_inaccurate_intervals_warn_until_the_next_report():
     window = pt.Twin(pt.load_scene("paper"), tolerance=1e-3).advance(0.01)
     reports = IntervalReports()
     reports.add(window)
@@ -33,7 +33,7 @@ def test_inaccurate_intervals_warn_until_the_next_report() -> None:
     assert statuses(reports)[1].level == DiagnosticStatus.OK
 
 
-def test_an_open_ledger_warns_until_the_next_report() -> None:
+def test_an_open_ledger_warns_until_the_next_report():
     twin = pt.Twin(pt.load_scene("paper"), tolerance=1e-3)
     windows = [twin.advance(0.01) for _ in range(3)]
     reports = IntervalReports()

@@ -5,13 +5,12 @@ from __future__ import annotations
 import time
 from collections import deque
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin.base.diagnostics import diagnostics
 from planetary_twin.simulation.diagnostics.real_time import RealTimeReport
-from planetary_twin.simulation.live.interface import Progress, State
+from planetary_twin.simulation.progress import Progress, State
 from planetary_twin.simulation.publishing.stamps import Skip
 
 import planetary_twin_py as pt
@@ -73,15 +72,13 @@ class Reports:
         (7.0, 3.0, {"last": True}, DiagnosticStatus.OK, "keeps up"),
     ],
 )
-def test_the_level_says_how_far_behind_the_twin_is(
-    simulated: float, ago: float, more: dict[str, Any], level: bytes, text: str
-) -> None:
+def test_the_level_says_how_far_behind_the_twin_is(simulated, ago, more, level, text):
     status = Reports()(simulated, ago, **more).status[0]
     assert status.level == level
     assert status.message.startswith(text)
 
 
-def test_late_stamps_are_a_warning_with_their_lag_and_its_growth() -> None:
+def test_late_stamps_are_a_warning_with_their_lag_and_its_growth():
     reports = Reports()
     reports.stamps.lag = 0.09
     assert reports(9.0, 1.0).status[0].level == DiagnosticStatus.OK
@@ -91,7 +88,7 @@ def test_late_stamps_are_a_warning_with_their_lag_and_its_growth() -> None:
     assert "stamps are late: 8.79 s behind ROS time, growing by 8.700 s/s" in status.message
 
 
-def test_each_skip_of_stamps_is_reported_once() -> None:
+def test_each_skip_of_stamps_is_reported_once():
     reports = Reports()
     reports.stamps.skips += [Skip(3.1, 8.75), Skip(4.0, 0.25)]
     first, second = (figures([reports(10.0, 0.0)]) for _ in range(2))
@@ -100,7 +97,7 @@ def test_each_skip_of_stamps_is_reported_once() -> None:
     assert (second["skips"], second["skipped"]) == ("2", "9.000")
 
 
-def test_a_wait_from_one_report_to_the_next_is_a_warning() -> None:
+def test_a_wait_from_one_report_to_the_next_is_a_warning():
     reports = Reports()
     at_start = reports(0.0, 0.0, state=State.WAITING).status[0]
     assert at_start.level == DiagnosticStatus.OK and at_start.message == "waits"
@@ -110,7 +107,7 @@ def test_a_wait_from_one_report_to_the_next_is_a_warning() -> None:
     assert reports(10.0, 0.0).status[0].level == DiagnosticStatus.OK
 
 
-def test_the_phase_of_reports_within_an_interval_is_no_lag() -> None:
+def test_the_phase_of_reports_within_an_interval_is_no_lag():
     """In reports one second apart, one counts 98 intervals and another 102."""
     reports = Reports()
     reports(0.0, 1.0)
@@ -120,21 +117,21 @@ def test_the_phase_of_reports_within_an_interval_is_no_lag() -> None:
     assert reports(0.97, 0.0).status[0].level == DiagnosticStatus.WARN
 
 
-def test_a_halted_twin_has_no_speed() -> None:
+def test_a_halted_twin_has_no_speed():
     reports = Reports()
     for ago in (5.0, 6.0):
         reported = figures([reports(5.0, ago)])
     assert float(reported["real_time_factor"]) == 0.0
 
 
-def test_pauses_are_no_part_of_the_mean() -> None:
+def test_pauses_are_no_part_of_the_mean():
     """Nine seconds of waiting, or of a pause, and one at half the rate."""
     reports = Reports()
     now = Progress(0.5, time.monotonic(), 0.5, 1.0, 0.0, 0, False, State.RUNNING)
     assert figures([reports.at(now)])["real_time_factor_mean"] == "0.5000"
 
 
-def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:
+def test_a_thinned_waveform_is_a_warning_though_it_keeps_up():
     reports = Reports()
     reports.log.append(pt.Change(1.0, POINT, 1e-3, 12.5e3))
     message = reports(10.0, 0.0)
@@ -142,7 +139,7 @@ def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:
     assert message.status[0].message == "keeps up with a thinned waveform: 12500 of 50000 Hz"
 
 
-def test_each_change_is_reported_once_and_then_removed() -> None:
+def test_each_change_is_reported_once_and_then_removed():
     reports = Reports()
     reports.log.append(pt.Change(0.5, POINT, 1e-2, FULL))
     reports.log.append(pt.Change(0.5, POINT, 1e-2, 25e3))

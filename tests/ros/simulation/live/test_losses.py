@@ -105,9 +105,7 @@ MORE = [(20.0, 7.0, run_on), (1.0, 7.0, step), (0.0, 3.0, rest)]
 
 
 @pytest.mark.parametrize(("rate", "stall", "meanwhile"), first_rows(len(CELLS), CELLS + MORE))
-def test_the_logger_records_all_that_is_published(
-    peer: Peer, start: Start, tmp_path, rate: float, stall: float, meanwhile: Go
-) -> None:
+def test_the_logger_records_all_that_is_published(peer, start, tmp_path, rate, stall, meanwhile):
     assert stall < STALL
     logger = start("planetary_twin.logger", name="bag")
     twin = Twin(peer, start, logger, "logger", rate)
@@ -141,9 +139,7 @@ def test_the_logger_records_all_that_is_published(
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize(("rate", "each", "stall"), [(1.0, 10.0, 0.3), (0.0, 100.0, 3.0)])
-def test_another_recorder_with_a_long_queue_receives_all(
-    peer: Peer, start: Start, other: Program, rate: float, each: float, stall: float
-) -> None:
+def test_another_recorder_with_a_long_queue_receives_all(peer, start, other, rate, each, stall):
     """At real time its queue of 10 limits a stall, to 1 s here; above, the twin waits for it."""
     received = peer.listen(String, COUNTS, LATCHED)
     twin = Twin(peer, start, other, NAME, rate, publish_rate=each)
@@ -157,7 +153,7 @@ def test_another_recorder_with_a_long_queue_receives_all(
 
 
 @pytest.mark.exhaustive
-def test_a_twin_waits_for_its_recorder_only(peer: Peer, start: Start, other: Program) -> None:
+def test_a_twin_waits_for_its_recorder_only(peer, start, other):
     """Another subscriber that stalls delays nothing; the recorder delays simulated time."""
     logger = start("planetary_twin.logger")
     twin = Twin(peer, start, logger, "logger", 0.0, sample_rate=1000.0)

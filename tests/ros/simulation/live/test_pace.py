@@ -33,7 +33,7 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     return clock
 
 
-def test_many_periods_add_up_without_drift(clock: Clock) -> None:
+def test_many_periods_add_up_without_drift(clock):
     clock.late = 0.3 * PERIOD
     pace = Pace(PERIOD, clock.sleep)
     pace.start()
@@ -44,7 +44,7 @@ def test_many_periods_add_up_without_drift(clock: Clock) -> None:
     assert pace.overruns == 0
 
 
-def test_waiting_costs_no_processor_time() -> None:
+def test_waiting_costs_no_processor_time():
     pace = Pace(PERIOD)
     before = time.thread_time()
     pace.start()
@@ -53,7 +53,7 @@ def test_waiting_costs_no_processor_time() -> None:
     assert time.thread_time() - before < 0.1 * 50 * PERIOD
 
 
-def test_a_missed_deadline_is_counted_and_not_caught_up(clock: Clock) -> None:
+def test_a_missed_deadline_is_counted_and_not_caught_up(clock):
     pace = Pace(PERIOD, clock.sleep)
     pace.start()
     clock.sleep(10 * PERIOD)

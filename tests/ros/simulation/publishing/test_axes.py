@@ -23,8 +23,8 @@ from planetary_twin_py.recording.runs.origin import read_origin
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.statics.load_sharing import load_sharing
 
-from ...conftest import Start, starting
-from ...peer import LATCHED, LONG, TWIN, Peer, connected
+from ...conftest import starting
+from ...peer import LATCHED, LONG, TWIN, connected
 from ...programs import Forked
 from ...recordings import counts, read_all
 from ...reported import listen_to_reports, recorded
@@ -93,7 +93,7 @@ def _end_of(block: AxesWaveform) -> float:
     return float(block.start_time + (block.samples - 1) * block.sample_period)
 
 
-def test_states_of_axes_have_the_stamps_of_the_gearbox(run: Run) -> None:
+def test_states_of_axes_have_the_stamps_of_the_gearbox(run):
     first = run.states[0].sequence
     numbers = [state.sequence for state in run.states]
     assert numbers == list(range(first, first + len(run.states)))
@@ -103,7 +103,7 @@ def test_states_of_axes_have_the_stamps_of_the_gearbox(run: Run) -> None:
     assert all(state.header.stamp == stamps[state.simulated_time] for state in common)
 
 
-def test_the_sun_floats_and_planets_share_the_load_as_in_statics(run: Run) -> None:
+def test_the_sun_floats_and_planets_share_the_load_as_in_statics(run):
     scene = pt.load_scene("floating_sun")
     expected = load_sharing(scene).share.mean(axis=0)
     settled = run.states[STATES // 2 :]
@@ -117,7 +117,7 @@ def test_the_sun_floats_and_planets_share_the_load_as_in_statics(run: Run) -> No
     assert away == pytest.approx(moved, rel=5e-2)
 
 
-def test_blocks_of_axes_follow_one_another(run: Run) -> None:
+def test_blocks_of_axes_follow_one_another(run):
     rows = 4 + 3
     for before, after in zip(run.blocks, run.blocks[1:], strict=False):
         assert len(after.displacement) == len(after.bearing_force) == 2 * rows * after.samples
@@ -128,7 +128,7 @@ def test_blocks_of_axes_follow_one_another(run: Run) -> None:
         assert after.start_time == pytest.approx(follows, abs=1e-9)
 
 
-def test_the_recording_has_what_was_published_and_verifies(run: Run) -> None:
+def test_the_recording_has_what_was_published_and_verifies(run):
     in_file = counts(run.folder)
     states, blocks = (in_file[f"{TWIN}/{name}"] for name in ("axes_state", "axes_waveform"))
     assert states == blocks == run.states[-1].sequence
@@ -147,16 +147,14 @@ def test_the_recording_has_what_was_published_and_verifies(run: Run) -> None:
     assert found.messages["axes_waveform"] == blocks
 
 
-def test_the_monitor_shows_load_sharing_and_bearing_forces(run: Run) -> None:
+def test_the_monitor_shows_load_sharing_and_bearing_forces(run):
     rows = dict(line.split(": ") for line in run.table.splitlines())
     assert 1.1 < float(rows["Load sharing factor"]) < 1.2
     assert float(rows["Bearing force, peak, planet"]) > 1000.0
     assert float(rows["Displacement, peak, sun"]) > 1.0  # [um]
 
 
-def test_a_node_reports_the_dynamics_that_auto_selects(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_node_reports_the_dynamics_that_auto_selects(peer, start, tmp_path):
     scene = tmp_path / "open.yaml"
     scene.write_text("base: floating_sun\nname: open\ndynamics: auto\n")
     reports = listen_to_reports(peer)
@@ -193,9 +191,7 @@ def test_a_node_reports_the_dynamics_that_auto_selects(
     assert now is not None and now.message.startswith("input_torque changed since; dynamics =")
 
 
-def test_held_axes_warn_while_load_shares_are_wrong(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_held_axes_warn_while_load_shares_are_wrong(peer, start, tmp_path):
     scene = tmp_path / "held.yaml"
     point = "operating_point: {input_torque: 0 N m}"
     scene.write_text(f"base: floating_sun\nname: held\ndynamics: torsional\n{point}\n")
@@ -217,7 +213,7 @@ def test_held_axes_warn_while_load_shares_are_wrong(
     peer.until(lambda: texts() and "holds all axes" not in texts()[0], 60.0)
 
 
-def test_quasi_static_axes_move_and_verify(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_quasi_static_axes_move_and_verify(peer, start, tmp_path):
     scene = tmp_path / "still.yaml"
     scene.write_text("base: floating_sun\nname: still\ndynamics: quasi_static_planar\n")
     logger = start("planetary_twin.logger", name="bag")

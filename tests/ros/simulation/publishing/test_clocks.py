@@ -1,4 +1,4 @@
-"""Stamps increase strictly if clocks jump or stop, and a late twin reports it."""
+"""Stamps increase strictly if clocks jump or stop; without a clock no state is published."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ import time
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin.base.clock import STEADY
-from planetary_twin.clients.real_time_figures import real_time_figures
-from planetary_twin_msgs.msg import GearboxState, MeshWaveform
+from planetary_twin.base.diagnostics import real_time_figures
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
+from planetary_twin_msgs.srv import Step
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
 
-from ...conftest import Start
-from ...peer import TWIN, Peer
+from ...peer import LATCHED, TWIN, Peer
+from ...reported import check_rising, check_verified
 
 MODULE = "planetary_twin.simulation"
 INTERVAL = 0.01  # [s]
@@ -23,14 +26,6 @@ HOUR = 3600.0  # [s]
 
 def seconds(stamp) -> float:
     return stamp.sec + stamp.nanosec * 1e-9
-
-
-def check_rising(*topics: list) -> None:
-    """Sequence numbers have no gaps, and stamps increase."""
-    for messages in topics:
-        for before, after in itertools.pairwise(messages):
-            assert after.sequence == before.sequence + 1
-            assert Time.from_msg(after.header.stamp) > Time.from_msg(before.header.stamp)
 
 
 class Ticking:
@@ -57,7 +52,7 @@ def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
     return real_time_figures(reports[-1], TWIN) if reports else {}
 
 
-def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) -> None:
+def test_stamps_increase_when_an_external_clock_jumps(peer, start):
     start(MODULE, use_sim_time="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -84,7 +79,7 @@ def test_stamps_increase_when_an_external_clock_jumps(peer: Peer, start: Start) 
     assert all(after > before for before, after in itertools.pairwise(stamps))
 
 
-def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> None:
+def test_a_twin_as_fast_as_possible_is_never_late(peer, start):
     start(MODULE, rate_factor=0, sample_rate=5000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
@@ -101,3 +96,60 @@ def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> N
     assert int(reported["overruns"]) == 0
     for state in states:
         assert state.simulated_time == pytest.approx(state.sequence * INTERVAL)
+
+
+NODE = f"{TWIN}/simulation"
+NO_CLOCK = "use_sim_time: the twin waits for the first message on /clock"
+
+
+def step(peer: Peer) -> Step.Response:
+    return peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05))
+
+
+def test_steps_before_the_first_clock_are_refused(peer, start, tmp_path):
+    logger = start("planetary_twin.logger", name="clockless")
+    start("planetary_twin.simulation", use_sim_time="true", wait_for="logger")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.pause(NODE)
+    assert peer.set(NODE, input_torque=80.0).successful
+    for _ in range(2):
+        refused = step(peer)
+        assert not refused.success and refused.simulated_time == 0.0
+        assert refused.message == f"{NO_CLOCK}; step the twin then"
+        assert (refused.stamp.sec, refused.stamp.nanosec) == (0, 0)  # no time yet
+        assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
+    assert not states and not points
+    Ticking(peer, 5.0)
+    peer.until(lambda: step(peer).success)
+    peer.until(lambda: len(states) == 5 and points)
+    assert points[-1].input_torque == 80.0
+    assert states[0].header.stamp.sec >= 5
+    check_verified(logger, tmp_path / "recordings/clockless")
+
+
+def test_a_clock_without_time_makes_steps_refused(peer, start, tmp_path):
+    logger = start("planetary_twin.logger", name="changed")
+    start("planetary_twin.simulation", wait_for="logger")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: states and points)
+    answer = peer.set(NODE, use_sim_time=True)
+    assert answer.successful and answer.reason == NO_CLOCK
+    peer.pause(NODE)
+    assert peer.set(NODE, input_torque=80.0).successful
+    assert step(peer).message.startswith(NO_CLOCK)
+    answer = peer.set(NODE, use_sim_time=False)
+    assert answer.successful and answer.reason == ""
+    assert step(peer).success
+    peer.until(lambda: points[-1].input_torque == 80.0)
+    check_verified(logger, tmp_path / "recordings/changed")
+
+
+def test_a_plant_begins_with_the_first_clock(peer, start):
+    measured = peer.listen(JointState, f"{TWIN}/measured/joint_states")
+    plant = start("planetary_twin.plant", use_sim_time="true", duration=0.5)
+    assert peer.state(f"{TWIN}/plant") == "active"
+    Ticking(peer, 5.0)
+    peer.until(lambda: plant.poll() is not None)
+    assert measured and measured[0].header.stamp.sec >= 5

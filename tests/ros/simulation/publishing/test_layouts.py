@@ -71,9 +71,7 @@ def curves(panel: dict[str, Any]) -> list[dict[str, Any]]:
     return [path for path in panel["paths"] if not LENGTH.match(path["value"])]
 
 
-def test_foxglove_plots_fields_in_their_unit(
-    panels: dict[str, Any],
-) -> None:
+def test_foxglove_plots_fields_in_their_unit(panels):
     for panel in plots(panels):
         (unit,) = {UNITS[field_of(path["value"])] for path in curves(panel)}
         assert all(panel[key].endswith(f" [{unit}]") for key in TITLES)
@@ -85,15 +83,13 @@ def test_foxglove_plots_fields_in_their_unit(
         assert room - 60 > 6 * max(map(len, labels))  # 60 pixels are buttons, a letter has 6
 
 
-def test_the_gears_of_foxglove_come_from_the_robot_description(panels: dict[str, Any]) -> None:
+def test_the_gears_of_foxglove_come_from_the_robot_description(panels):
     (layer,) = panels["3D!gears"]["layers"].values()
     assert layer["layerId"] == "foxglove.Urdf" and layer["sourceType"] == "topic"
     assert layer["topic"] == "/planetary_twin/robot_description"
 
 
-def test_plotjuggler_plots_fields_in_the_unit_of_the_title(
-    docks: list[ElementTree.Element],
-) -> None:
+def test_plotjuggler_plots_fields_in_the_unit_of_the_title(docks):
     for dock in docks:
         curves = list(dock.iter("curve"))
         (unit,) = {UNITS[field_of(curve.attrib["name"])] for curve in curves}

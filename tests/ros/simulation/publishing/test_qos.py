@@ -15,8 +15,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from ...conftest import Start
-from ...peer import LONG, TWIN, Peer
+from ...peer import TWIN, Peer
+from ...programs import ended
 
 LATCHED = {f"{TWIN}/operating_point": OperatingPoint, f"{TWIN}/robot_description": String}
 STREAMS = {
@@ -60,7 +60,7 @@ class Subscriptions:
                 )
 
 
-def test_subscribers_receive_messages_or_the_reason_why_not(peer: Peer, start: Start) -> None:
+def test_subscribers_receive_messages_or_the_reason_why_not(peer, start):
     process = start("planetary_twin.simulation", clock="true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 10)
@@ -81,8 +81,7 @@ def test_subscribers_receive_messages_or_the_reason_why_not(peer: Peer, start: S
 
     peer.until(changed)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 0
+    errors = ended(process)
     warnings = [line for line in errors.splitlines() if "incompatible QoS" in line]
     for topic in STREAMS:
         assert any(f"'{topic.removeprefix(TWIN + '/')}'" in line for line in warnings)

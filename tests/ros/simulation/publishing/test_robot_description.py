@@ -13,8 +13,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from ...conftest import Start
-from ...peer import TWIN, Peer
+from ...peer import TWIN
 
 PREFIX = "left/"
 BODIES = ("sun", "planet_1", "planet_2", "planet_3", "ring", "carrier")
@@ -72,7 +71,7 @@ def in_base(poses: dict[tuple[str, str], Pose], frame: str) -> Pose:
     return Pose(0.0, 1.0)
 
 
-def test_frames_of_the_description_follow_the_joints(peer: Peer, start: Start) -> None:
+def test_frames_of_the_description_follow_the_joints(peer, start):
     start("planetary_twin.simulation", frame_id="gearbox_base", frame_prefix=PREFIX)
     states = peer.listen(JointState, f"{TWIN}/joint_states")
     transforms = peer.listen(TFMessage, "/tf")

@@ -54,12 +54,12 @@ class Course:
         return self.stamps[-1] - before
 
 
-def test_they_run_with_simulated_time_unless_the_clock_is_set() -> None:
+def test_they_run_with_simulated_time_unless_the_clock_is_set():
     course = Course()
     assert course.go(1000) == pytest.approx(10.0, abs=1e-6)
 
 
-def test_they_follow_a_clock_set_forward_not_one_set_back() -> None:
+def test_they_follow_a_clock_set_forward_not_one_set_back():
     course = Course()
     course.clock.ahead = HOUR
     assert course.go() == pytest.approx(HOUR, abs=1.0)
@@ -71,13 +71,13 @@ def test_they_follow_a_clock_set_forward_not_one_set_back() -> None:
     assert course.go() == pytest.approx(HOUR, abs=2.0)
 
 
-def test_a_source_of_time_reads_no_other_clock() -> None:
+def test_a_source_of_time_reads_no_other_clock():
     course = Course(source=True)
     course.clock.ahead = HOUR
     assert course.go() == pytest.approx(3 * INTERVAL, abs=1e-6)
 
 
-def test_the_time_of_a_clock_set_back_still_increases() -> None:
+def test_the_time_of_a_clock_set_back_still_increases():
     clock = Settable()
     rising = StrictClock(clock)
     stamps = [rising.now()]
@@ -114,9 +114,7 @@ class Late:
         return (self._time - self.stamps.newest) * 1e-9
 
 
-def test_without_a_limit_the_lag_of_a_stall_remains_and_is_known(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_without_a_limit_the_lag_of_a_stall_remains_and_is_known(monkeypatch):
     late = Late(monkeypatch, 0.0)
     assert not any(late.go(lasts) for lasts in (INTERVAL, 8.75 + INTERVAL, INTERVAL))
     assert late.stamps.lag == pytest.approx(late.behind()) == pytest.approx(8.75)
@@ -125,9 +123,7 @@ def test_without_a_limit_the_lag_of_a_stall_remains_and_is_known(
 
 
 @pytest.mark.parametrize("stall", [0.3, 8.75])
-def test_a_larger_lag_is_skipped_once_and_stamps_still_increase(
-    monkeypatch: pytest.MonkeyPatch, stall: float
-) -> None:
+def test_a_larger_lag_is_skipped_once_and_stamps_still_increase(monkeypatch, stall):
     late = Late(monkeypatch, 0.2)
     late.go()
     before = late.stamps.newest
@@ -139,7 +135,7 @@ def test_a_larger_lag_is_skipped_once_and_stamps_still_increase(
     assert len(late.stamps.skips) == 1
 
 
-def test_a_slow_twin_lags_by_no_more_than_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_slow_twin_lags_by_no_more_than_its_limit(monkeypatch):
     """At a real-time factor of 0.948, for 400 s."""
     late = Late(monkeypatch, 0.2)
     lags = []

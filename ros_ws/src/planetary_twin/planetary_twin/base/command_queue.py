@@ -10,7 +10,6 @@ from functools import partial
 from typing import Any
 
 Command = Callable[[], float]
-_TIMEOUT = 60.0  # [s] longest wait for the execution of a command
 
 
 class CommandQueue:
@@ -85,19 +84,3 @@ class CommandQueue:
             if self._gathering is not None and self._gathering[0] is gathered:
                 self._gathering = None
         return self._change(gathered)
-
-
-def answer(
-    response: Any, command: Callable[[], Future[float]], describe: Callable[[float], str]
-) -> Any:
-    """
-    Execute `command` and fill in `response`, which is returned.
-
-    `describe` returns the message for the instant [s] of execution.
-    """
-    try:
-        response.message = describe(command().result(timeout=_TIMEOUT))
-        response.success = True
-    except (ValueError, TimeoutError) as refusal:
-        response.success, response.message = False, str(refusal)
-    return response

@@ -1,4 +1,4 @@
-"""Reports in /diagnostics: each is a row with a level, a message and values."""
+"""Reports in /diagnostics, written and read: each is a row with a level, a message and values."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from planetary_twin_py.recording.ros2.topics import status_name
+from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status, status_name
 
 
 class Row(NamedTuple):
@@ -43,3 +43,13 @@ def diagnostics(rows: Iterable[Row], namespace: str, hardware: str = "") -> Diag
             for report, level, message, values in rows
         ]
     )
+
+
+def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str]:
+    """Return the values of the real-time report of the twin in `namespace`; empty without one."""
+    return {
+        item.key: item.value
+        for status in message.status
+        if is_status(status.name, REAL_TIME) and status.hardware_id == namespace
+        for item in status.values
+    }

@@ -10,18 +10,20 @@ import rclpy
 from lifecycle_msgs.srv import ChangeState
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
-from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecyclePublisher, LifecycleState, TransitionCallbackReturn
+from rclpy.qos import QoSProfile
+from rclpy.timer import Timer
 
 from ..process.memory import return_freed_memory
 from ..process.signals import SIGNALS
 from .clock import STEADY
-from .duplicate_names import Namesakes
 from .parameter_node import ParameterNode
 from .parameters import AT_START, brief, declare
 
 NAMESPACE = "planetary_twin"
 _LOG_PERIOD = 1.0  # [s] between two log lines that a client can cause
-_TRIM_PERIOD = 1.0  # [s] between two returns of freed memory
+_NAMES_PERIOD = 60.0  # [s] discovery on a busy machine may lose a node and find it again
+_CARE_PERIOD = 1.0  # [s] between two returns of freed memory, and two looks at other nodes
 
 
 def shut_down(context: Context | None = None) -> None:
@@ -49,7 +51,8 @@ class ManagedNode(ParameterNode):
 
     `given` contains start values of parameters, as from the command line. Subclasses override
     `configure`, `activate`, `deactivate` and `close`. An exception in one of these is logged and
-    fails the transition; rclpy alone would discard it.
+    fails the transition; rclpy alone would discard it. The timers of `every` end with the work of
+    the node, and the publishers of `outlet` when the node is cleaned up.
     """
 
     def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
@@ -59,13 +62,16 @@ class ManagedNode(ParameterNode):
         self._reason = ""
         self._broken = ""
         self._starting = False
+        self._configured_publishers: list[LifecyclePublisher] = []
+        self._ticking: list[Timer] = []
         service = self.service_of(ChangeState)
         self._change_state, service.callback = service.callback, self._change_state_if_possible
         self._autostart = bool(
             declare(self, "autostart", True, "configure and activate at the start", when=AT_START)
         )
-        self._namesakes = Namesakes(self)
-        self.create_timer(_TRIM_PERIOD, return_freed_memory, clock=STEADY)
+        self._namesakes = 0
+        # It also wakes an executor that rclpy woke before it shut down ROS (test_waking.py).
+        self.create_timer(_CARE_PERIOD, self._take_care, clock=STEADY)
 
     def configure(self) -> None:
         """Acquire the resources of a run."""
@@ -77,7 +83,7 @@ class ManagedNode(ParameterNode):
         """Pause the work of the node."""
 
     def close(self) -> None:
-        """Release all resources; may be called more than once."""
+        """Release the other resources; may be called more than once."""
 
     def start(self) -> None:
         """Configure and activate if `autostart` is true; raises `NodeError` if that fails."""
@@ -91,6 +97,28 @@ class ManagedNode(ParameterNode):
                     raise ExternalShutdownException
                 raise NodeError(self._reason)
         self._starting = False
+
+    def outlet(self, kind: type, topic: str, qos: QoSProfile | int = 10) -> LifecyclePublisher:
+        """Create a publisher for the time until the node is cleaned up."""
+        self._configured_publishers.append(self.create_lifecycle_publisher(kind, topic, qos))
+        return self._configured_publishers[-1]
+
+    def every(self, period: float, work: Callable[[], None]) -> None:
+        """Call `work` every `period` [s] of the steady clock, until the node is deactivated."""
+        self._ticking.append(self.create_timer(period, work, clock=STEADY))
+
+    def end_timers(self) -> None:
+        """End the timers of `every`."""
+        while self._ticking:
+            self.destroy_timer(self._ticking.pop())
+
+    def broke(self, work: str, defect: Exception) -> None:
+        """Fail because `defect` ended `work`, unless a signal has shut down ROS."""
+        if not self.context.ok():
+            return
+        if not isinstance(defect, (ValueError, ArithmeticError)):
+            self.get_logger().error("".join(traceback.format_exception(defect)))
+        self.fail(f"{work} stopped: {defect}")
 
     def fail(self, reason: str) -> None:
         """
@@ -117,7 +145,7 @@ class ManagedNode(ParameterNode):
         with SIGNALS.interrupting():  # it may take long, and there is no data to save
             outcome = self._attempt(self.configure)
         if outcome == TransitionCallbackReturn.FAILURE:
-            self.close()
+            self._release()
         return outcome
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -130,6 +158,7 @@ class ManagedNode(ParameterNode):
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
+        self.end_timers()
         if not self._broken:
             outcome = self._attempt(self.deactivate)
             super().on_deactivate(state)
@@ -139,16 +168,31 @@ class ManagedNode(ParameterNode):
         return TransitionCallbackReturn.ERROR
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Lifecycle transition."""
-        return self._attempt(self.close)
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Lifecycle transition."""
-        return self._attempt(self.close)
-
-    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Release all resources, so that the node can be configured again."""
-        return self._attempt(self.close)
+        return self._attempt(self._release)
+
+    on_shutdown = on_error = on_cleanup
+
+    def _release(self) -> None:
+        self.end_timers()
+        try:
+            self.close()
+        finally:
+            while self._configured_publishers:
+                self.destroy_lifecycle_publisher(self._configured_publishers.pop())
+
+    def _take_care(self) -> None:
+        """Return freed memory, and warn of another node with the same name: both would answer."""
+        return_freed_memory()
+        own = (self.get_name(), self.get_namespace())
+        known = self.get_node_names_and_namespaces().count(own)
+        before, self._namesakes = self._namesakes, max(known - 1, 0)  # it may discover itself late
+        if self._namesakes > before:
+            self.get_logger().warning(
+                f"another node is named {self.get_fully_qualified_name()}: either may answer a "
+                "service, and both publish on its topics; give each a namespace, -r __ns:=/NAME",
+                throttle_duration_sec=_NAMES_PERIOD,
+            )
 
     def _change_state_if_possible(
         self, request: ChangeState.Request, response: ChangeState.Response

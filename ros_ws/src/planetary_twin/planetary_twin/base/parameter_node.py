@@ -10,14 +10,12 @@ from lifecycle_msgs.srv import GetAvailableTransitions, GetState
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.lifecycle import LifecycleNode
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile
 from rclpy.service import Service
 
 from .parameters import brief, check_settable, coerce, fixed_at, is_fixed, is_number
 
 _OF_ROS = ("use_sim_time", "start_type_description_service")
 _QOS = "qos_overrides."  # of topics; ROS declares them
-_REQUESTS = QoSProfile(depth=100)
 
 
 class ParameterNode(LifecycleNode):
@@ -57,10 +55,6 @@ class ParameterNode(LifecycleNode):
     def service_of(self, kind: type) -> Service:
         """Return the first service of type `kind`, for example one that rclpy has created."""
         return next(service for service in self.services if service.srv_type is kind)
-
-    def create_service(self, *given: Any, **options: Any) -> Service:
-        """As rclpy's, with a short queue: a client that sends many requests must wait."""
-        return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
         """As rclpy's; `read_only` if it cannot be set in the present lifecycle state."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import reprlib
 from array import array
 from collections.abc import Container, Iterator
-from typing import Any, Protocol, get_args
+from dataclasses import field, fields
+from typing import Any, Protocol, TypeVar, get_args
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -32,6 +33,7 @@ AT_ONCE = "a finite number, also written 1 or 2e-7; applies at once"
 _BETWEEN = "takes effect between two published intervals"
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
 _MOST_CHARACTERS = 13  # of a refused value that is shown as it is
+Settings = TypeVar("Settings")
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60
 
@@ -169,6 +171,30 @@ def declare(
     return kind(node, name, default, descriptor)
 
 
+def setting(
+    default: Any,
+    description: str,
+    limits: tuple[float, float] | None = None,
+    when: str = _UNCONFIGURED,
+) -> Any:
+    """Return a field of a dataclass of settings: a parameter, see `declare`."""
+    # rclpy derives the type of a list from its first element, so the default has an empty text.
+    return field(metadata={
+        "default": default, "description": description, "limits": limits, "when": when,
+    })  # fmt: skip
+
+
+def declare_settings(node: Declaring, kind: type[Any]) -> None:
+    """Declare a parameter for each field of the dataclass `kind`, which `setting` has made."""
+    for each in fields(kind):
+        declare(node, each.name, **each.metadata)
+
+
+def settings_of(node: Node, kind: type[Settings]) -> Settings:
+    """Return the present values of the parameters that `declare_settings` has declared."""
+    return kind(**{each.name: node.get_parameter(each.name).value for each in fields(kind)})
+
+
 def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: str) -> float:
     """
     Declare a quantity that may change while the twin runs and return its value at start.
@@ -201,10 +227,10 @@ def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
 
     Raises `ValueError` if a start value differs from the scene's.
     """
-    for name, field, value in _fields(prefix, section):
-        unit = unit_of(field)
+    for name, info, value in _fields(prefix, section):
+        unit = unit_of(info)
         descriptor = ParameterDescriptor(
-            description=f"{field.description}" + ("" if unit is None else f" [{unit or '-'}]"),
+            description=f"{info.description}" + ("" if unit is None else f" [{unit or '-'}]"),
             additional_constraints=_GEOMETRY,
         )
         if isinstance(value, float):
@@ -217,12 +243,12 @@ def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
 
 def _fields(prefix: str, section: BaseModel) -> Iterator[tuple[str, FieldInfo, Any]]:
     """Yield dotted name, field and value of each leaf that has a value."""
-    for key, field in type(section).model_fields.items():
+    for key, info in type(section).model_fields.items():
         name, value = f"{prefix}.{key}", getattr(section, key)
         if isinstance(value, BaseModel):
             yield from _fields(name, value)
         elif value is not None:
-            yield name, field, list(value) if isinstance(value, tuple) else value
+            yield name, info, list(value) if isinstance(value, tuple) else value
 
 
 def coerce(parameters: list[Parameter], numbers: Container[str]) -> list[Parameter]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import threading
-import time
 import traceback
 from collections.abc import Callable, Collection, Mapping
 
@@ -18,8 +17,6 @@ from ..process.environment import choose_log_folder
 from ..process.signals import SIGNALS
 from ..process.standard_error import nonblocking_stderr
 from .lifecycle_node import ManagedNode, NodeError, shut_down
-
-_SOON = 1e-3  # [s]
 
 
 def run_node(
@@ -69,8 +66,6 @@ def _run_to_end(
     failures: dict[str, str] = {}
     name, *_ = makes
     SIGNALS.install()
-    waker = threading.Thread(target=wake_after_shutdown, args=[executors], name="waker")
-    waker.start()
     try:
         with SIGNALS.interrupting():
             _initialize(args)
@@ -96,8 +91,7 @@ def _run_to_end(
             raise
     finally:
         shut_down()
-        SIGNALS.stop.set()
-        for thread in (waker, *beside):
+        for thread in beside:
             thread.join()
         for name, node in nodes.items():
             if failure := _end(node):
@@ -105,20 +99,6 @@ def _run_to_end(
         shut_down()
         SIGNALS.ignore()
     return refusals, failures
-
-
-def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
-    """
-    Wait for a signal, and wake `executors` once ROS is shut down.
-
-    rclpy wakes executors before it shuts down ROS: an executor that wakes quickly finds ROS still
-    running, and would wait forever (tests/ros/base/test_waking.py).
-    """
-    SIGNALS.stop.wait()
-    while rclpy.ok():
-        time.sleep(_SOON)
-    for executor in list(executors):
-        executor.wake()
 
 
 def _warn_of_unknown(nodes: Collection[ManagedNode]) -> None:

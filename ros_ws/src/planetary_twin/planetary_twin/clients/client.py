@@ -5,12 +5,14 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from types import TracebackType
 from typing import Any, Self
 
 import rclpy
 from rclpy.client import Client as Service
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
 
 from ..process.environment import choose_log_folder
@@ -39,6 +41,7 @@ class Client:
         self.namespace = self.node.get_namespace()
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
+        self._services: dict[str, Service] = {}
         self._thread = threading.Thread(target=self._spin, name=name, daemon=True)
 
     def __enter__(self) -> Self:
@@ -65,15 +68,29 @@ class Client:
             time.sleep(_POLL)
         return True
 
-    def call(self, service: Service, request: Any, timeout: float = TIMEOUT) -> Any:
-        """Return the response of `service`, or None if there is none within `timeout` [s]."""
-        if not self.wait(service.service_is_ready, timeout):
+    def keep(self, field: str, kind: type, topic: str, qos: QoSProfile | int = 10) -> None:
+        """Subscribe to `topic`: the attribute `field` is its newest message."""
+        self.node.create_subscription(kind, topic, partial(setattr, self, field), qos)
+
+    def serves(self, kind: type, service: str) -> bool:
+        """Return whether there is a node with the service `service` of type `kind`."""
+        return bool(self._service(kind, service).service_is_ready())
+
+    def call(self, kind: type, service: str, request: Any, timeout: float = TIMEOUT) -> Any:
+        """Return the response of a service, or None if there is none within `timeout` [s]."""
+        client = self._service(kind, service)
+        if not self.wait(client.service_is_ready, timeout):
             return None
-        future = service.call_async(request)
+        future = client.call_async(request)
         if self.wait(future.done, timeout):
             return future.result()
-        service.remove_pending_request(future)
+        client.remove_pending_request(future)
         return None
+
+    def _service(self, kind: type, service: str) -> Service:
+        if service not in self._services:
+            self._services[service] = self.node.create_client(kind, service)
+        return self._services[service]
 
     def _spin(self) -> None:
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -18,9 +19,8 @@ from planetary_twin_py.recording.ros2.topics import AXES_STATE
 from planetary_twin_py.terminal.console import make_console
 from planetary_twin_py.units.catalogue import BEARING, MESH, SHARING, TRAIN, Quantity, side_title
 
+from ..base.diagnostics import real_time_figures
 from ..base.qos import LATCHED
-from .measured_rows import beside_rows
-from .real_time_figures import real_time_figures
 from .remote import Remote
 
 _BARS = "▁▂▃▄▅▆▇█"
@@ -76,6 +76,14 @@ OF_AXES = (
 )
 """Further rows, if the axes of the twin move."""
 
+_REPORTED = (
+    ("Real-time factor", "real_time_factor", ""),
+    ("Overruns", "overruns", ""),
+    ("Tolerance", "tolerance", ""),
+    ("Sample rate of the waveform", "sample_rate", "Hz"),
+    ("Mesh cycles, computed or repeated", "mesh_cycles", ""),
+    ("State of the node", "state", ""),
+)
 # Characters of a row beside its history: title, value, unit and the space between them.
 _BESIDE_HISTORY = max(len(figure.title) for figure in (*FIGURES, *OF_AXES)) + 18
 
@@ -101,6 +109,50 @@ def sparkline(values: list[float]) -> str:
     return "".join(_BARS[next(heights)] if math.isfinite(value) else " " for value in values)
 
 
+class Pair(NamedTuple):
+    """A measured quantity and its simulated value."""
+
+    title: str
+    unit: str
+    measured: float
+    simulated: float
+
+    @property
+    def residual(self) -> float:
+        """Measured minus simulated value."""
+        return self.measured - self.simulated
+
+
+def pairs(estimate: FollowerEstimate, state: GearboxState) -> list[Pair]:
+    """Return torque, speed and loss of a gearbox and of its twin, in SI."""
+    loss = estimate.loss_torque * abs(estimate.input_speed)
+    return [
+        Pair("Input torque, measured", "N m", estimate.input_torque, state.input_torque),
+        Pair("Input speed, measured", "rad/s", estimate.input_speed, state.input_speed),
+        Pair("Power loss, measured", "W", loss, state.power_loss),
+    ]
+
+
+def beside_rows(
+    estimate: FollowerEstimate, state: GearboxState, events: Iterable[FollowerEvent]
+) -> Iterator[tuple[str, str, str, str]]:
+    """Yield title, value, unit and remark: simulated value and residual, then changes."""
+    for pair in pairs(estimate, state):
+        beside = f"twin {pair.simulated:.5g}, residual {pair.residual:+.3g}"
+        known = math.isfinite(pair.measured)
+        yield pair.title, _shown(pair.measured), pair.unit, beside if known else ""
+    span = f"{estimate.friction_level_low:.3g} to {estimate.friction_level_high:.3g}"
+    level = estimate.friction_level
+    remark = span if math.isfinite(level) else estimate.friction_level_status.replace("_", " ")
+    yield "Friction level", _shown(level), "", remark
+    for event in events:
+        yield "Change", "", "", f"{event.what}: {event.evidence}"
+
+
+def _shown(value: float) -> str:
+    return f"{value:.5g}" if math.isfinite(value) else "-"
+
+
 class Monitor(Remote):
     """Subscribes to a twin in `namespace` and keeps the recent history of its quantities."""
 
@@ -114,10 +166,10 @@ class Monitor(Remote):
         self._histories = {
             figure.field: deque[float](maxlen=_HISTORY) for figure in (*FIGURES, *OF_AXES)
         }
-        self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, 10)
-        self.node.create_subscription(AxesState, AXES_STATE, self._on_axes, 10)
+        self.keep("state", GearboxState, "gearbox_state")
+        self.keep("axes", AxesState, AXES_STATE)
+        self.keep("estimate", FollowerEstimate, "follower/estimate")
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
-        self.node.create_subscription(FollowerEstimate, "follower/estimate", self._on_estimate, 10)
         self.node.create_subscription(FollowerEvent, "follower/event", self._on_event, LATCHED)
 
     def table(self, width: int) -> Table:
@@ -131,7 +183,6 @@ class Monitor(Remote):
             raise ConnectionError(
                 f"no twin publishes in {self.namespace}: start one with `planetary-twin run`"
             )
-        report = self.report
         shown_history = max(width - _BESIDE_HISTORY, 1)
         table = Table(box=None, header_style="bold", pad_edge=False)
         table.add_column(f"{self.namespace}  {state.simulated_time:.2f} s")
@@ -156,25 +207,9 @@ class Monitor(Remote):
             for row in beside_rows(self.estimate, state, self.events.values()):
                 table.add_row(*row)
         table.add_section()
-        for name, key, unit in (
-            ("Real-time factor", "real_time_factor", ""),
-            ("Overruns", "overruns", ""),
-            ("Tolerance", "tolerance", ""),
-            ("Sample rate of the waveform", "sample_rate", "Hz"),
-            ("Mesh cycles, computed or repeated", "mesh_cycles", ""),
-            ("State of the node", "state", ""),
-        ):
-            table.add_row(name, report.get(key, "-"), unit, "")
+        for name, key, unit in _REPORTED:
+            table.add_row(name, self.report.get(key, "-"), unit, "")
         return table
-
-    def _on_state(self, message: GearboxState) -> None:
-        self.state = message
-
-    def _on_axes(self, message: AxesState) -> None:
-        self.axes = message
-
-    def _on_estimate(self, message: FollowerEstimate) -> None:
-        self.estimate = message
 
     def _on_event(self, message: FollowerEvent) -> None:
         self.events[message.number] = message

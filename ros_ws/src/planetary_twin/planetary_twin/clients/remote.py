@@ -15,18 +15,16 @@ from rcl_interfaces.srv import (
     ListParameters,
     SetParametersAtomically,
 )
-from rclpy.client import Client as Service
 from rclpy.parameter import parameter_value_to_python
 
 from planetary_twin_py import TUNABLES
 from planetary_twin_py.scene.names import did_you_mean
 from planetary_twin_py.units.conversion import to_si
 
-from .client import TIMEOUT, Client
+from .client import Client
 from .loopback import stay_on_this_machine
 
 NODE = "simulation"
-_DISCOVERY = 5.0  # [s] longest wait for a twin to be found
 _TRIALS = 3
 # Parameters that ROS declares.
 _OF_ROS = ("qos_overrides.", "use_sim_time", "start_type_description_service")
@@ -142,20 +140,16 @@ class Remote(Client):
         return "start one with `planetary-twin run`"
 
     def _call(self, kind: type, service: str, request: Any) -> Any:
-        client: Service = self.node.create_client(kind, f"{NODE}/{service}")
-        try:
-            if not self.wait(client.service_is_ready, _DISCOVERY):
-                domain = os.environ.get("ROS_DOMAIN_ID", "0")
-                raise ConnectionError(
-                    f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: {self._remedy()}"
-                )
-            for _ in range(_TRIALS):
-                answer = self.call(client, request, TIMEOUT)
-                if answer is not None:
-                    return answer
-        finally:
-            self.node.destroy_client(client)
-        raise ConnectionError(f"{self.namespace}/{NODE}/{service}: no answer")
+        service = f"{NODE}/{service}"
+        for _ in range(_TRIALS):
+            if (answer := self.call(kind, service, request)) is not None:
+                return answer
+        if self.serves(kind, service):
+            raise ConnectionError(f"{self.namespace}/{service}: no answer")
+        domain = os.environ.get("ROS_DOMAIN_ID", "0")
+        raise ConnectionError(
+            f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: {self._remedy()}"
+        )
 
 
 def in_si(name: str, typed: str) -> Any:

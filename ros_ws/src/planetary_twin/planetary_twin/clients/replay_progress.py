@@ -11,11 +11,11 @@ from rich.progress import BarColumn, Progress, TextColumn
 from planetary_twin_py.terminal.console import make_console
 
 from ..base.spin import run_node
-from ..replay.node import Replay
+from ..replay.node import Display, Replay
 from .loopback import stay_on_this_machine
 
 
-class Bar:
+class Bar(Display):
     """The live line on `console`, and lines printed above it."""
 
     def __init__(self, console: Console) -> None:

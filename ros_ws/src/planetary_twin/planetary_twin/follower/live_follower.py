@@ -22,7 +22,7 @@ from planetary_twin_py.following.measured_messages import (
     stamp_of,
 )
 
-from .parameters import FollowerOptions
+from .parameters import Followed, FollowerSettings
 from .subscriptions import Intake
 
 _SHORTEST, _LONGEST = 0.02, 0.1  # [s] between two polls for messages
@@ -49,7 +49,7 @@ class FollowerNode(Protocol):
     def jumped(self, seconds: float) -> None:
         """Report stamps that have jumped back by `seconds`."""
 
-    def broke(self, defect: Exception) -> None:
+    def stopped(self, defect: Exception) -> None:
         """Report that following has ended."""
 
 
@@ -108,8 +108,11 @@ class LiveFollower:
     the time without readings is measured by the clock.
     """
 
-    def __init__(self, options: FollowerOptions, source: Intake, node: FollowerNode) -> None:
-        self._options, self._source, self._node = options, source, node
+    def __init__(
+        self, followed: Followed, settings: FollowerSettings, source: Intake, node: FollowerNode
+    ) -> None:
+        self._followed, self._settings = followed, settings
+        self._source, self._node = source, node
         self._begin()
         self.behind = 0.0
         """Time that the last messages waited for this thread [s]."""
@@ -168,12 +171,12 @@ class LiveFollower:
 
     def _begin(self) -> None:
         self._node.started()
-        self._follower = self._options.follower()
+        self._follower = self._followed.follower()
         self.latest: Following = self._follower.estimate()
         """The last reported estimate."""
-        self._reader = MessageReader(self._options.joints, self._options.scale)
+        self._reader = MessageReader(self._followed.joints, self._followed.scale)
         self._faults: tuple[str, ...] = ()  # of the messages, as last reported
-        self._portions = Portions(self._options.period)
+        self._portions = Portions(self._followed.period)
         self._newest = -math.inf  # stamp of the newest estimate, reported or not [s]
         self._due = -math.inf  # stamp of the next one to report [s]
         self._closed = -math.inf  # arrival of the reading that closed the last bin [s]
@@ -185,7 +188,7 @@ class LiveFollower:
         try:
             self._follow()
         except Exception as defect:
-            self._node.broke(defect)
+            self._node.stopped(defect)
 
     def _follow(self) -> None:
         looked = -math.inf
@@ -212,7 +215,7 @@ class LiveFollower:
         Polls cost more than the readings that they find, so there is one for each bin, when the
         reading that closes it is expected.
         """
-        expected = self._closed + self._options.period + _TRANSIT
+        expected = self._closed + self._followed.period + _TRANSIT
         return min(max(expected - time.time(), _SHORTEST), _LONGEST)
 
     def _use(self, arrived: Sequence[Arrived]) -> None:
@@ -226,7 +229,7 @@ class LiveFollower:
             if (back := self._jumps.add(one)) is None:
                 continue
             self._node.jumped(back)
-            if self._options.reset_on_time_jump:
+            if self._settings.reset_on_time_jump:
                 self._process(arrived[begin:n])
                 self._begin()
                 begin = n
@@ -235,7 +238,7 @@ class LiveFollower:
         self._advanced = min(
             self._advanced + now - started, now
         )  # the time for computing does not count as silence
-        if not self._stale and now > self._advanced + self._options.sensor_timeout:
+        if not self._stale and now > self._advanced + self._settings.sensor_timeout:
             self._stale = True
             self._report(self._follower.estimate(now=math.inf))
 
@@ -270,7 +273,7 @@ class LiveFollower:
         self._newest, self._closed = now, arrival
         self._advanced, self._stale = time.monotonic(), False
         if now >= self._due:
-            self._due = now + 1.0 / self._options.publish_rate - 0.5 * self._options.period
+            self._due = now + 1.0 / self._settings.publish_rate - 0.5 * self._followed.period
             self._report(self._follower.estimate())
 
     def _report(self, estimate: Following) -> None:

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import time
-import traceback
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.qos import QoSProfile
-from rclpy.timer import Timer
-from std_srvs.srv import Trigger
 
 from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import followed_train
 
-from ..base.clock import STEADY, StrictClock, set_stamp
+from ..base.clock import StrictClock, set_stamp
 from ..base.diagnostics import diagnostics
 from ..base.lifecycle_node import ManagedNode
+from ..base.parameters import settings_of
 from ..base.qos import LATCHED
 from ..base.spin import run_node
 from ..process.memory import return_large_blocks
@@ -32,8 +30,8 @@ from .messages import (
     residuals_message,
     teeth_message,
 )
-from .parameters import declare_options, options_of
-from .services import BaselineServices
+from .parameters import FollowerSettings, declare_parameters, followed
+from .services import FollowerServices
 from .simulation_client import TwinBeside
 from .subscriptions import Intake
 
@@ -62,8 +60,9 @@ class Follower(ManagedNode):
     def __init__(self) -> None:
         super().__init__("follower")
         return_large_blocks()
-        declare_options(self)
-        self._options = options_of(self)
+        declare_parameters(self)
+        self._settings = settings_of(self, FollowerSettings)
+        self._followed = followed(self)
         self._intake: Intake | None = None
         self._beside: TwinBeside | None = None
         self._live: LiveFollower | None = None
@@ -72,26 +71,23 @@ class Follower(ManagedNode):
         self._events: dict[tuple[str, float], tuple[int, Event]] = {}
         self._periods, self._learned, self._jumps = 0, "", 0
         self._teeth: list[int] = []
-        self._timer: Timer | None = None
         self._now = StrictClock(self.get_clock())
-        self.create_service(Trigger, "~/reset", self._reset)
         self._acknowledged: set[tuple[str, float]] = set()
-        BaselineServices(self, self._active, self._acknowledge)
+        FollowerServices(self, self._active, self._acknowledge)
 
     def configure(self) -> None:
         """Load the scene and the sensors, and create publishers and subscriptions."""
-        self._options = options_of(self)
-        self._options.follower()  # refuses a scene that cannot be followed
-        train = followed_train(self._options.scene)
+        self._settings, self._followed = settings_of(self, FollowerSettings), followed(self)
+        self._followed.follower()  # refuses a scene that cannot be followed
+        train = followed_train(self._followed.scene)
         self._teeth = list(train.teeth.values())
-        if self._options.twin:
-            self._beside = TwinBeside(self, self._options.twin, train)
-        for name, kind in _KINDS.items():
-            qos = LATCHED if name in _KEPT else _QUEUED
-            self._outlets[name] = self.create_lifecycle_publisher(kind, f"~/{name}", qos)
-        self._outlets["diagnostics"] = self.create_lifecycle_publisher(
-            DiagnosticArray, "/diagnostics", 10
-        )
+        if self._settings.twin:
+            self._beside = TwinBeside(self, self._settings.twin, train)
+        self._outlets = {
+            name: self.outlet(kind, f"~/{name}", LATCHED if name in _KEPT else _QUEUED)
+            for name, kind in _KINDS.items()
+        }
+        self._outlets["diagnostics"] = self.outlet(DiagnosticArray, "/diagnostics")
         self._sequence = dict.fromkeys(_KINDS, 0)
         self._intake = Intake(self)
         for kind in self._intake.missing:
@@ -101,30 +97,25 @@ class Follower(ManagedNode):
         """Start to follow, without readings."""
         if self._intake is None:
             raise ValueError("the node is not configured")
-        self._live = LiveFollower(self._options, self._intake, self)
-        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
-        self.get_logger().info(f"following {self._options.scene.name}")
+        self._live = LiveFollower(self._followed, self._settings, self._intake, self)
+        self.every(_REPORT_PERIOD, self._diagnose)
+        self.get_logger().info(f"following {self._followed.scene.name}")
 
     def deactivate(self) -> None:
         """Process the waiting messages, and publish the last estimate."""
-        self._end()
+        self._live.stop()
         self._diagnose()
         self._live = None
         self._deliver()
 
     def close(self) -> None:
-        """Release the subscriptions and the publishers."""
-        self._end()
-        self._live = None
-        if self._intake is not None:
-            self._intake.close()
-            self._intake = None
-        if self._beside is not None:
-            self._beside.close()
-            self._beside = None
-        for publisher in self._outlets.values():
-            self.destroy_lifecycle_publisher(publisher)
-        self._outlets = {}
+        """End following, and release the subscriptions."""
+        if self._live is not None:
+            self._live.stop()
+        for each in (self._intake, self._beside):
+            if each is not None:
+                each.close()
+        self._live = self._intake = self._beside = None
 
     # Called by the live follower, in its thread.
 
@@ -135,7 +126,7 @@ class Follower(ManagedNode):
 
     def estimated(self, following: Following) -> None:
         """Publish a new estimate."""
-        frame = self._options.frame
+        frame = self._settings.frame_id
         self._send("estimate", estimate_message(following, frame, self._next("estimate")))
         self._send("residuals", residuals_message(following, frame, self._next("residuals")))
         self._announce(following)
@@ -158,17 +149,13 @@ class Follower(ManagedNode):
     def jumped(self, seconds: float) -> None:
         """Report stamps that have jumped back."""
         self._jumps += 1
-        restarts = self._options.reset_on_time_jump
+        restarts = self._settings.reset_on_time_jump
         what = "restarts" if restarts else "readings are late until stamps are newer than before"
         self.get_logger().warning(f"stamps have jumped back by {seconds:.1f} s: {what}")
 
-    def broke(self, defect: Exception) -> None:
-        """Report the reason, unless a signal has shut down ROS."""
-        if not self.context.ok():
-            return
-        if not isinstance(defect, (ValueError, ArithmeticError)):
-            self.get_logger().error("".join(traceback.format_exception(defect)))
-        self.fail(f"following stopped: {defect}")
+    def stopped(self, defect: Exception) -> None:
+        """Report the exception that ended the thread."""
+        self.broke("following", defect)
 
     def _active(self) -> LiveFollower:
         """Return the live follower; raises `ValueError` if there is none."""
@@ -193,7 +180,7 @@ class Follower(ManagedNode):
                 self.get_logger().warning(f"{event.what}: {event.evidence}")
             self._events[key] = number, event
             sequence = self._next("event")
-            self._send("event", event_message(event, self._options.frame, sequence, number))
+            self._send("event", event_message(event, self._settings.frame_id, sequence, number))
 
     def _next(self, name: str) -> int:
         self._sequence[name] += 1
@@ -202,13 +189,6 @@ class Follower(ManagedNode):
     def _send(self, name: str, message: object) -> None:
         self._outlets[name].publish(message)
 
-    def _end(self) -> None:
-        if self._timer is not None:
-            self.destroy_timer(self._timer)
-            self._timer = None
-        if self._live is not None:
-            self._live.stop()
-
     def _deliver(self) -> None:
         """Wait until subscribers have received all: a logger may end at once after this node."""
         deadline = time.monotonic() + _LAST
@@ -216,27 +196,19 @@ class Follower(ManagedNode):
             left = max(deadline - time.monotonic(), 0.0)
             publisher.wait_for_all_acked(Duration(seconds=left))
 
-    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        live = self._live
-        response.success = live is not None
-        response.message = "restarts" if live else "the follower is not active"
-        if live is not None:
-            live.reset()
-        return response
-
     def _diagnose(self) -> None:
         live, intake = self._live, self._intake
         if live is None or intake is None:
             return
-        timeout = self._options.sensor_timeout
+        timeout = self._settings.sensor_timeout
         feed = Feed(
             live.silent, timeout, live.refusal, self._jumps, live.behind, intake.shared,
             frozenset(self._acknowledged),
         )  # fmt: skip
         limits = Limits(*(self.get_parameter(f"{n}_limit").value for n in ("friction", "tooth")))
-        message = diagnostics(
-            rows(live.latest, feed, limits), self.get_namespace(), self._options.hardware
-        )
+        namespace = self.get_namespace()
+        hardware = self._settings.hardware_id or namespace
+        message = diagnostics(rows(live.latest, feed, limits), namespace, hardware)
         set_stamp(message.header.stamp, self._now.now())
         self._send("diagnostics", message)
 

@@ -1,4 +1,4 @@
-"""Services for events and baselines of an active follower."""
+"""Services of an active follower."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from rclpy.node import Node
 
 import planetary_twin_py as pt
 
-from ..base.trigger import serve_triggers
+from ..base.services import serve_triggers
 from .live_follower import LiveFollower
 
 
-class BaselineServices:
+class FollowerServices:
     """
-    The services `~/learn`, `~/acknowledge`, `~/save_baseline` and `~/load_baseline` of `node`.
+    The services `~/reset`, `~/learn`, `~/acknowledge`, `~/save_baseline` and `~/load_baseline`.
 
-    The parameter `baseline` of `node` names the file. The response gives the file, or the reason
-    of a refusal. `active` returns the live follower, and raises `ValueError` if there is none.
-    `acknowledge` acknowledges all events, and returns how many are new to it.
+    They are services of `node`, whose parameter `baseline` names the file. The response gives the
+    file, or the reason of a refusal. `active` returns the live follower, and raises `ValueError`
+    if there is none. `acknowledge` acknowledges all events, and returns how many are new to it.
     """
 
     def __init__(
@@ -27,12 +27,17 @@ class BaselineServices:
     ) -> None:
         self._node, self._active, self._acknowledged = node, active, acknowledge
         commands = {
+            "reset": self._reset,
             "learn": self._learn,
             "acknowledge": self._acknowledge,
             "save_baseline": self._save,
             "load_baseline": self._load,
         }
         serve_triggers(node, commands)
+
+    def _reset(self) -> str:
+        self._active().reset()
+        return "restarts"
 
     def _learn(self) -> str:
         self._active().ask(pt.Follower.learn)

@@ -11,17 +11,16 @@ from planetary_twin_msgs.msg import RecorderStatus
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.serialization import serialize_message
-from rclpy.timer import Timer
 
-from ..base.clock import STEADY, StrictClock, set_stamp
+from ..base.clock import StrictClock, set_stamp
 from ..base.diagnostics import Row, diagnostics
 from ..base.lifecycle_node import ManagedNode, NodeError
-from ..base.parameters import brief
+from ..base.parameters import brief, declare_settings, settings_of
+from ..base.services import serve_triggers
 from ..base.spin import run_node
-from ..base.trigger import serve_triggers
 from ..process.memory import return_large_blocks
 from .diagnostics import RecordingReport, failure_row
-from .parameters import declare_options, options_of
+from .parameters import LoggerSettings
 from .recorder import Recorder, RecorderError
 
 _DISCOVERY_PERIOD = 0.1  # [s]
@@ -37,10 +36,10 @@ class Logger(ManagedNode):
     def __init__(self) -> None:
         super().__init__("logger")
         return_large_blocks()
-        declare_options(self)
-        self._options = options_of(self)
+        declare_settings(self, LoggerSettings)
+        self._settings = settings_of(self, LoggerSettings)
+        self._settings.storage()  # refuses an unknown compression
         self._recorder: Recorder | None = None
-        self._ticking: list[Timer] = []
         self._own: deque[bytes] = deque(maxlen=_OWN)
         self._status = RecorderStatus()
         self._now = StrictClock(self.get_clock())
@@ -52,9 +51,11 @@ class Logger(ManagedNode):
 
     def configure(self) -> None:
         """Create the folder and file of the recording, and the publishers."""
-        self._options = options_of(self)
+        self._settings = settings_of(self, LoggerSettings)
         self._check_topics()
-        recorder = Recorder(self, self._options, self._own, self._on_failure, self._publish_status)
+        recorder = Recorder(
+            self, self._settings, self._own, self._on_failure, self._publish_status
+        )
         try:
             recorder.begin()
         except RecorderError as refusal:
@@ -63,30 +64,21 @@ class Logger(ManagedNode):
             raise NodeError(f"name = {refusal}") from None
         self._recorder = recorder
         self._report = RecordingReport()
-        create = self.create_lifecycle_publisher
-        self._status_publisher = create(RecorderStatus, "~/status", 10)
-        self._diagnostics = create(DiagnosticArray, "/diagnostics", 10)
+        self._status_publisher = self.outlet(RecorderStatus, "~/status")
+        self._diagnostics = self.outlet(DiagnosticArray, "/diagnostics")
 
     def activate(self) -> None:
         """Subscribe to existing topics, and to topics that appear later."""
-        self._ticking = [
-            self.create_timer(_DISCOVERY_PERIOD, self._discover, clock=STEADY),
-            self.create_timer(self._options.flush_period, self._recorder.flush, clock=STEADY),
-            self.create_timer(_STATUS_PERIOD, self._report_status, clock=STEADY),
-        ]
+        self.every(_DISCOVERY_PERIOD, self._discover)
+        self.every(self._settings.flush_period, self._recorder.flush)
+        self.every(_STATUS_PERIOD, self._report_status)
 
     def deactivate(self) -> None:
         """Stop recording; the file stays open, and what it contains is readable."""
-        self._stop_ticking()
         self._recorder.pause()
 
     def close(self) -> None:
         """Finish the file, with the message counts."""
-        self._stop_ticking()
-        for publisher in (self._status_publisher, self._diagnostics):
-            if publisher is not None:
-                self.destroy_lifecycle_publisher(publisher)
-        self._status_publisher = self._diagnostics = None
         recorder, self._recorder = self._recorder, None
         if recorder is not None:
             try:
@@ -96,17 +88,12 @@ class Logger(ManagedNode):
 
     def _command(self, command: Callable[[Recorder], str]) -> str:
         """Execute a command while the node is active."""
-        if not self._ticking:
+        if self.state != "active":
             raise RecorderError("the logger is not active")
         return command(self._recorder)
 
-    def _stop_ticking(self) -> None:
-        for timer in self._ticking:
-            self.destroy_timer(timer)
-        self._ticking = []
-
     def _check_topics(self) -> None:
-        for name in self._options.topics:
+        for name in self._settings.chosen:
             try:
                 self.resolve_topic_name(name)
             except RuntimeError as refusal:  # from rcl
@@ -125,7 +112,7 @@ class Logger(ManagedNode):
         return max((each.recorded - before.get(t, 0) for t, each in accounts.items()), default=0)
 
     def _on_failure(self, reason: str) -> None:
-        self._stop_ticking()
+        self.end_timers()
         self._diagnose(failure_row(reason))
         # A destroyed publisher discards messages that its subscribers have not received yet.
         self._diagnostics.wait_for_all_acked(_LAST_REPORT)

@@ -2,95 +2,63 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rclpy.node import Node
-
 from planetary_twin_py.recording.container.storage import CHUNK_SIZES, COMPRESSIONS, Storage
 
-from ..base.parameter_node import ParameterNode
-from ..base.parameters import declare
+from ..base.parameters import setting
 
 _LONGEST = 1e6  # [s]
 _LARGEST = 1e6  # [MB]
 
 
 @dataclass(frozen=True)
-class LoggerOptions:
-    """What to record, where, and how."""
+class LoggerSettings:
+    """What to record, where, and how; may change until the node is configured."""
 
-    directory: Path
-    name: str
-    topics: list[str]
-    scene: str
-    flush_period: float  # [s]
-    snapshot_duration: float  # [s]
-    storage: Storage
-
-
-def declare_options(node: ParameterNode) -> None:
-    """
-    Declare the parameters on `node`; they may change until the node is configured.
-
-    Raises `ValueError` if a value given at the start is out of its range.
-    """
-    declare(node, "directory", "recordings", "folder in which recordings are created")
-    declare(node, "name", "", "folder of the recording; empty: a free name is chosen")
-    # rclpy derives the type of a list from its first element.
-    declare(
-        node,
-        "topics",
+    directory: str = setting("recordings", "folder in which recordings are created")
+    name: str = setting("", "folder of the recording; empty: a free name is chosen")
+    topics: Sequence[str] = setting(
         [""],
         "topics to record; empty: those of the namespace, /diagnostics, /tf, and measured ones, "
         "also if they are remapped",
     )
-    declare(
-        node, "scene", "", "scene to store in the recording, from which viewers draw the gears"
-    )
-    declare(
-        node,
-        "flush_period",
+    scene: str = setting("", "scene to store in the recording, from which viewers draw the gears")
+    flush_period: float = setting(
         0.5,
         "time between writes to the disk; a killed logger loses at most these messages [s]",
         (0.01, 60.0),
     )
-    declare(
-        node,
-        "snapshot_duration",
+    snapshot_duration: float = setting(
         0.0,
         "duration kept in memory, written when ~/snapshot is called [s]; 0: record to disk",
         (0.0, 3600.0),
     )
-    declare(node, "compression", "zstd", f"of chunks: {', '.join(COMPRESSIONS)}")
-    declare(node, "chunk_size", 1.0, "chunk size before compression [MB]", CHUNK_SIZES)
-    declare(
-        node, "split_duration", 0.0, "longest duration of a file [s]; 0: no limit", (0.0, _LONGEST)
+    compression: str = setting("zstd", f"of chunks: {', '.join(COMPRESSIONS)}")
+    chunk_size: float = setting(1.0, "chunk size before compression [MB]", CHUNK_SIZES)
+    split_duration: float = setting(
+        0.0, "longest duration of a file [s]; 0: no limit", (0.0, _LONGEST)
     )
-    declare(node, "split_size", 0.0, "largest size of a file [MB]; 0: no limit", (0.0, _LARGEST))
+    split_size: float = setting(0.0, "largest size of a file [MB]; 0: no limit", (0.0, _LARGEST))
 
+    @property
+    def folder(self) -> Path:
+        """Folder in which recordings are created."""
+        return Path(self.directory).expanduser()
 
-def options_of(node: Node) -> LoggerOptions:
-    """
-    Return the values of the parameters of `node`.
+    @property
+    def chosen(self) -> list[str]:
+        """Topics to record; empty: the usual ones."""
+        return [topic for topic in self.topics if topic]
 
-    Raises `ValueError` for an invalid value.
-    """
-    value = {
-        name: parameter.value for name, parameter in node.get_parameters_by_prefix("").items()
-    }
-    return LoggerOptions(
-        Path(value["directory"]).expanduser(),
-        value["name"],
-        [topic for topic in value["topics"] if topic],
-        value["scene"],
-        value["flush_period"],
-        value["snapshot_duration"],
-        Storage(
-            value["compression"],
-            value["chunk_size"],
-            value["split_duration"],
-            value["split_size"],
-            value["flush_period"],
-        ),
-    )
+    def storage(self) -> Storage:
+        """Return how files are written; raises `ValueError` for an unknown compression."""
+        return Storage(
+            self.compression,
+            self.chunk_size,
+            self.split_duration,
+            self.split_size,
+            self.flush_period,
+        )

@@ -16,7 +16,7 @@ from planetary_twin_py.recording.ros2.bag import BagWriter, free_folder, named_f
 from planetary_twin_py.recording.ros2.provenance import SOFTWARE_RECORD, host_clocks, software
 from planetary_twin_py.recording.ros2.ring import Ring
 
-from .parameters import LoggerOptions
+from .parameters import LoggerSettings
 from .subscriptions import RecordedTopics, Sink
 
 _SOFTWARE = (
@@ -37,7 +37,7 @@ class Recorder:
     """
     Makes the recordings of the logger `node`, one after another.
 
-    `options` are the parameters of the logger, `own` the newest messages that it has published.
+    `settings` are the parameters of the logger, `own` the newest messages that it has published.
     `failed` is called with the reason if a recording cannot continue, `progressed` after every
     400 messages. Methods raise `RecorderError` if the command cannot be executed.
     """
@@ -45,17 +45,17 @@ class Recorder:
     def __init__(
         self,
         node: Node,
-        options: LoggerOptions,
+        settings: LoggerSettings,
         own: Collection[bytes],
         failed: Callable[[str], None],
         progressed: Callable[[], None],
     ) -> None:
         self._node = node
-        self._options = options
+        self._settings = settings
         self._own = own
         self._failed = failed
         self._progressed = progressed
-        self._scene = _scene_text(options.scene)
+        self._scene = _scene_text(settings.scene)
         self._sink: Sink | None = None
         self._topics: RecordedTopics | None = None
         self._start = time.monotonic()
@@ -82,8 +82,8 @@ class Recorder:
 
     def begin(self) -> None:
         """Create the recording's file, or the memory for snapshots."""
-        options = self._options
-        self._open(Ring(options.snapshot_duration) if options.snapshot_duration else self._bag())
+        duration = self._settings.snapshot_duration
+        self._open(Ring(duration) if duration else self._bag())
 
     def start(self) -> str:
         """Start another recording in a free folder; returns its file."""
@@ -189,7 +189,7 @@ class Recorder:
             if self._scene:
                 sink.attach("scene.yaml", self._scene, "application/yaml")
             self._topics = RecordedTopics(
-                self._node, self._options.topics, self._own, sink, self._fail, self._progressed
+                self._node, self._settings.chosen, self._own, sink, self._fail, self._progressed
             )
             self._start = time.monotonic()
             if self.file:
@@ -207,14 +207,14 @@ class Recorder:
 
     def _bag(self, another: bool = False) -> BagWriter:
         """Open a bag in the folder that `name` gives, or in a free one if `another` is True."""
-        directory, name = self._options.directory, self._options.name
+        directory, name = self._settings.folder, self._settings.name
         while True:
             folder = named_folder(directory, name) if name else None
             if folder is None or another:
                 stem = name or self._node.get_namespace().strip("/").replace("/", "_")
                 folder = free_folder(directory, stem or "twin")
             try:
-                bag = BagWriter(folder, self._options.storage, self._clocks)
+                bag = BagWriter(folder, self._settings.storage(), self._clocks)
             except OSError as reason:
                 taken = isinstance(reason, FileExistsError) and folder.exists()
                 if not taken:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-import traceback
-from collections.abc import Iterator
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from rclpy.duration import Duration
@@ -22,10 +23,10 @@ from planetary_twin_py.plant.timeline import Measured, timeline
 
 from ..base.clock import CLOCK_AWAITED, has_time
 from ..base.lifecycle_node import ManagedNode, shut_down
-from ..base.parameters import declare
+from ..base.parameters import declare_settings, setting, settings_of
 from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
-from .player import PlantMessages, PlantPlayer
+from .messages import PlantMessages
 
 _TOPICS = {
     JointState: "measured/joint_states",
@@ -35,6 +36,20 @@ _TOPICS = {
 }
 _KEPT = QoSProfile(depth=1000)
 _LAST = Duration(seconds=10.0)  # longest wait until the last messages have arrived
+_POLL = 0.05  # [s] between two checks whether the run may begin
+
+
+@dataclass(frozen=True)
+class PlantSettings:
+    """What to measure; may change until the node is configured."""
+
+    scene: str = setting("paper", "packaged scene, or path of a YAML file")
+    hidden: str = setting("", "YAML file with laws, duty, changes and sensor errors; empty: none")
+    duration: float = setting(60.0, "duration of the run [s]", (0.1, 86_400.0))
+    input_joint: str = setting("input_joint", "joint of the input")
+    output_joint: str = setting("output_joint", "joint of the output")
+    frame_id: str = setting("gearbox", "base frame of the gearbox")
+    wait_for: Sequence[str] = setting([""], "nodes that must subscribe before the run starts")
 
 
 class Plant(ManagedNode):
@@ -42,91 +57,88 @@ class Plant(ManagedNode):
 
     def __init__(self) -> None:
         super().__init__("plant")
-        declare(self, "scene", "paper", "packaged scene, or path of a YAML file")
-        declare(
-            self, "hidden", "", "YAML file with laws, duty, changes and sensor errors; empty: none"
-        )
-        declare(self, "duration", 60.0, "duration of the run [s]", (0.1, 86_400.0))
-        declare(self, "input_joint", "input_joint", "joint of the input")
-        declare(self, "output_joint", "output_joint", "joint of the output")
-        declare(self, "frame_id", "gearbox", "base frame of the gearbox")
-        # rclpy derives the type of a list from its first element.
-        declare(self, "wait_for", [""], "nodes that must subscribe before the run starts")
+        declare_settings(self, PlantSettings)
         self._measured: Iterator[Measured] = iter(())
         self._messages: PlantMessages | None = None
         self._waits: list[SubscriptionWait] = []
-        self._player: PlantPlayer | None = None
         self._outlets: dict[type, LifecyclePublisher] = {}
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
 
     def configure(self) -> None:
         """Create the publishers, and simulate the vibration of the plant."""
-        given = {n: p.value for n, p in self.get_parameters_by_prefix("").items()}
-        scene = pt.load_scene(given["scene"])
-        hidden = self._hidden(given["hidden"], scene)
-        played = Played(scene, hidden, given["duration"])
+        given = settings_of(self, PlantSettings)
+        scene = pt.load_scene(given.scene)
+        hidden = self._hidden(given.hidden, scene)
         sensors = hidden.sensors
         rates = {EncoderBlock: sensors.encoders.rate, SampledBlock: sensors.vibration.rate}
         self._outlets = {
-            kind: self.create_lifecycle_publisher(kind, topic, _KEPT)
+            kind: self.outlet(kind, topic, _KEPT)
             for kind, topic in _TOPICS.items()
             if rates.get(kind, math.inf)
         }
-        joints = given["input_joint"], given["output_joint"]
-        self._messages = PlantMessages(joints, sensors, given["frame_id"])
-        self._waits = [SubscriptionWait(self, name) for name in given["wait_for"] if name]
-        measured = timeline(played)
+        joints = given.input_joint, given.output_joint
+        self._messages = PlantMessages(joints, sensors, given.frame_id)
+        self._waits = [SubscriptionWait(self, name) for name in given.wait_for if name]
+        measured = timeline(Played(scene, hidden, given.duration))
         self._measured = itertools.chain([next(measured)], measured)  # the first takes seconds
 
     def activate(self) -> None:
         """Publish from the beginning, or from the time of the pause."""
-        if self._messages is None:
-            raise ValueError("the node is not configured")
         for wait in self._waits:
             wait.begin()
-        self._player = PlantPlayer(self._measured, self._messages, self)
+        self._stop.clear()
+        self._thread = threading.Thread(target=self._run, name="plant", daemon=True)
+        self._thread.start()
         self.get_logger().info(f"publishing measurements of {self.get_parameter('scene').value}")
         if not has_time(self.get_clock()):
             self.get_logger().warning(CLOCK_AWAITED)
 
     def deactivate(self) -> None:
         """Pause the run."""
-        if self._player is not None:
-            self._player.stop()
-            self._player = None
+        self._stop.set()
+        if self._thread is not None:
+            self._thread.join()
+            self._thread = None
 
     def close(self) -> None:
-        """Release the publishers."""
+        """End the run."""
         self.deactivate()
-        for publisher in self._outlets.values():
-            self.destroy_lifecycle_publisher(publisher)
-        self._outlets, self._messages = {}, None
 
-    # Called by the player, in its thread.
-
-    def ready(self) -> bool:
-        """Return whether ROS time is available and the nodes in `wait_for` have subscribed."""
-        return has_time(self.get_clock()) and all(wait.present() for wait in self._waits)
-
-    def now(self) -> int:
-        """Return the ROS time [ns]."""
-        return int(self.get_clock().now().nanoseconds)
-
-    def play(self, message: Any) -> None:
-        """Publish a message."""
-        self._outlets[type(message)].publish(message)
-
-    def ended(self, defect: Exception | None) -> None:
-        """End the process once the last messages are acknowledged."""
-        if not self.context.ok():
+    def _run(self) -> None:
+        """Publish the measurements, and end the process once the last ones are acknowledged."""
+        try:
+            complete = self._play()
+        except Exception as defect:
+            self.broke("the run", defect)
             return
-        if defect is not None:
-            self.get_logger().error("".join(traceback.format_exception(defect)))
-            self.fail(f"the run stopped: {defect}")
+        if not complete or not self.context.ok():
             return
         for publisher in self._outlets.values():
             publisher.wait_for_all_acked(_LAST)
         self.get_logger().info("the run has ended")
         shut_down(self.context)
+
+    def _play(self) -> bool:
+        """Publish each measurement at its time; return False if the run is paused before."""
+        while not self._is_ready():
+            if self._stop.wait(_POLL):
+                return False
+        begin, origin = math.nan, 0
+        for one in self._measured:
+            if math.isnan(begin):
+                begin = time.monotonic() - one.time
+                origin = self.get_clock().now().nanoseconds - round(one.time * 1e9)
+            if self._stop.wait(max(begin + one.time - time.monotonic(), 0.0)):
+                self._measured = itertools.chain([one], self._measured)
+                return False
+            message = self._messages.message(one, origin)
+            self._outlets[type(message)].publish(message)
+        return True
+
+    def _is_ready(self) -> bool:
+        """Return whether ROS time is available and the nodes in `wait_for` have subscribed."""
+        return has_time(self.get_clock()) and all(wait.present() for wait in self._waits)
 
     def _hidden(self, name: str, scene: pt.Scene) -> Hidden:
         if not name:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.logging import get_logger
@@ -16,31 +16,52 @@ from planetary_twin_py.recording.ros2.playback import Playback, TimedMessage
 from planetary_twin_py.recording.ros2.renaming import moved
 
 from ..base.lifecycle_node import ManagedNode, NodeError, shut_down
-from ..base.parameters import AT_ONCE, declare
+from ..base.parameters import AT_ONCE, declare_settings, setting, settings_of
 from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from ..base.spin import run_node
-from .player import Excerpt, Player
+from .player import DISCOVERY, Excerpt, Player
 from .publishers import Outlets
 from .services import PlayingServices
 
-# Participants discover each other at once, or, if a packet of the first exchange was lost, at the
-# next announcement: every 3 s. An existing subscriber must not miss the first messages.
-_DISCOVERY = 4.0  # [s]
 # Longest wait for subscribers to acknowledge the last messages; one that was killed never does.
 _DELIVERY = 30.0  # [s]
 _LONGEST = 1e7  # [s]
-_SHOW_PERIOD = 0.1  # [s]
 _RATE = "rate_factor"
 
 
-class ReplayDisplay(Protocol):
-    """Receives the messages and the position of a replay."""
+@dataclass(frozen=True)
+class ReplaySettings:
+    """What to play, and how; all but the rate may change until the node is configured."""
+
+    file: str = setting("", "recording: an .mcap file or its folder")
+    rate_factor: float = setting(
+        1.0,
+        f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
+        (UNLIMITED, FASTEST),
+        AT_ONCE,
+    )
+    start: float = setting(0.0, "recorded time at the start [s]", (0.0, _LONGEST))
+    duration: float = setting(0.0, "recorded time to play [s]; 0: to the end", (0.0, _LONGEST))
+    loop: bool = setting(False, "repeat until stopped")
+    start_paused: bool = setting(False, "start paused")
+    clock: float = setting(0.0, "/clock messages per recorded second [Hz]; 0: none", (0.0, 1000.0))
+    namespace: str = setting("", "replaces the recorded namespace; empty: as recorded")
+    topics: Sequence[str] = setting([""], "recorded topics to play; empty: all")
+
+
+class Display:
+    """Shows the messages of a replay in the log; a subclass may show its position, too."""
+
+    # Not the node's logger: after a signal, it can no longer publish to /rosout.
+    _logger = get_logger("replay")
 
     def say(self, text: str) -> None:
-        """Print a line."""
+        """Show a line."""
+        self._logger.info(text)
 
     def warn(self, text: str) -> None:
-        """Print a warning."""
+        """Show a warning."""
+        self._logger.warning(text)
 
     def move(self, instant: float, end: float) -> None:
         """Show the position `instant` [s] in the recording, which is played to `end` [s]."""
@@ -58,57 +79,58 @@ class Replay(ManagedNode):
     """
 
     def __init__(
-        self, given: Mapping[str, Any] | None = None, display: ReplayDisplay | None = None
+        self, given: Mapping[str, Any] | None = None, display: Display | None = None
     ) -> None:
         super().__init__("replay", given)
-        self._display = display or _Log()
-        self._declare()
+        self._display = display or Display()
+        declare_settings(self, ReplaySettings)
+        self._given = settings_of(self, ReplaySettings)
+        check_rate_factor(self._given.rate_factor)
+        self.add_on_set_parameters_callback(self._validate)
+        self.add_post_set_parameters_callback(self._submit)
         self._playback: Playback | None = None
         self._outlets: Outlets | None = None
         self._player: Player | None = None
         self._active = False
         self._begin = self._end = 0  # [ns]
         self._warned = 0  # number of damages
-        self._opened = 0.0
-        self._played = 0
-        self._shown = 0.0
         PlayingServices(self, self._playing, self._stamp)
 
     def configure(self) -> None:
         """Open the recording and create its publishers."""
-        self._read()
-        if not self._path:
+        given = self._given = settings_of(self, ReplaySettings)
+        if not given.file:
             raise NodeError("file is not given: -p file:=RECORDING")
-        playback = self._playback = Playback(Path(self._path).expanduser(), self._chosen)
-        self._warned = self._played = 0
+        chosen = [topic for topic in given.topics if topic]
+        playback = self._playback = Playback(Path(given.file).expanduser(), chosen)
+        self._warned = 0
         self._warn_of_damage()
         self._begin, self._end = self._excerpt(playback)
         # A bag may contain topics without messages, whose types may not be installed here.
         topics = {name: topic for name, topic in playback.topics.items() if playback.counts[name]}
-        ticking = self._clock_rate > 0.0 and CLOCK.name not in topics
+        ticking = given.clock > 0.0 and CLOCK.name not in topics
         if ticking:
             topics[CLOCK.name] = CLOCK
-        elif self._clock_rate:
+        elif given.clock:
             self._display.warn(
-                f"clock = {self._clock_rate:g}: {self._path} contains /clock, which is played"
+                f"clock = {given.clock:g}: {given.file} contains /clock, which is played"
             )
-        names = (
-            moved(topics, self._namespace) if self._namespace else {name: name for name in topics}
-        )
-        self._outlets = Outlets(self, topics.values(), names)
-        self._opened = time.monotonic()
+        own = {name: name for name in topics}
+        names = moved(topics, given.namespace) if given.namespace else own
+        outlets = self._outlets = Outlets(self, topics.values(), names)
         excerpt = Excerpt(
             self._begin,
             self._end,
-            self._loop,
+            given.loop,
             lambda begin: self._messages(playback, begin, ticking),
         )
-        self._player = Player(excerpt, self._start_paused, self)
+        callbacks = self._show, self._announce, self._finish
+        self._player = Player(excerpt, given.start_paused, outlets, *callbacks)
 
     def activate(self) -> None:
         """Start after the time for discovery, or continue."""
-        if not self.ready():
-            self._display.say(f"waiting {_DISCOVERY:g} s for subscribers")
+        if not self._player.ready:
+            self._display.say(f"waiting {DISCOVERY:g} s for subscribers")
         self._player.start(self.get_parameter(_RATE).value)
         self._active = True
 
@@ -118,56 +140,39 @@ class Replay(ManagedNode):
         self._player.stop()
 
     def close(self) -> None:
-        """Stop, close the publishers and report the number of messages."""
+        """Stop, and report the number of messages."""
         player, self._player = self._player, None
         if player is None:
             return
         self._active = False
         player.stop()
         self._display.say(
-            f"replayed {self._played} messages, at most {player.lateness * 1e3:.1f} ms late"
+            f"replayed {player.played} messages, at most {player.lateness * 1e3:.1f} ms late"
         )
-        self._outlets.close()
 
     # Called by the player, in its thread.
 
-    def ready(self) -> bool:
-        """Return whether the time for discovery is over."""
-        return time.monotonic() - self._opened > _DISCOVERY
-
-    def begin(self) -> None:
+    def _announce(self) -> None:
         """Report what is played, and topics that have other publishers."""
         length = (self._end - self._begin) * 1e-9
         self._display.say(
-            f"replaying {length:.2f} s of {len(self._outlets)} topics from {self._path}"
+            f"replaying {length:.2f} s of {len(self._outlets)} topics from {self._given.file}"
         )
         if shared := self._outlets.shared():
             self._display.warn(
                 f"other publishers exist, subscribers receive both: {', '.join(shared)}"
             )
 
-    def has_room(self, message: TimedMessage) -> bool:
-        """Return whether `message` overwrites no unacknowledged message."""
-        return self._outlets.has_room(message)
+    def _show(self, instant: int) -> None:
+        self._display.move(instant * 1e-9, self._end * 1e-9)
 
-    def play(self, message: TimedMessage) -> None:
-        """Publish a message as it was recorded."""
-        self._outlets.publish(message)
-        self._played += 1
-        now = time.monotonic()
-        if now - self._shown > _SHOW_PERIOD:
-            self._shown = now
-            self._display.move(message.time * 1e-9, self._end * 1e-9)
-
-    def ended(self) -> None:
-        """End the process once subscribers have acknowledged the last messages."""
-        self._outlets.wait(_DELIVERY)
-        shut_down(self.context)
-
-    def stopped(self, defect: Exception) -> None:
-        """End the process with the reason, unless a signal has shut down ROS."""
-        if self.context.ok():
-            self.fail(f"{self._path}: {type(defect).__name__}: {defect}")
+    def _finish(self, defect: Exception | None) -> None:
+        """End the process once the last messages are acknowledged, or with the reason."""
+        if defect is None:
+            self._outlets.wait(_DELIVERY)
+            shut_down(self.context)
+        elif self.context.ok():
+            self.fail(f"{self._given.file}: {type(defect).__name__}: {defect}")
 
     def _playing(self) -> Player:
         """Return the player."""
@@ -178,43 +183,6 @@ class Replay(ManagedNode):
     def _stamp(self, instant: float) -> int:
         """Return the recorder's time [ns] of a recorded instant [s]."""
         return self._playback.start + round(instant * 1e9)
-
-    def _declare(self) -> None:
-        declare(self, "file", "", "recording: an .mcap file or its folder")
-        check_rate_factor(
-            declare(
-                self,
-                _RATE,
-                1.0,
-                f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
-                (UNLIMITED, FASTEST),
-                when=AT_ONCE,
-            )
-        )
-        declare(self, "start", 0.0, "recorded time at the start [s]", (0.0, _LONGEST))
-        declare(self, "duration", 0.0, "recorded time to play [s]; 0: to the end", (0.0, _LONGEST))
-        declare(self, "loop", False, "repeat until stopped")
-        declare(self, "start_paused", False, "start paused")
-        declare(
-            self, "clock", 0.0, "/clock messages per recorded second [Hz]; 0: none", (0.0, 1000.0)
-        )
-        declare(self, "namespace", "", "replaces the recorded namespace; empty: as recorded")
-        declare(self, "topics", [""], "recorded topics to play; empty: all")
-        self._read()
-        self.add_on_set_parameters_callback(self._validate)
-        self.add_post_set_parameters_callback(self._submit)
-
-    def _read(self) -> None:
-        """Read the parameters, which may have been set while the node was unconfigured."""
-        value = {name: p.value for name, p in self.get_parameters_by_prefix("").items()}
-        self._path: str = value["file"]
-        self._start: float = value["start"]
-        self._duration: float = value["duration"]
-        self._loop: bool = value["loop"]
-        self._start_paused: bool = value["start_paused"]
-        self._clock_rate: float = value["clock"]
-        self._namespace: str = value["namespace"]
-        self._chosen = [topic for topic in value["topics"] if topic]
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
@@ -231,20 +199,20 @@ class Replay(ManagedNode):
 
     def _excerpt(self, playback: Playback) -> tuple[int, int]:
         """Return start and end [ns] of the part to play, after the first message."""
-        begin = round(self._start * 1e9)
+        given = self._given
+        begin = round(given.start * 1e9)
         if begin > playback.length:
-            raise NodeError(
-                f"start = {self._start:g}: {self._path} is {playback.length * 1e-9:.3f} s long"
-            )
-        end = begin + round(self._duration * 1e9) if self._duration else playback.length
+            length = playback.length * 1e-9
+            raise NodeError(f"start = {given.start:g}: {given.file} is {length:.3f} s long")
+        end = begin + round(given.duration * 1e9) if given.duration else playback.length
         end = min(end, playback.length)
-        if self._loop and begin == end:
-            raise NodeError(f"loop: the part of {self._path} to play has no length")
+        if given.loop and begin == end:
+            raise NodeError(f"loop: the part of {given.file} to play has no length")
         return begin, end
 
     def _messages(self, playback: Playback, begin: int, ticking: bool) -> Iterator[TimedMessage]:
         if ticking:
-            yield from with_clock(playback, begin, self._end, self._clock_rate)
+            yield from with_clock(playback, begin, self._end, self._given.clock)
         else:
             yield from playback.messages(begin, self._end)
         self._warn_of_damage()
@@ -254,22 +222,6 @@ class Replay(ManagedNode):
         for remark in remarks[warned:]:
             self._display.warn(remark)
         self._warned = len(remarks)
-
-
-class _Log:
-    """Writes messages to the log."""
-
-    # Not the node's logger: after a signal, it can no longer publish to /rosout.
-    _logger = get_logger("replay")
-
-    def say(self, text: str) -> None:
-        self._logger.info(text)
-
-    def warn(self, text: str) -> None:
-        self._logger.warning(text)
-
-    def move(self, instant: float, end: float) -> None:
-        pass
 
 
 def main(args: list[str] | None = None) -> int:

@@ -6,39 +6,21 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from planetary_twin_py.recording.ros2.playback import TimedMessage
 from planetary_twin_py.recording.ros2.transport import Transport
 
 from ..base.command_queue import CommandQueue
+from .publishers import Outlets
 
 LONGEST_STEP = 10.0  # [s] recorded time of one step of a paused replay
-_POLL = 0.05  # [s]
+# Participants discover each other at once, or, if a packet of the first exchange was lost, at the
+# next announcement: every 3 s. An existing subscriber must not miss the first messages.
+DISCOVERY = 4.0  # [s]
+_SHOW_PERIOD = 0.1  # [s]
 _YIELD = 2e-3  # [s] for subscribers to acknowledge messages
 _LONGEST_WAIT = 3600.0  # [s] for a command, while there is nothing to play
-
-
-class PlayerNode(Protocol):
-    """Callbacks of a player, called in its thread."""
-
-    def ready(self) -> bool:
-        """Return whether the first message may be played."""
-
-    def begin(self) -> None:
-        """Prepare for the first message, which is played next."""
-
-    def has_room(self, message: TimedMessage) -> bool:
-        """Return whether `message` can be played without loss to a slow subscriber."""
-
-    def play(self, message: TimedMessage) -> None:
-        """Publish `message`, whose instant is now."""
-
-    def ended(self) -> None:
-        """Finish: the last message has been played."""
-
-    def stopped(self, defect: Exception) -> None:
-        """Receive the exception that ended the thread."""
 
 
 class Excerpt(NamedTuple):
@@ -63,13 +45,27 @@ class Player:
     at an instant, all messages up to and at that instant have been played. Commands are executed
     between two messages; their futures return the recorded instant [s].
 
-    `paused` is the state at the start. `node` receives the messages.
+    `paused` is the state at the start. `outlets` publish the messages; `show` gets an instant [ns]
+    ten times a second. `begun` is called before the first message, `ended` after the last one, or
+    with the exception that ended the thread.
     """
 
-    def __init__(self, excerpt: Excerpt, paused: bool, node: PlayerNode) -> None:
-        self._excerpt = excerpt
-        self._node = node
+    def __init__(
+        self,
+        excerpt: Excerpt,
+        paused: bool,
+        outlets: Outlets,
+        show: Callable[[int], None],
+        begun: Callable[[], None],
+        ended: Callable[[Exception | None], None],
+    ) -> None:
+        self._excerpt, self._outlets = excerpt, outlets
+        self._show, self._begun, self._ended = show, begun, ended
         self._paused = paused
+        self._open = time.monotonic() + DISCOVERY
+        self._shown = 0.0
+        self.played = 0
+        """Number of messages."""
         self._transport = Transport(excerpt.begin)
         self._commands = CommandQueue(self._set)
         self._messages: Iterator[TimedMessage] | None = None
@@ -79,8 +75,13 @@ class Player:
         self.lateness = 0.0
         """Longest delay of a message [s]."""
 
+    @property
+    def ready(self) -> bool:
+        """Whether the time for discovery is over."""
+        return time.monotonic() > self._open
+
     def start(self, rate_factor: float) -> None:
-        """Start as soon as the node is ready, or continue after `stop`."""
+        """Start after the time for discovery, or continue after `stop`."""
         self._stop.clear()
         self._transport.set_rate(rate_factor, time.monotonic(), self._upcoming)
         self._thread = threading.Thread(target=self._run, name="playback", daemon=True)
@@ -111,18 +112,17 @@ class Player:
 
     def _run(self) -> None:
         try:
-            while not self._node.ready():
-                if self._stop.wait(_POLL):
-                    return
+            if self._stop.wait(max(self._open - time.monotonic(), 0.0)):
+                return
             if self._messages is None:
-                self._node.begin()
+                self._begun()
                 self._go_to(self._excerpt.begin)
             if not self._paused:
                 self._transport.resume(time.monotonic())
             if self._play():
-                self._node.ended()
+                self._ended(None)
         except Exception as defect:
-            self._node.stopped(defect)
+            self._ended(defect)
         finally:
             self._transport.pause(time.monotonic(), self._upcoming)
             self._commands.refuse("the replay has stopped")
@@ -159,10 +159,15 @@ class Player:
         self._next = next(self._messages, None)
 
     def _has_room(self) -> bool:
-        return self._next is None or self._node.has_room(self._next)
+        return self._next is None or self._outlets.has_room(self._next)
 
     def _play_next(self) -> None:
-        self._node.play(self._next)
+        message = self._next
+        self._outlets.publish(message)
+        self.played += 1
+        if (now := time.monotonic()) > self._shown + _SHOW_PERIOD:
+            self._shown = now
+            self._show(message.time)
         self._next = next(self._messages, None)
 
     def _play_through(self, instant: int) -> None:

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping
 
 from rclpy.duration import Duration
 from rclpy.exceptions import NameValidationException
-from rclpy.lifecycle import LifecycleNode, LifecyclePublisher
+from rclpy.lifecycle import LifecyclePublisher
 
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.playback import TimedMessage
 
-from ..base.lifecycle_node import NodeError
+from ..base.lifecycle_node import ManagedNode, NodeError
 from ..base.qos import publisher_qos
 from ..base.topics import UNKNOWN_NODE, message_class
 
@@ -71,17 +71,13 @@ class Outlets:
     """
 
     def __init__(
-        self, node: LifecycleNode, topics: Iterable[Topic], names: Mapping[str, str]
+        self, node: ManagedNode, topics: Iterable[Topic], names: Mapping[str, str]
     ) -> None:
         self._node = node
         self._names = names
         self._outlets: dict[str, Outlet] = {}
-        try:
-            for topic in topics:
-                self._create(topic)
-        except NodeError:
-            self.close()
-            raise
+        for topic in topics:
+            self._create(topic)
 
     def __len__(self) -> int:
         return len(self._outlets)
@@ -106,12 +102,6 @@ class Outlets:
             while not outlet.acknowledged() and time.monotonic() < deadline:
                 time.sleep(_POLL)
 
-    def close(self) -> None:
-        """Destroy the publishers."""
-        for outlet in self._outlets.values():
-            self._node.destroy_lifecycle_publisher(outlet.publisher)
-        self._outlets = {}
-
     def _create(self, topic: Topic) -> None:
         name = self._names[topic.name]
         try:
@@ -122,7 +112,7 @@ class Outlets:
         except (KeyError, ValueError, TypeError) as defect:
             raise NodeError(f"{topic.name}: recorded QoS is unreadable: {defect!r}") from None
         try:
-            publisher = self._node.create_lifecycle_publisher(kind, name, qos)
+            publisher = self._node.outlet(kind, name, qos)
         except NameValidationException as refusal:
             raise NodeError(f"{name}: {str(refusal).splitlines()[0]}") from None
         self._outlets[topic.name] = Outlet(publisher, max(qos.depth, 1))

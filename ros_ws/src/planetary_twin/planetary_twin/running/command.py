@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -94,14 +94,9 @@ def run(  # noqa: PLR0913 (options of the command line)
         return
     if hidden is not None or sensors is not None:
         fail("--hidden and --sensors: require --plant")
-    options = {
-        "scene": scene,
-        "duration": duration,
-        "rate_factor": rate_factor,
-        "tolerance": tolerance,
-    }
+    options = {"rate_factor": rate_factor, "tolerance": tolerance}
     try:
-        _run(options, record, (set_ or [], param or []), tour, json_)
+        _run(scene, duration, options, record, (set_ or [], param or []), tour, json_)
     except KeyboardInterrupt:
         remark("interrupted before the recording started")
     except ValueError as mistake:
@@ -111,13 +106,15 @@ def run(  # noqa: PLR0913 (options of the command line)
 
 
 def _run(
-    options: Mapping[str, Any],
+    scene: str,
+    duration: float,
+    options: Mapping[str, float],
     record: str | None,
     given: tuple[list[str], list[str]],
     tour: bool,
     target: str | None,
 ) -> None:
-    """Run with the `given` values of --set and --param."""
+    """Run with `options` of the simulation, and the `given` values of --set and --param."""
     # Imported here: ROS and the model take a second to load, and Ctrl-C must end that cleanly.
     from planetary_twin_py.run.tolerance import ladder_of
 
@@ -126,17 +123,13 @@ def _run(
     from .session import Plan, run_session
     from .tour import tour_of
 
-    scene, duration = options["scene"], options["duration"]
     # Refuse invalid options before any process starts.
     ladder_of(options["tolerance"])
     check_rate_factor(options["rate_factor"])
-    plan = Plan(
-        **options,
-        folder=_folder(record, scene),
-        values=_values(scene, given[0]),
-        settings=node_settings(given[1]),
-        stops=tour_of(scene, duration) if tour else [],
-    )
+    folder = _folder(record, scene)
+    settings = options | _values(scene, given[0]) | node_settings(given[1])
+    stops = tour_of(scene, duration) if tour else []
+    plan = Plan(scene, duration, folder, settings, stops)
     console = console_beside(target)
     outcome = run_session(plan, console)
     print_outcome(console, outcome)

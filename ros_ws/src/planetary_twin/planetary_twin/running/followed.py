@@ -53,8 +53,8 @@ class Followed:
             "events": [
                 {
                     "what": event.what,
-                    "found": _seconds(event.header.stamp) - self.begin,
-                    "since": _seconds(event.since) - self.begin,
+                    "found": seconds(event.header.stamp) - self.begin,
+                    "since": seconds(event.since) - self.begin,
                     "size": _finite(event.size),
                     "low": _finite(event.size_low),
                     "high": _finite(event.size_high),
@@ -71,13 +71,13 @@ class Followed:
 def event_line(event: FollowerEvent, begin: float) -> str:
     """Return an event as a line, with times since `begin` [s]."""
     causes = f"; {' or '.join(event.causes)}" if event.causes else ""
-    since, found = (_seconds(stamp) - begin for stamp in (event.since, event.header.stamp))
+    since, found = (seconds(stamp) - begin for stamp in (event.since, event.header.stamp))
     return f"{event.what}: {event.evidence}; since {since:.1f} s, found at {found:.1f} s{causes}"
 
 
 def print_followed(console: Console, followed: Followed) -> None:
     """Print estimates and changes."""
-    table = Table(title=f"{_seconds(followed.estimate.header.stamp) - followed.begin:.1f} s")
+    table = Table(title=f"{seconds(followed.estimate.header.stamp) - followed.begin:.1f} s")
     for heading in _HEADINGS:
         table.add_column(heading, justify="left" if heading == _HEADINGS[-1] else "right")
     for row in _rows(followed.estimate):
@@ -105,7 +105,8 @@ def _rows(estimate: FollowerEstimate) -> Iterator[tuple[str, ...]]:
             )
 
 
-def _seconds(stamp: Any) -> float:
+def seconds(stamp: Any) -> float:
+    """Return a stamp in seconds."""
     return float(stamp.sec + 1e-9 * stamp.nanosec)
 
 

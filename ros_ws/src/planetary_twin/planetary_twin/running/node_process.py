@@ -1,15 +1,16 @@
-"""Nodes as child processes, which end with the run."""
+"""Nodes as child processes that end with the run, of which a domain and namespace has one."""
 
 from __future__ import annotations
 
 import contextlib
 import ctypes
+import fcntl
 import os
 import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from types import TracebackType
 from typing import Self
 
@@ -115,3 +116,36 @@ class Child:
         """Return the last error that the node logged; empty without one."""
         lines = [line for line in self.output().splitlines() if line.startswith("[ERROR]")]
         return lines[-1].partition("]: ")[2] if lines else ""
+
+
+def conflict(others: str = "another twin") -> str:
+    """Return the line of a refusal: `others` publish here."""
+    return f"{others} runs on ROS_DOMAIN_ID = {_domain()}: end it, or choose another domain"
+
+
+@contextlib.contextmanager
+def alone(namespace: str) -> Iterator[None]:
+    """
+    Raise `RunError` if another run of this user is active in the same domain and namespace.
+
+    A lock is used because discovery may take longer than a short run; it ends with its process.
+    """
+    name = f"planetary_twin_{os.getuid()}_{_domain()}{namespace.replace('/', '_')}.lock"
+    path = os.path.join(tempfile.gettempdir(), name)
+    lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600)
+    try:
+        _lock(lock)
+        yield
+    finally:
+        os.close(lock)
+
+
+def _domain() -> str:
+    return os.environ.get("ROS_DOMAIN_ID", "0")
+
+
+def _lock(lock: int) -> None:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise RunError(conflict()) from None

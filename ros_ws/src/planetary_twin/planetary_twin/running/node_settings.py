@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import fields
 
 from planetary_twin_py.scene.names import did_you_mean
 
-from ..simulation.parameters import SETTINGS
+from ..simulation.parameters import SimulationSettings
 
 _OF_THE_RUN = ("rate_factor", "wait_for")  # set by the command itself
 _CLOCK = "use_sim_time"
@@ -14,7 +15,7 @@ _OWN_CLOCK = (
     "run uses the system clock, and publishes no /clock; to follow one of another node, start the "
     "node simulation with -p use_sim_time:=true, or twin.launch.py with use_sim_time:=true"
 )
-NAMES = tuple(name for name in SETTINGS if name not in _OF_THE_RUN)
+NAMES = tuple(each.name for each in fields(SimulationSettings) if each.name not in _OF_THE_RUN)
 
 
 def node_settings(given: Sequence[str]) -> dict[str, str]:

@@ -8,27 +8,25 @@ from functools import partial
 from pathlib import Path
 
 from diagnostic_msgs.msg import DiagnosticArray
-from lifecycle_msgs.srv import ChangeState, GetState
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.client import Client as Service
 from rclpy.parameter import Parameter
 
+from ..base.diagnostics import real_time_figures
 from ..base.topics import UNKNOWN_NODE, wanted_topics
-from ..clients.client import Client
-from ..clients.real_time_figures import real_time_figures
 from ..process.memory import return_freed_memory
 from .node_process import RunError
-from .sums import Sums
+from .outcome import Sums
+from .run_client import RunClient
 
-_NODE = "simulation"
+NODE = "simulation"
 _POLL = 0.1  # [s]
 _QUEUED = 1000  # states, 10 s at the default rate
 _QUIET = 5.0  # [s] without a state, which is shown
 _REPORTED = 3.0  # [s] for which a report, sent once a second, is up to date
 
 
-class Operator(Client):
+class Operator(RunClient):
     """
     The node that controls the two nodes of a run in `namespace`.
 
@@ -40,20 +38,13 @@ class Operator(Client):
     def __init__(self, namespace: str, watch: Callable[[], None]) -> None:
         super().__init__("operator", namespace, watch)
         self.state: GearboxState | None = None
-        self.recorder = RecorderStatus()
         self.recordings: dict[str, None] = {}  # names of the folders, in order
         self.figures: dict[str, str] = {}
         self.summed = Sums()
         self._reported = 0.0  # [s] when the figures were received
         self._advanced = 0.0  # [s] when the newest state was received
         self._answered = 0.0  # [s] when a state was last received or expected
-        subscribe = self.node.create_subscription
-        subscribe(GearboxState, "gearbox_state", self._on_state, _QUEUED)
-        subscribe(RecorderStatus, "logger/status", self._on_status, 10)
-        subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 100)
-        self._change = self._client(ChangeState, "change_state")
-        self._get = self._client(GetState, "get_state")
-        self._set = self._client(SetParametersAtomically, "set_parameters_atomically")
+        self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, _QUEUED)
 
     def next_state(self, after: int, seconds: float) -> GearboxState | None:
         """
@@ -85,9 +76,8 @@ class Operator(Client):
 
     def _check_active(self) -> None:
         """Raise `RunError` if another client has ended the run by a lifecycle request."""
-        answer = self.call(self._get, GetState.Request())
-        label = answer.current_state.label if answer else "active"
-        if label != "active":
+        label = self.state_of(NODE)
+        if label not in ("active", ""):
             raise RunError(f"simulation: is {label} after a lifecycle request")
 
     def halted(self) -> str:
@@ -101,33 +91,10 @@ class Operator(Client):
         topic = self.node.resolve_topic_name("gearbox_state")
         publishers = self.node.get_publishers_info_by_topic(topic)
         names = [f"{p.node_namespace.rstrip('/')}/{p.node_name}" for p in publishers]
-        own = f"{self.namespace.rstrip('/')}/{_NODE}"
+        own = f"{self.namespace.rstrip('/')}/{NODE}"
         if own in names:
             names.remove(own)
         return [name for name in names if not name.endswith(UNKNOWN_NODE)]
-
-    def change_state(self, transition: str, begin: str, goal: str, seconds: float) -> None:
-        """
-        Make the simulation execute a lifecycle `transition` from state `begin` to state `goal`.
-
-        Raises `RunError` if it refuses, or after `seconds`.
-        """
-        deadline = time.monotonic() + seconds
-        while time.monotonic() < deadline:
-            answer = self.call(self._get, GetState.Request())
-            if answer is None:
-                continue
-            label = answer.current_state.label
-            if label == goal:
-                return
-            if label == begin:
-                request = ChangeState.Request()
-                request.transition.label = transition
-                reply = self.call(self._change, request, deadline - time.monotonic())
-                if reply is not None and not reply.success:
-                    self.watch()
-                    raise RunError(f"simulation: refuses to {transition}")
-        raise RunError(f"simulation: does not {transition} within {seconds:g} s")
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set parameters atomically; raises `RunError` with the reason of a refusal."""
@@ -137,7 +104,9 @@ class Operator(Client):
             for name, value in values.items()
         ]
         for _ in range(3):
-            answer = self.call(self._set, request)
+            answer = self.call(
+                SetParametersAtomically, f"{NODE}/set_parameters_atomically", request
+            )
             if answer is not None:
                 if not answer.result.successful:
                     raise RunError(answer.result.reason)
@@ -166,24 +135,18 @@ class Operator(Client):
             if key.startswith(prefix)
         }
 
-    def accounted(self) -> dict[str, int]:
-        """Return the number of messages by topic that the logger reports as recorded or lost."""
-        totals = zip(self.recorder.topics, self.recorder.recorded, self.recorder.lost, strict=True)
-        return {topic: recorded + lost for topic, recorded, lost in totals}
-
-    def _client(self, kind: type, service: str) -> Service:
-        return self.node.create_client(kind, f"{_NODE}/{service}")
-
     def _on_state(self, message: GearboxState) -> None:
         self.state, self._advanced = message, time.monotonic()
         self.summed.add(partial(getattr, message))
 
-    def _on_status(self, message: RecorderStatus) -> None:
-        self.recorder = message
+    def on_status(self, message: RecorderStatus) -> None:
+        """Receive a status of the logger."""
+        super().on_status(message)
         if message.file:
             self.recordings[Path(message.file).parent.name] = None
 
-    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+    def on_diagnostics(self, message: DiagnosticArray) -> None:
+        """Receive reports of a node."""
         return_freed_memory()  # once a second
         if figures := real_time_figures(message, self.namespace):
             self.figures, self._reported = figures, time.monotonic()

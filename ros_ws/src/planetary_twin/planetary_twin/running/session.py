@@ -7,18 +7,15 @@ import os
 import shutil
 import signal
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 
-from planetary_twin_py.run.tolerance import AUTOMATIC
-
 from ..clients.loopback import stay_on_this_machine
 from ..simulation.publishing.publishers import STALL
-from .lock import alone, conflict
-from .node_process import Child, RunError
-from .operator import Operator
+from .node_process import Child, RunError, alone, conflict
+from .operator import NODE, Operator
 from .outcome import Outcome, read_outcome
 from .progress import Show
 from .tour import Stop
@@ -34,18 +31,14 @@ class Plan:
     """
     What to run.
 
-    `values` are start values of the operating point, `settings` those of other parameters of the
-    simulation.
+    `settings` are further parameters of the simulation, `stops` changes during the run.
     """
 
     scene: str
     duration: float  # [s] simulated
     folder: Path
-    rate_factor: float = 1.0
-    tolerance: float = AUTOMATIC
-    values: Mapping[str, float] = field(default_factory=dict)
-    settings: Mapping[str, str] = field(default_factory=dict)
-    stops: list[Stop] = field(default_factory=list)
+    settings: Mapping[str, object]
+    stops: list[Stop]
     namespace: str = "/planetary_twin"
 
 
@@ -62,11 +55,12 @@ def run_session(plan: Plan, console: Console) -> Outcome:
 
 
 def _run(plan: Plan, console: Console) -> Outcome:
-    logger = Child("logger", plan.namespace, _logger_parameters(plan))
+    logger = Child("logger", plan.namespace, logger_parameters(plan.scene, plan.folder))
     with logger:
         with contextlib.ExitStack() as stack:
             with _removed_on_failure(logger, plan.folder):
-                simulation = Child("simulation", plan.namespace, _simulation_parameters(plan))
+                own = {"scene": plan.scene, "autostart": "false", "wait_for": "logger"}
+                simulation = Child(NODE, plan.namespace, own | plan.settings)
                 stack.enter_context(simulation)
 
                 def watch() -> None:
@@ -97,24 +91,9 @@ def _run(plan: Plan, console: Console) -> Outcome:
     return outcome
 
 
-def _logger_parameters(plan: Plan) -> dict[str, object]:
-    return {
-        "directory": plan.folder.parent.absolute(),
-        "name": plan.folder.name,
-        "scene": plan.scene,
-    }
-
-
-def _simulation_parameters(plan: Plan) -> dict[str, object]:
-    return {
-        "scene": plan.scene,
-        "rate_factor": plan.rate_factor,
-        "tolerance": plan.tolerance,
-        "autostart": "false",
-        "wait_for": "logger",
-        **plan.values,
-        **plan.settings,
-    }
+def logger_parameters(scene: str, folder: Path) -> dict[str, object]:
+    """Return the parameters of a logger that records into `folder`."""
+    return {"directory": folder.parent.absolute(), "name": folder.name, "scene": scene}
 
 
 def _begin(operator: Operator, simulation: Child) -> None:
@@ -128,13 +107,13 @@ def _begin(operator: Operator, simulation: Child) -> None:
 
 def _start(operator: Operator) -> None:
     """Build the model, and run it once the logger has subscribed to every topic."""
-    operator.change_state("configure", "unconfigured", "inactive", _BUILD)
+    operator.change_state(NODE, "configure", "unconfigured", "inactive", _BUILD)
 
     if not operator.wait(lambda: not operator.unsubscribed(), _START):
         topics = operator.unsubscribed()
         raise RunError(f"logger: within {_START:g} s, it does not subscribe to {topics}")
     _refuse_other_publishers(operator)
-    operator.change_state("activate", "inactive", "active", _START)
+    operator.change_state(NODE, "activate", "inactive", "active", _START)
 
 
 def _refuse_other_publishers(operator: Operator) -> None:
@@ -189,7 +168,7 @@ def _finish(operator: Operator) -> None:
 
     If the logger stalls, the wait lasts as long as publishers keep messages for it.
     """
-    operator.change_state("deactivate", "active", "inactive", _END + 2.0)
+    operator.change_state(NODE, "deactivate", "active", "inactive", _END + 2.0)
     operator.wait(lambda: operator.figures.get("state") == "stopped", _END)
 
     def done() -> bool:

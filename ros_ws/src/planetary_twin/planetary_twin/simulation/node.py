@@ -5,9 +5,7 @@ from __future__ import annotations
 import gc
 import math
 import sys
-import traceback
 from collections.abc import Iterator, Mapping
-from concurrent.futures import Future
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -17,28 +15,25 @@ from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
 from planetary_twin_py.checks.fixed_axes import held_axes_warning
-from planetary_twin_py.recording.ros2.given import joint_names, values_of
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.run.limits import RunawayError
 from planetary_twin_py.run.quality_control import QualityControl, Setting
-from planetary_twin_py.run.twin import Change
 
-from ..base.clock import CLOCK_AWAITED, STEADY
+from ..base.clock import CLOCK_AWAITED
 from ..base.diagnostics import Row, diagnostics
-from ..base.lifecycle_node import ManagedNode, NodeError
+from ..base.lifecycle_node import NodeError
 from ..base.polled_subscription import PolledSubscription
 from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
 from . import standard_services
 from .diagnostics.intervals import IntervalReports, dynamics_row
-from .diagnostics.real_time import KEEPS_UP, RealTimeReport
+from .diagnostics.real_time import KEEPS_UP
 from .live.backlog import Backlog
-from .live.interface import Progress
 from .live.live_twin import NO_CLOCK, LiveTwin
 from .operating_point import OperatingPointControl
-from .parameters import SimulationParameters
 from .publishing.publishers import STALL, Telemetry
-from .shaft_commands import QOS, ShaftCommands, fault_of_names, names_given
+from .running import RunningSimulation
+from .shaft_commands import QOS, ShaftCommands
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
@@ -47,46 +42,42 @@ _REPORT_PERIOD = 1.0  # [s]
 _SWITCH_INTERVAL = 2e-4  # [s]
 
 
-class Simulation(ManagedNode):
+class Simulation(RunningSimulation):
     """Runs a scene: `configure` builds the model, `activate` runs it, `deactivate` pauses it."""
 
     def __init__(self, given: Mapping[str, Any] | None = None) -> None:
-        super().__init__("simulation", given)
-        self._twin: pt.Twin | None = None
-        self._live: LiveTwin | None = None
-        self._report: RealTimeReport | None = None
+        super().__init__(given)
         self._urdf = ""
         self._verdict = KEEPS_UP
         self._other_publishers = 0
-        self._given = SimulationParameters(self)
         self._intervals = IntervalReports()
         self._checked: pt.Scene | None = None  # by `_check_held_axes`
-        self._telemetry: Telemetry | None = None
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._wait: SubscriptionWait | None = None
         self._commands: ShaftCommands | None = None
         self._faulty: set[str] = set()  # names of reports with a fault
         self._inlet: PolledSubscription | None = None
-        self._point = OperatingPointControl(self, self)
+        self._point = OperatingPointControl(self)
         self._backlog: Backlog | None = None
-        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
-        TimeServices(self, self)
+        TimeServices(self)
         if standard_services.AVAILABLE:
-            standard_services.SimulationServices(self, self, lambda: 1.0 / self._given.rate)
+            standard_services.SimulationServices(self)
 
     def configure(self) -> None:
         """Create the publishers, so that subscribers find them, and build the model."""
         self._given.read()
         self._pick_dynamics()
+        scene, settings = self._given.scene, self._given.settings
         self._telemetry = Telemetry(self, self._given, self._before)
         self._inlet = PolledSubscription(self, JointState, "~/command", QOS)
-        self._commands = ShaftCommands(self._given, self._time_of_stamps, self._take_commands)
-        self._wait = SubscriptionWait(self, self._given.wait_for)
+        now, take = self._time_of_stamps, self._take_commands
+        self._commands = ShaftCommands(scene, settings, now, take)
+        self._wait = SubscriptionWait(self, settings.wait_for)
         # Half of what publishers keep: messages in transit do not fill the rest.
-        room = round(0.5 * STALL * self._given.rate)
-        self._backlog = Backlog(self, self._given.wait_for, self._telemetry.streamed, room)
-        self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
+        room = round(0.5 * STALL * settings.publish_rate)
+        self._backlog = Backlog(self, settings.wait_for, self._telemetry.streamed, room)
+        self._urdf = robot_description(scene.gearset, settings.frame_id)
         self._twin = self._new_twin()
         self._check_held_axes(self._twin)
         # Exclude the objects loaded so far from garbage collection: scanning them takes 0.1 s.
@@ -101,72 +92,51 @@ class Simulation(ManagedNode):
             twin.set(**self._given.live_values())
         except RunawayError as reason:
             raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
-        given, quality = self._given, self._given.quality(twin)
+        settings, quality = self._given.settings, self._given.quality(twin)
+        outputs, commands = self._telemetry, self._commands
         self._wait.begin()
-        self._live = LiveTwin(
-            twin, 1.0 / given.rate, given.rate_factor, quality, self, self._commands
+        self.live = LiveTwin(
+            twin, self.interval, settings.rate_factor, quality, self, outputs, commands
         )
-        self._report = self._new_report(twin, self._live.start())
+        self._report = self._new_report(twin, self.live.start())
+        self.every(_REPORT_PERIOD, self._diagnose)
         self._telemetry.describe(self._urdf)
         self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s")
-        if not self.has_clock():
+        if not self._telemetry.has_clock():
             self.get_logger().warning(CLOCK_AWAITED)
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
-        live, self._live = self._live, None
+        live, self.live = self.live, None
         if live is not None:
             live.stop()
             self._diagnose(live, last=True)
 
     def close(self) -> None:
-        """Release the model and the publishers."""
-        live, self._live = self._live, None
+        """Release the model and the subscriptions."""
+        live, self.live = self.live, None
         if live is not None:
             live.stop()
         self._twin = self._report = self._wait = None
-        if self._inlet is not None:
-            self._inlet.close()
-            self._inlet = None
-        if self._backlog is not None:
-            self._backlog.close()
-            self._backlog = None
-        if self._telemetry is not None:
-            self._telemetry.close()
-            self._before, self._telemetry = self._telemetry, None
+        for each in (self._inlet, self._backlog):
+            if each is not None:
+                each.close()
+        self._inlet = self._backlog = None
+        self._before, self._telemetry = self._telemetry or self._before, None
 
     # Called by the live twin, in its thread, or in that of a command while it halts.
 
-    def prepare(self, window: pt.Window) -> None:
-        """Fill the messages for an interval before the wall time of its end."""
-        self._telemetry.prepare(window)
+    def computed(self, window: pt.Window) -> None:
+        """Check an interval before the wall time of its end."""
         self._intervals.add(window)
-
-    def publish(self) -> bool:
-        """Publish these messages at that time; returns whether stamps have skipped a lag."""
-        return self._telemetry.publish()
-
-    def changed(self, change: Change) -> None:
-        """Publish operating point and ports."""
-        self._telemetry.announce(change)
 
     def ready(self) -> bool:
         """Return whether ROS time is available and the node `wait_for` has subscribed."""
-        return self._telemetry.ready() and self._wait.present()
-
-    def has_clock(self) -> bool:
-        """Return whether ROS time is available."""
-        return self._telemetry.ready()
+        return self._telemetry.has_clock() and self._wait.present()
 
     def has_room(self) -> bool:
         """Return whether the node that `wait_for` names has kept up with recording."""
         return self._backlog.has_room()
-
-    def resumed(self, twin: pt.Twin) -> None:
-        """Map the twin's present time to the present ROS time."""
-        self._telemetry.begin(twin.time)
-        if twin.time == 0.0:
-            self._telemetry.originate(twin.start)
 
     def refused(self, reason: str) -> None:
         """Warn of a ramp that ended before its final values, or of a command without effect."""
@@ -186,71 +156,16 @@ class Simulation(ManagedNode):
             self.get_logger().info(text)
 
     def stopped(self, defect: Exception) -> None:
-        """Report the reason, unless a signal has shut down ROS."""
-        if not self.context.ok():
-            return
-        if not isinstance(defect, (ValueError, ArithmeticError)):
-            self.get_logger().error("".join(traceback.format_exception(defect)))
-        self.fail(f"the twin stopped: {defect}")
-
-    # Time and operating point, see `time_services` and `operating_point_control`.
-
-    @property
-    def live(self) -> LiveTwin | None:
-        """Return the live twin, or None unless the node is active."""
-        return self._live
-
-    @property
-    def longest_wait(self) -> float:
-        """Longest wait for a command [s], which is executed between two intervals."""
-        return 2.0 * self._given.period + 1.0
-
-    def renew_quality(self) -> None:
-        """Apply the parameter `tolerance` to the live twin."""
-        if self._live is not None:
-            self._live.quality = self._given.quality(self._running_twin())
+        """Report the exception that ended the thread."""
+        self.broke("the twin", defect)
 
     def remark(self, parameters: list[Parameter]) -> str:
         """Return which of `parameters` have no effect, and whether the twin now waits."""
         remarks = [self._given.remark(parameters)]
         clock_changed = any(p.name == "use_sim_time" for p in parameters)
-        if clock_changed and self._live is not None and not self.has_clock():
+        if clock_changed and self.live is not None and not self._telemetry.has_clock():
             remarks.append(NO_CLOCK)
         return "; ".join(filter(None, remarks))
-
-    def running(self) -> LiveTwin:
-        """Return the live twin."""
-        if self._live is None:
-            raise ValueError("the simulation is not active, so its time does not advance")
-        return self._live
-
-    def command(self, message: JointState) -> dict[str, float]:
-        """Return what a command gives at the ports, as arguments of `Twin.advance`."""
-        joints = joint_names(self._given.scene)
-        if fault := fault_of_names(message, joints):
-            raise ValueError(f"command: has {fault}")
-        if not message.name:
-            return {}
-        values = values_of(message, joints)
-        if not values:
-            raise ValueError(
-                f"command: must have an effort, velocity or position of {' or '.join(joints)}; "
-                f"{names_given(message)}"
-            )
-        return values
-
-    def reset(self) -> Future[float]:
-        """Start again at time zero, at the operating point of the parameters."""
-        live, twin = self.running(), self._new_twin()
-        instant = live.restart(twin)
-        instant.result(timeout=self.longest_wait)
-        self._twin = twin
-        self._report = self._new_report(twin, live.progress)
-        return instant
-
-    def stamp(self, instant: float) -> int:
-        """Return the ROS time [ns] of a simulated instant [s]."""
-        return self._telemetry.stamp(instant)
 
     def _take_commands(self) -> list[tuple[int, JointState]]:
         """Return the commands that have arrived, as many as the subscription holds at most."""
@@ -258,8 +173,8 @@ class Simulation(ManagedNode):
 
     def _time_of_stamps(self) -> int:
         """Return the ROS time [ns]; a source of /clock does not wait for its own messages."""
-        if self._given.clock:
-            return self._telemetry.newest
+        if self._given.settings.clock:
+            return self._telemetry.stamps.newest
         return int(self.get_clock().now().nanoseconds)
 
     def _natural_modes(
@@ -273,7 +188,7 @@ class Simulation(ManagedNode):
     # Diagnostics.
 
     def _diagnose(self, live: LiveTwin | None = None, *, last: bool = False) -> None:
-        live, report = live or self._live, self._report
+        live, report = live or self.live, self._report
         if live is None or report is None:
             return
 
@@ -296,7 +211,7 @@ class Simulation(ManagedNode):
             yield dynamics_row(self._given.choice, self._running_twin().operating_point)
         if self._running_twin().ports.given:
             yield self._noted(self._commands.row())
-        if self._given.wait_for:
+        if self._given.settings.wait_for:
             yield self._noted(self._wait.row())
 
     def _noted(self, row: Row) -> Row:
@@ -333,28 +248,6 @@ class Simulation(ManagedNode):
             self.get_logger().warning(row.message)
         else:
             self.get_logger().error(row.message)
-
-    def _pick_dynamics(self) -> None:
-        try:
-            self._given.pick_dynamics()
-        except RunawayError as reason:
-            raise ValueError(str(reason)) from None
-        if self._given.choice is not None:
-            self.get_logger().info(self._given.choice.text)
-
-    def _new_twin(self) -> pt.Twin:
-        try:
-            return pt.Twin(self._given.scene_now(), sample_rate=self._given.sample_rate)
-        except RunawayError as reason:
-            raise ValueError(str(reason)) from None
-
-    def _new_report(self, twin: pt.Twin, start: Progress) -> RealTimeReport:
-        return RealTimeReport(self._given.rate_factor, self._given.period, twin.log, start)
-
-    def _running_twin(self) -> pt.Twin:
-        if self._twin is None:
-            raise NodeError("the model is not built: configure the node first")
-        return self._twin
 
 
 def main(args: list[str] | None = None) -> int:

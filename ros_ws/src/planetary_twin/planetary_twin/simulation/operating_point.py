@@ -3,58 +3,40 @@
 from __future__ import annotations
 
 from concurrent.futures import Future
-from typing import Protocol
 
 from planetary_twin_msgs.srv import SetOperatingPoint
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 
+from ..base.clock import set_stamp
 from ..base.parameters import brief
-from .live.live_twin import LiveTwin
+from ..base.services import answer, executed
 from .live.ramps import LONGEST_RAMP
 from .parameters import TOLERANCE, changing
-
-
-class RunningSimulation(Protocol):
-    """The part of a simulation that changes of its operating point use."""
-
-    @property
-    def live(self) -> LiveTwin | None:
-        """Return the live twin, or None unless the node is active."""
-
-    @property
-    def longest_wait(self) -> float:
-        """Longest wait for a command [s]."""
-
-    def renew_quality(self) -> None:
-        """Apply the parameter `tolerance` to the live twin."""
-
-    def stamp(self, instant: float) -> int:
-        """Return the ROS time [ns] of a simulated instant [s]."""
+from .running import RunningSimulation
 
 
 class OperatingPointControl:
     """
-    Passes parameters of `node` that change to the live twin of `simulation`.
+    Passes parameters of `node` that change to its live twin.
 
     The service `~/set_operating_point` sets several of them at one instant, or in a ramp.
     """
 
-    def __init__(self, node: Node, simulation: RunningSimulation) -> None:
-        self._node, self._simulation = node, simulation
+    def __init__(self, node: RunningSimulation) -> None:
+        self._node = node
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] duration of the ramp for the parameters being set
         node.add_post_set_parameters_callback(self._submit)
         node.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
 
     def _submit(self, parameters: list[Parameter]) -> None:
-        live = self._simulation.live
+        live = self._node.live
         if live is None:
             return
         if any(p.name == TOLERANCE.name for p in parameters):
-            self._simulation.renew_quality()
+            self._node.renew_quality()
         values = changing(parameters)
         if not values:
             return
@@ -69,23 +51,19 @@ class OperatingPointControl:
     def _report_refusal(self, submitted: Future[float]) -> None:
         """Warn if the twin refuses parameters that are within their ranges."""
         refusal = submitted.exception()
-        if refusal is not None and self._simulation.live is not None:
+        if refusal is not None and self._node.live is not None:
             self._node.get_logger().warning(f"the twin refuses its parameters: {refusal}")
 
     def _set_operating_point(
         self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
     ) -> SetOperatingPoint.Response:
-        try:
+        def change() -> str:
             instant, remark = self._change(request.names, request.values, request.ramp)
-        except (ValueError, TimeoutError) as refusal:
-            response.success, response.message = False, str(refusal)
-            return response
-        response.success, response.message = True, remark
-        response.simulated_time = instant
-        response.stamp.sec, response.stamp.nanosec = divmod(
-            self._simulation.stamp(instant), 1_000_000_000
-        )
-        return response
+            response.simulated_time = instant
+            set_stamp(response.stamp, self._node.stamp(instant))
+            return remark
+
+        return answer(response, change)
 
     def _change(self, names: list[str], values: list[float], ramp: float) -> tuple[float, str]:
         """
@@ -94,7 +72,7 @@ class OperatingPointControl:
         The remark names quantities that have no effect in the scene.
         """
         _check(names, values, ramp)
-        if self._simulation.live is None:
+        if self._node.live is None:
             raise ValueError("the simulation is not active")
         parameters = [
             Parameter(name, Parameter.Type.DOUBLE, value)
@@ -107,7 +85,7 @@ class OperatingPointControl:
             self._ramp = 0.0
         if not result.successful or self._submitted is None:
             raise ValueError(result.reason)
-        instant = self._submitted.result(timeout=self._simulation.longest_wait)
+        instant = executed(self._submitted, self._node.longest_wait)
         return instant, str(result.reason)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -10,7 +11,8 @@ from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 from planetary_twin_py.run.dynamics_choice import AUTO
-from planetary_twin_py.run.quality_control import QualityControl, Setting, settings_of
+from planetary_twin_py.run.quality_control import QualityControl, Setting
+from planetary_twin_py.run.quality_control import settings_of as settings_of_quality
 from planetary_twin_py.run.start import check_point
 from planetary_twin_py.run.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 from planetary_twin_py.scene.live import LIVE, PORT_FIELDS
@@ -22,8 +24,11 @@ from ..base.parameters import (
     declare,
     declare_geometry,
     declare_port,
+    declare_settings,
     declare_tunable,
     number,
+    setting,
+    settings_of,
 )
 from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from ..base.subscription_wait import TIMEOUT
@@ -42,22 +47,62 @@ TOLERANCE = pt.Tunable(
 _CONTROLLED = ("input_speed", "second_input_speed", *PORT_FIELDS)
 _GEARSET = "gearset"
 _SHORTEST_LAG = 0.01  # [s] late wake-ups of a thread are no lag
-SETTINGS = (
-    "frame_id",
-    "frame_prefix",
-    "tf",
-    "continuous_joints",
-    "publish_rate",
-    "wait_for",
-    "clock",
-    "sample_rate",
-    "rate_factor",
-    "compute_share",
-    "max_lag",
-    "command_timeout",
-    "command_silence",
-)
-"""Parameters that may be set until the node is configured."""
+
+
+@dataclass(frozen=True)
+class SimulationSettings:
+    """Parameters that may be set until the node is configured; raises `ValueError` if invalid."""
+
+    frame_id: str = setting("gearbox", "base frame of the gearbox")
+    frame_prefix: str = setting("", "prefix of all frame names, for several twins")
+    tf: bool = setting(True, "publish /tf; false if robot_state_publisher does")
+    continuous_joints: bool = setting(
+        False, "joint positions count whole turns instead of wrapping at one turn"
+    )
+    publish_rate: float = setting(100.0, "messages per simulated second [Hz]", (10.0, 1000.0))
+    wait_for: str = setting(
+        "",
+        f"node that records, such as logger or /rosbag2_recorder: the twin starts when it has "
+        f"subscribed, after {TIMEOUT:g} s at most, and waits for it above real time and in steps",
+    )
+    clock: bool = setting(False, "publish simulated time on /clock")
+    sample_rate: float = setting(50e3, "sample rate of mesh_waveform [Hz]", (1e3, 1e6))
+    rate_factor: float = setting(
+        1.0,
+        f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: as fast as possible [-]",
+        (UNLIMITED, FASTEST),
+    )
+    compute_share: float = setting(
+        0.4,
+        "share of the time that computing may take if the tolerance is automatic [-]",
+        (0.05, 0.9),
+    )
+    max_lag: float = setting(
+        0.0,
+        "lag of stamps behind ROS time above which they skip it [s], 0.01 at least; 0: never",
+        (0.0, 60.0),
+    )
+    command_timeout: float = setting(
+        0.0,
+        "time without a command after which command_silence applies [s]; 0: never",
+        (0.0, 10.0),
+    )
+    command_silence: str = setting(
+        "hold",
+        "after command_timeout: hold the last command; zero torque and speed; or brake the input "
+        "shaft to rest at the slew rate of the drive",
+    )
+
+    def __post_init__(self) -> None:
+        """Check what the ranges do not."""
+        check_rate_factor(self.rate_factor)
+        _check_lag(self.max_lag)
+        _check_silence(self.command_silence)
+
+    @property
+    def period(self) -> float:
+        """Wall time of an interval [s]; its simulated time if the rate factor is 0."""
+        return 1.0 / (self.publish_rate * (self.rate_factor or 1.0))
 
 
 class SimulationParameters:
@@ -80,40 +125,21 @@ class SimulationParameters:
         # Changeable parameters first: tools such as rqt_reconfigure list them in this order.
         ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
         self._declare_scene()
-        _declare_settings(node)
+        declare_settings(node, SimulationSettings)
         self.scene = self.scene_now()
         check_point(self.scene, self.scene.operating_point)
         self._wanted = self.scene
         self._open = self.scene.dynamics == AUTO
         self.choice: pt.DynamicsChoice | None = None
         """Selection of the dynamics for a scene with `dynamics: auto`; None for others."""
-        self.read()
+        self.settings = settings_of(node, SimulationSettings)
+        """The other parameters, as of the last `read`."""
         node.add_on_set_parameters_callback(self._validate)
         node.add_post_set_parameters_callback(self._follow)
 
     def read(self) -> None:
         """Read the parameters, which may have been set while the node was unconfigured."""
-        value = {name: self._node.get_parameter(name).value for name in SETTINGS}
-        self.frame: str = value["frame_id"]
-        self.frame_prefix: str = value["frame_prefix"]
-        self.tf: bool = value["tf"]
-        self.continuous_joints: bool = value["continuous_joints"]
-        self.rate: float = value["publish_rate"]
-        self.wait_for: str = value["wait_for"]
-        self.clock: bool = value["clock"]
-        self.sample_rate: float = value["sample_rate"]
-        self.rate_factor: float = value["rate_factor"]
-        self._compute_share: float = value["compute_share"]
-        self.max_lag: float = value["max_lag"]
-        _check_lag(self.max_lag)
-        self.command_timeout: float = value["command_timeout"]
-        self.command_silence: str = value["command_silence"]
-        _check_silence(self.command_silence)
-
-    @property
-    def period(self) -> float:
-        """Wall time of an interval [s]; its simulated time if the rate factor is 0."""
-        return 1.0 / (self.rate * (self.rate_factor or 1.0))
+        self.settings = settings_of(self._node, SimulationSettings)
 
     def live_values(self) -> dict[str, Any]:
         """Return operating point and ports of the parameters, by the arguments of `Twin.set`."""
@@ -140,9 +166,10 @@ class SimulationParameters:
         """Return the quality control for the parameters, starting at the twin's setting."""
         wanted = self._node.get_parameter(TOLERANCE.name).value
         begin = Setting(twin.tolerance, twin.sample_rate)
-        settings = settings_of(ladder_of(wanted), self.sample_rate)
-        quality = QualityControl(settings, self._compute_share, self.period, begin)
-        return quality if self.rate_factor else quality.without_deadline()
+        given = self.settings
+        ladder = settings_of_quality(ladder_of(wanted), given.sample_rate)
+        quality = QualityControl(ladder, given.compute_share, given.period, begin)
+        return quality if given.rate_factor else quality.without_deadline()
 
     def _declare_scene(self) -> None:
         """Declare operating point, ports and geometry of the scene."""
@@ -185,67 +212,6 @@ class SimulationParameters:
         self._open = scene.dynamics == AUTO
         self._declare_scene()
         node.add_on_set_parameters_callback(self._validate)
-
-
-def _declare_settings(node: ParameterNode) -> None:
-    """Declare the parameters that may be set until the node is configured."""
-    declare(node, "frame_id", "gearbox", "base frame of the gearbox")
-    declare(node, "frame_prefix", "", "prefix of all frame names, for several twins")
-    declare(node, "tf", True, "publish /tf; false if robot_state_publisher does")
-    declare(
-        node,
-        "continuous_joints",
-        False,
-        "joint positions count whole turns instead of wrapping at one turn",
-    )
-    declare(node, "publish_rate", 100.0, "messages per simulated second [Hz]", (10.0, 1000.0))
-    declare(
-        node,
-        "wait_for",
-        "",
-        f"node that records, such as logger or /rosbag2_recorder: the twin starts when it has "
-        f"subscribed, after {TIMEOUT:g} s at most, and waits for it above real time and in steps",
-    )
-    declare(node, "clock", False, "publish simulated time on /clock")
-    declare(node, "sample_rate", 50e3, "sample rate of mesh_waveform [Hz]", (1e3, 1e6))
-    check_rate_factor(
-        declare(
-            node,
-            "rate_factor",
-            1.0,
-            f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; "
-            "0: as fast as possible [-]",
-            (UNLIMITED, FASTEST),
-        )
-    )
-    declare(
-        node,
-        "max_lag",
-        0.0,
-        "lag of stamps behind ROS time above which they skip it [s], 0.01 at least; 0: never",
-        (0.0, 60.0),
-    )
-    declare(
-        node,
-        "compute_share",
-        0.4,
-        "share of the time that computing may take if the tolerance is automatic [-]",
-        (0.05, 0.9),
-    )
-    declare(
-        node,
-        "command_timeout",
-        0.0,
-        "time without a command after which command_silence applies [s]; 0: never",
-        (0.0, 10.0),
-    )
-    declare(
-        node,
-        "command_silence",
-        "hold",
-        "after command_timeout: hold the last command; zero torque and speed; or brake the input "
-        "shaft to rest at the slew rate of the drive",
-    )
 
 
 def _check_lag(value: float) -> None:

@@ -7,12 +7,12 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
+from dataclasses import dataclass, field
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
-from planetary_twin_py import Twin
+from planetary_twin_py import Scene, Twin
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
 from planetary_twin_py.run.commands import Command
 from planetary_twin_py.scene.drive import Ports
@@ -21,7 +21,7 @@ from planetary_twin_py.text.escaping import one_line
 from ..base.diagnostics import Row
 from .diagnostics.commands import CommandReport
 from .input_brake import InputBrake, for_ports
-from .parameters import SimulationParameters
+from .parameters import SimulationSettings
 
 _TURN = 2.0 * math.pi
 _OUT_OF_RANGE = "out of range"
@@ -34,11 +34,28 @@ QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
 clients send within an interval."""
 
 
-class _Arrived(NamedTuple):
-    """The newest command of a shaft."""
+@dataclass
+class _Shaft:
+    """The commands for one shaft; times are those of the steady clock [s]."""
 
-    values: dict[str, float]
-    time: float  # [s] steady clock
+    side: str
+    joint: str
+    port: str = "machine"
+    arrived: dict[str, float] = field(default_factory=dict)
+    """The newest values since the last interval."""
+    time: float = 0.0
+    """Arrival of the newest command."""
+    stamp: int = 0
+    """Stamp of the last command [ns]."""
+    accepted: float | None = None
+    """Arrival of the last command that took effect, while the port is given."""
+    before: float | None = None
+    """The same, before the last interval."""
+
+    def silence(self, timeout: float) -> float:
+        """Return the time without a command [s] if it exceeds `timeout` [s], else 0."""
+        passed = 0.0 if self.accepted is None else time.monotonic() - self.accepted
+        return passed if timeout and passed > timeout else 0.0
 
 
 class ShaftCommands:
@@ -55,20 +72,17 @@ class ShaftCommands:
 
     def __init__(
         self,
-        given: SimulationParameters,
+        scene: Scene,
+        settings: SimulationSettings,
         now: Callable[[], int],
         take: Callable[[], Iterable[tuple[int, JointState]]],
     ) -> None:
-        self.joints = joint_names(given.scene)
-        self._timeout, self._silence = given.command_timeout, given.command_silence
-        self._continuous = given.continuous_joints
+        self.joints = joint_names(scene)
+        self._shafts = [_Shaft(*names) for names in zip(SIDES, self.joints, strict=True)]
+        self._timeout, self._silence = settings.command_timeout, settings.command_silence
+        self._continuous = settings.continuous_joints
         self._now, self._take = now, take
         self._lock = threading.Lock()
-        self._arrived: dict[str, _Arrived] = {}  # by side, since the last interval
-        self._newest = dict.fromkeys(SIDES, 0)  # [ns] stamps of the last commands
-        self._accepted: dict[str, float] = {}  # [s] arrivals of the last accepted commands
-        self._before: dict[str, float] = {}  # those before the last interval
-        self._open: dict[str, str] = {}  # joints at ports that have had no command, by side
         self._brake = InputBrake()
         self._report = CommandReport(self.joints)
 
@@ -101,23 +115,23 @@ class ShaftCommands:
             reason = f"no effort, velocity or position of {' or '.join(self.joints)}"
             reasons[reason] = names_given(message)
         with self._lock:
-            for side in SIDES:
-                own = {name: value for name, value in values.items() if name.startswith(side)}
-                faults = self._fault_of_stamp(side, stamp, now) if own else {}
+            for shaft in self._shafts:
+                own = {name: v for name, v in values.items() if name.startswith(shaft.side)}
+                faults = self._fault_of_stamp(shaft, stamp, now) if own else {}
                 if faults:
                     reasons |= faults
                 elif own:
-                    self._newest[side] = stamp or self._newest[side]
-                    self._arrived[side] = _Arrived(own, time.monotonic() - 1e-9 * waited)
+                    shaft.arrived, shaft.stamp = own, stamp or shaft.stamp
+                    shaft.time = time.monotonic() - 1e-9 * waited
         self._report.look_at(message)
         for reason, detail in reasons.items():
             self._report.ignore(reason, detail)
 
-    def _fault_of_stamp(self, side: str, stamp: int, now: int) -> dict[str, str]:
+    def _fault_of_stamp(self, shaft: _Shaft, stamp: int, now: int) -> dict[str, str]:
         """Return why a command has no effect, with the figures of its stamp; or nothing."""
         if not stamp:
             return {}
-        age, newest = now - stamp, self._newest[side]
+        age, newest = now - stamp, shaft.stamp
         if -age > _AHEAD:
             detail = f"stamp {_seconds(-age)} ahead, at most {_seconds(_AHEAD)}"
             return {"ahead of the clock": detail}
@@ -132,22 +146,19 @@ class ShaftCommands:
     def row(self) -> Row:
         """Return the report on commands for `/diagnostics`."""
         with self._lock:
-            silent = self._silent()
-            without = [joint for side, joint in self._open.items() if side not in self._arrived]
-            received = bool(self._accepted or self._arrived)
+            silent = {shaft.joint: shaft.silence(self._timeout) for shaft in self._shafts}
+            without = [
+                shaft.joint
+                for shaft in self._shafts
+                if shaft.port != "machine" and shaft.accepted is None and not shaft.arrived
+            ]
+            received = any(each.arrived or each.accepted is not None for each in self._shafts)
         reaction = ""
-        if silent:
-            names = dict(zip(SIDES, self.joints, strict=True))
-            joints = " and ".join(names[side] for side in silent)
-            reaction = f"no command for {joints} for {max(silent.values()):.1f} s: {self._silence}"
-        braking = bool(silent) and self._silence == "brake"
+        if longest := max(silent.values()):
+            joints = " and ".join(joint for joint, seconds in silent.items() if seconds)
+            reaction = f"no command for {joints} for {longest:.1f} s: {self._silence}"
+        braking = bool(reaction) and self._silence == "brake"
         return self._report.row(reaction, without, received, braking)
-
-    def _silent(self) -> dict[str, float]:
-        """Return the sides without a command for longer than the timeout, and for how long [s]."""
-        now = time.monotonic()
-        silent = {side: now - accepted for side, accepted in self._accepted.items()}
-        return {side: t for side, t in silent.items() if self._timeout and t > self._timeout}
 
     def given(self, twin: Twin, interval: float) -> dict[str, float]:
         """
@@ -161,43 +172,44 @@ class ShaftCommands:
         if ports.given:
             self._watch_speeds(twin)
         with self._lock:
-            arrived, self._arrived = self._arrived, {}
-        taken = {
-            side: self._taken(side, each.values, twin, ports, interval)
-            for side, each in arrived.items()
-        }
-        with self._lock:
-            self._before = dict(self._accepted)
-            self._accepted |= {side: arrived[side].time for side, own in taken.items() if own}
-            self._watch(ports)
-            silent = self._silent() if interval else {}
+            given = self._accept(twin, ports, interval)
+            silent = [shaft.side for shaft in self._shafts if shaft.silence(self._timeout)]
+        if not interval:
+            silent = []
         if silent and self._silence == "brake":
             self._brake.begin(twin)
             return {}
-        if any(taken.values()):
+        if given:
             self._brake.release(twin)
-        given = {name: value for own in taken.values() for name, value in own.items()}
         if silent and self._silence == "zero":
             names = (f"{side}_{quantity}" for side in silent for quantity in ("torque", "speed"))
             given |= for_ports(dict.fromkeys(names, 0.0), ports)
+        return given
+
+    def _accept(self, twin: Twin, ports: Ports, interval: float) -> dict[str, float]:
+        """Return what the `ports` take of the commands that have arrived."""
+        given: dict[str, float] = {}
+        for shaft, port in zip(self._shafts, ports, strict=True):
+            shaft.port, shaft.before = port, shaft.accepted
+            if shaft.arrived:
+                taken = self._taken(shaft, twin, ports, interval)
+                shaft.accepted = shaft.time if taken else shaft.accepted
+                shaft.arrived = {}
+                given |= taken
+            if port == "machine":  # a port that is given again waits for its first command
+                shaft.accepted = None
         return given
 
     def refuse(self, reason: str) -> None:
         """Count the commands that `given` has returned last: the twin has refused them."""
         self._report.ignore(_OUT_OF_RANGE, reason)
         with self._lock:
-            self._accepted = self._before
+            for shaft in self._shafts:
+                shaft.accepted = shaft.before
 
     def release(self, twin: Twin) -> None:
         """End a brake: restore the ports of `twin`."""
         self._brake.release(twin)
-
-    def _watch(self, ports: Ports) -> None:
-        """Ignore machines in the timeout; a new port is monitored from its first command on."""
-        given = [side for side, port in zip(SIDES, ports, strict=True) if port != "machine"]
-        self._accepted = {side: t for side, t in self._accepted.items() if side in given}
-        names = dict(zip(SIDES, self.joints, strict=True))
-        self._open = {side: names[side] for side in given if side not in self._accepted}
 
     def _watch_speeds(self, twin: Twin) -> None:
         """Report a shaft that turns faster than its commands may demand."""
@@ -211,14 +223,11 @@ class ShaftCommands:
                     "from drive.speed_limit",
                 )
 
-    def _taken(
-        self, side: str, values: dict[str, float], twin: Twin, ports: Ports, interval: float
-    ) -> dict[str, float]:
-        """Return those `values` of a side that its port accepts; count them if there are none."""
-        taken = for_ports(values, ports)
+    def _taken(self, shaft: _Shaft, twin: Twin, ports: Ports, interval: float) -> dict[str, float]:
+        """Return the values of a shaft that its port accepts; count them if there are none."""
+        taken = for_ports(shaft.arrived, ports)
         if not taken:
-            joint = self.joints[SIDES.index(side)]
-            self._report.ignore(f"{joint}: drive.{side}.port = {getattr(ports, side)}")
+            self._report.ignore(f"{shaft.joint}: drive.{shaft.side}.port = {shaft.port}")
             return {}
         if not self._continuous:
             taken = nearest_turn(taken, twin)

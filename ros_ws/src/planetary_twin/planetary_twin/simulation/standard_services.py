@@ -7,14 +7,12 @@ That package is part of ROS 2 Jazzy. It is an optional dependency, because the w
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
 from typing import Any
 
-from rclpy.node import Node
-
-from .live.interface import State
+from ..base.services import executed
 from .live.live_twin import LiveTwin
-from .time_services import TimeControl
+from .progress import State
+from .running import RunningSimulation
 
 try:
     from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
@@ -30,20 +28,16 @@ except ModuleNotFoundError:
 else:
     AVAILABLE = True
 
-_TIMEOUT = 60.0  # [s] longest wait for the execution of a command
-
 
 class SimulationServices:
     """
     The services `~/get_simulator_features`, `~/get_simulation_state` and so on of `node`.
 
-    They act on `control` and need `AVAILABLE`. A step is one published interval, whose
-    duration [s] `interval` returns.
+    They need `AVAILABLE`. A step is one published interval.
     """
 
-    def __init__(self, node: Node, control: TimeControl, interval: Callable[[], float]) -> None:
-        self._control = control
-        self._interval = interval
+    def __init__(self, node: RunningSimulation) -> None:
+        self._node = node
         node.create_service(GetSimulatorFeatures, "~/get_simulator_features", self._features)
         node.create_service(GetSimulationState, "~/get_simulation_state", self._get)
         node.create_service(SetSimulationState, "~/set_simulation_state", self._set)
@@ -80,8 +74,8 @@ class SimulationServices:
         return self._carried_out(response, lambda live: self._move(live, wanted))
 
     def _step(self, request: Any, response: Any) -> Any:
-        duration = request.steps * self._interval()
-        return self._carried_out(response, lambda live: _wait(live.step(duration)))
+        duration = request.steps * self._node.interval
+        return self._carried_out(response, lambda live: executed(live.step(duration)))
 
     def _reset(self, request: Any, response: Any) -> Any:
         if request.scope not in (
@@ -90,21 +84,21 @@ class SimulationServices:
         ):
             reason = f"scope = {request.scope}: must be 0 or 255; only all can be reset"
             return _refused(response, Result.RESULT_FEATURE_UNSUPPORTED, reason)
-        return self._carried_out(response, lambda live: _wait(self._control.reset()))
+        return self._carried_out(response, lambda live: executed(self._node.reset()))
 
     def _move(self, live: LiveTwin, wanted: int) -> None:
         """Change the state of the time of `live` to `wanted`."""
         if wanted != SimulationState.STATE_PLAYING:
-            _wait(live.pause(True))
+            executed(live.pause(True))
         if wanted == SimulationState.STATE_STOPPED:
-            _wait(self._control.reset())
+            executed(self._node.reset())
         if wanted == SimulationState.STATE_PLAYING:
-            _wait(live.pause(False))
+            executed(live.pause(False))
 
     def _state(self) -> int:
         """Return the state in terms of the package: a node that is not active has no world."""
         try:
-            progress = self._control.running().progress
+            progress = self._node.running().progress
         except ValueError:
             return int(SimulationState.STATE_NO_WORLD)
         if progress.state in (State.RUNNING, State.WAITING):
@@ -113,9 +107,9 @@ class SimulationServices:
             return int(SimulationState.STATE_STOPPED)
         return int(SimulationState.STATE_PAUSED)
 
-    def _carried_out(self, response: Any, command: Callable[[LiveTwin], None]) -> Any:
+    def _carried_out(self, response: Any, command: Callable[[LiveTwin], object]) -> Any:
         try:
-            live = self._control.running()
+            live = self._node.running()
         except ValueError as refusal:
             return _refused(response, Result.RESULT_INCORRECT_STATE, str(refusal))
         try:
@@ -124,10 +118,6 @@ class SimulationServices:
             return _refused(response, Result.RESULT_OPERATION_FAILED, str(refusal))
         response.result.result = Result.RESULT_OK
         return response
-
-
-def _wait(command: Future[float]) -> None:
-    command.result(timeout=_TIMEOUT)
 
 
 def _refused(response: Any, code: int, reason: str) -> Any:

@@ -3,36 +3,16 @@
 from __future__ import annotations
 
 import contextlib
-from concurrent.futures import Future
-from typing import Protocol
 
 from planetary_twin_msgs.srv import Step
-from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py import Twin
 from planetary_twin_py.recording.ros2.given import joint_names
 
 from ..base.clock import set_stamp
-from ..base.command_queue import answer
-from .live.live_twin import LiveTwin
-
-
-class TimeControl(Protocol):
-    """The part of a simulation that its services use."""
-
-    def running(self) -> LiveTwin:
-        """Return the live twin; raises `ValueError` if there is none."""
-
-    def reset(self) -> Future[float]:
-        """Start again at simulated time zero; the future returns the instant [s]."""
-
-    def command(self, message: JointState) -> dict[str, float]:
-        """Return what a command gives at the ports, as arguments of `Twin.advance`."""
-
-    def stamp(self, instant: float) -> int:
-        """Return the ROS time [ns] of a simulated instant [s]."""
+from ..base.services import answer, executed, serve_pause, serve_triggers
+from .running import RunningSimulation
 
 
 def show_ports(twin: Twin, message: JointState) -> None:
@@ -45,21 +25,13 @@ def show_ports(twin: Twin, message: JointState) -> None:
 
 
 class TimeServices:
-    """The services `~/pause`, `~/step` and `~/reset` of `node` for `control`."""
+    """The services `~/pause`, `~/step` and `~/reset` of `node`."""
 
-    def __init__(self, node: Node, control: TimeControl) -> None:
-        self._control = control
-        node.create_service(SetBool, "~/pause", self._pause)
+    def __init__(self, node: RunningSimulation) -> None:
+        self._node = node
+        serve_pause(node, lambda paused: node.running().pause(paused))
         node.create_service(Step, "~/step", self._step)
-        node.create_service(Trigger, "~/reset", self._reset)
-
-    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        word = "paused" if request.data else "runs"
-        return answer(
-            response,
-            lambda: self._control.running().pause(request.data),
-            lambda instant: f"{word} from {instant:.9g} s",
-        )
+        serve_triggers(node, {"reset": self._reset})
 
     def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
         states: list[JointState] = []
@@ -69,15 +41,14 @@ class TimeServices:
             response.state = states[-1]
             self._date(response, twin.time)
 
-        def step() -> Future[float]:
+        def step() -> str:
             if request.commands and request.command.name:
                 raise ValueError("command: must be empty if there are commands")
-            each = [
-                self._control.command(every) for every in request.commands or [request.command]
-            ]
-            return self._control.running().step(request.duration, each, show)
+            each = [self._node.command(every) for every in request.commands or [request.command]]
+            executed(self._node.running().step(request.duration, each, show))
+            return ""
 
-        answer(response, step, lambda instant: "")
+        answer(response, step)
         if not states:
             self._date_refusal(response)
         if request.commands:
@@ -87,22 +58,20 @@ class TimeServices:
     def _date(self, response: Step.Response, instant: float) -> None:
         """Set the time of a response to a simulated instant [s]."""
         response.simulated_time = instant
-        set_stamp(response.stamp, self._control.stamp(instant))
+        set_stamp(response.stamp, self._node.stamp(instant))
 
     def _date_refusal(self, response: Step.Response) -> None:
         """Set the time of a response to the present one, which exists if the node is active."""
         with contextlib.suppress(ValueError):
-            self._date(response, self._control.running().progress.simulated)
+            self._date(response, self._node.running().progress.simulated)
 
     def _state(self, twin: Twin) -> JointState:
         """Return the present state of the shafts."""
         message = JointState()
-        set_stamp(message.header.stamp, self._control.stamp(twin.time))
+        set_stamp(message.header.stamp, self._node.stamp(twin.time))
         if not twin.scene.quasi_static:
             show_ports(twin, message)
         return message
 
-    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return answer(
-            response, self._control.reset, lambda instant: f"starts again at {instant:.9g} s"
-        )
+    def _reset(self) -> str:
+        return f"starts again at {executed(self._node.reset()):.9g} s"

@@ -13,7 +13,7 @@ from planetary_twin_py.recording.ros2.topics import REAL_TIME
 from planetary_twin_py.run.quality_control import QualityControl
 
 from ...base.diagnostics import Row
-from ..live.interface import Progress, State
+from ..progress import Progress, State
 from ..publishing.stamps import Stamps
 
 _TOLERATED_LAG = 0.01  # share of the rate factor; a larger lag is a warning

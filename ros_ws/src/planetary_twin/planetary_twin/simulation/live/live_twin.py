@@ -7,16 +7,18 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, Protocol
 
-from planetary_twin_py import Twin
+from planetary_twin_py import Twin, Window
 from planetary_twin_py.run.limits import RunawayError
 from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.scene.live import PORT_FIELDS
 
 from ...base.command_queue import CommandQueue
+from ..progress import Progress, State
+from ..publishing.publishers import Telemetry
+from ..shaft_commands import ShaftCommands
 from .hold import Hold
-from .interface import PortCommands, Progress, State, TwinNode
 from .pace import Pace
 from .ramps import Ramps
 from .turns import Turns
@@ -28,6 +30,28 @@ _ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
 _STOPPED = "the simulation has stopped"
 
 
+class TwinNode(Protocol):
+    """Callbacks of a live twin, in its thread, or in that of a command while it halts."""
+
+    def computed(self, window: Window) -> None:
+        """Receive a computed interval before the wall time of its end."""
+
+    def refused(self, reason: str) -> None:
+        """Receive the reason why a ramp ended early, or why a command had no effect."""
+
+    def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
+        """From simulated time `instant` [s], the setting of `quality` replaces `before`."""
+
+    def ready(self) -> bool:
+        """Return whether time can pass: for example, the clock to follow is available."""
+
+    def has_room(self) -> bool:
+        """Return whether the recorder has kept up and the next interval may be published."""
+
+    def stopped(self, defect: Exception) -> None:
+        """Receive the exception that ended the thread."""
+
+
 class LiveTwin:
     """
     Advances `twin` by `interval` [s] at a time.
@@ -37,7 +61,8 @@ class LiveTwin:
     are executed between two intervals, those of a halted twin at once in the thread that gives
     them; their futures return the simulated instant [s].
 
-    `port_commands` are asked for the commands at the ports before each interval.
+    `port_commands` are asked for the commands at the ports before each interval. `telemetry`
+    publishes the intervals and the changes of operating point and ports.
 
     Above real time and in steps, the twin waits for its recorder. At real time or below, it does
     not.
@@ -50,9 +75,11 @@ class LiveTwin:
         rate_factor: float,
         quality: QualityControl,
         node: TwinNode,
-        port_commands: PortCommands,
+        telemetry: Telemetry,
+        port_commands: ShaftCommands,
     ) -> None:
         self._twin = twin
+        self._telemetry = telemetry
         self._port_commands = port_commands
         self._interval = interval
         self._stop = threading.Event()
@@ -168,7 +195,7 @@ class LiveTwin:
 
     def _resume(self) -> None:
         """Resume time; at time zero, publish a new origin of the run and all changes after it."""
-        self._node.resumed(self._twin)
+        self._telemetry.resume(self._twin)
         if self._twin.time == 0.0:
             self._due = list(self._at_zero)
 
@@ -179,7 +206,7 @@ class LiveTwin:
         if self._halted:
             self._resume()
         for change in self._due:
-            self._node.changed(change)
+            self._telemetry.announce(change)
         self._due.clear()
 
     def _note(self) -> None:
@@ -230,11 +257,12 @@ class LiveTwin:
         except RunawayError as reason:  # nothing of the interval is published
             self._failure = str(reason)
             return False
-        self._node.prepare(window)
+        self._telemetry.prepare(window)
+        self._node.computed(window)
         prepared = time.monotonic()
         wait()
         waited = time.monotonic() - prepared
-        if self._node.publish():
+        if self._telemetry.publish():
             self._pace.start()
         work = time.thread_time() - cpu
         quality.observe(time.monotonic() - begin - waited, work, window.repeated)
@@ -309,7 +337,7 @@ class LiveTwin:
                 f"commands: {len(commands)} steps of {duration:g} s: must be at most "
                 f"{LONGEST_STEP:g} s in total"
             )
-        if not self._node.has_clock():
+        if not self._telemetry.has_clock():
             raise ValueError(f"{NO_CLOCK}; step the twin then")
         self._wait_until(self._node.ready)
         self._resume()

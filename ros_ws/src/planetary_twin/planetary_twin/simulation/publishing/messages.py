@@ -1,7 +1,8 @@
 """
 Fills the twin's messages in place: creating them each time would cost more than sending them.
 
-Stamps are set when a message is sent.
+Stamps are set when a message is sent: `fill` returns the simulated instant [s] of the stamps, or
+None if there is nothing to send for a window.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from planetary_twin_msgs import msg
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Window
@@ -21,6 +24,7 @@ from planetary_twin_py.recording.ros2.fields import (
     state_numbers,
     state_of_planets,
 )
+from planetary_twin_py.recording.ros2.given import fields_of
 from planetary_twin_py.recording.ros2.point import point_fields
 from planetary_twin_py.run.twin import Change
 
@@ -34,6 +38,7 @@ class StateMessage:
         planets = scene.gearset.planets
         self.message = msg.GearboxState(planets=planets)
         self.message.header.frame_id = frame
+        self.stamps = [self.message.header.stamp]
         names = self.message.get_fields_and_field_types()
         for name, kind in names.items():
             if kind == "double[7]":
@@ -44,8 +49,8 @@ class StateMessage:
             for name in ("planet_angle", "planet_speed", *(field.name for field in self._meshes))
         }
 
-    def fill(self, window: Window) -> msg.GearboxState:
-        """Return the message for `window`."""
+    def fill(self, window: Window) -> float:
+        """Fill the message for `window`."""
         message = self.message
         message.sequence += 1
         message.tolerance = window.tolerance
@@ -54,7 +59,7 @@ class StateMessage:
             setattr(message, name, value)
         for name, values in state_of_planets(window, self._meshes).items():
             self._of_planets[name][:] = values
-        return message
+        return window.end
 
 
 class IntervalMessage:
@@ -63,10 +68,11 @@ class IntervalMessage:
     def __init__(self, kind: type, frame: str, fields: Callable[[Window], dict[str, Any]]) -> None:
         self.message = kind()
         self.message.header.frame_id = frame
+        self.stamps = [self.message.header.stamp]
         self._fields = fields
 
-    def fill(self, window: Window) -> Any:
-        """Return the message for `window`; arrays of the same length keep their memory."""
+    def fill(self, window: Window) -> float | None:
+        """Fill the message for `window`; arrays of the same length keep their memory."""
         self.message.sequence += 1
         for name, value in self._fields(window).items():
             before = getattr(self.message, name)
@@ -76,7 +82,18 @@ class IntervalMessage:
                 np.frombuffer(before, value.dtype)[:] = value
             else:
                 setattr(self.message, name, array(value.dtype.char, value.tobytes()))
-        return self.message
+        return window.end
+
+
+class WaveMessage(IntervalMessage):
+    """The samples of an interval; a single step may be shorter than the sample period."""
+
+    def fill(self, window: Window) -> float | None:
+        """Fill the message for `window`."""
+        if not len(window.waveform.time):
+            return None
+        super().fill(window)
+        return float(self.message.start_time)
 
 
 class JointsMessage:
@@ -89,26 +106,54 @@ class JointsMessage:
     correctly.
     """
 
-    def __init__(self, bodies: tuple[str, ...], continuous: bool) -> None:
-        size = bytes(8 * len(bodies))
-        self.message = JointState(
-            name=[f"{body}_joint" for body in bodies],
-            position=array("d", size),
-            velocity=array("d", size),
-            effort=array("d", size),
-        )
-        self._position = np.frombuffer(self.message.position)
-        self._velocity = np.frombuffer(self.message.velocity)
-        self._effort = np.frombuffer(self.message.effort)
+    def __init__(self, continuous: bool) -> None:
+        self.message = JointState()
+        self.stamps = [self.message.header.stamp]
+        self._values: list[NDArray[np.float64]] = []  # the memory of the message's arrays
         self._turns = WholeTurns() if continuous else None
 
-    def fill(self, window: Window) -> JointState:
-        """Return the message for `window`."""
+    def fill(self, window: Window) -> float:
+        """Fill the message for `window`."""
+        if not self._values:
+            self.message.name = [f"{body}_joint" for body in window.bodies]
+            for field in ("position", "velocity", "effort"):
+                setattr(self.message, field, array("d", bytes(8 * len(window.bodies))))
+                self._values.append(np.frombuffer(getattr(self.message, field)))
         turns = self._turns.after(window) if self._turns else 0.0
-        self._position[:] = window.angle + TURN * turns
-        self._velocity[:] = window.mean_speed
-        self._effort[:] = window.shaft_torque
-        return self.message
+        position, velocity, effort = self._values
+        position[:] = window.angle + TURN * turns
+        velocity[:] = window.mean_speed
+        effort[:] = window.shaft_torque
+        return window.end
+
+
+class GivenMessage:
+    """JointState with the commands that acted at the ports, of the joints of both shafts."""
+
+    def __init__(self, shafts: tuple[str, str]) -> None:
+        self.message = JointState()
+        self.stamps = [self.message.header.stamp]
+        self._shafts = shafts
+
+    def fill(self, window: Window) -> float | None:
+        """Fill the message for `window`, if there were commands."""
+        if not window.given:
+            return None
+        for name, values in fields_of(window.given, self._shafts).items():
+            setattr(self.message, name, values)
+        return window.end
+
+
+class ClockMessage:
+    """The end of an interval for /clock."""
+
+    def __init__(self) -> None:
+        self.message = Clock()
+        self.stamps = [self.message.clock]
+
+    def fill(self, window: Window) -> float:
+        """Return the end of `window` [s]."""
+        return window.end
 
 
 class OperatingPointMessage:

@@ -19,14 +19,14 @@ class TransformsMessage:
         self.message = TFMessage(transforms=[_unrotated(frame, prefix) for frame in frames])
         self.stamps = [transform.header.stamp for transform in self.message.transforms]
 
-    def fill(self, window: Window) -> TFMessage:
-        """Return the message for the end of `window`."""
+    def fill(self, window: Window) -> float:
+        """Fill the message for the end of `window`."""
         angle = dict(zip(window.bodies, window.angle, strict=True))
         for frame, transform in zip(self._frames, self.message.transforms, strict=True):
             half = 0.5 * frame.sign * float(angle[frame.body])
             rotation = transform.transform.rotation
             rotation.z, rotation.w = math.sin(half), math.cos(half)
-        return self.message
+        return window.end
 
 
 def _unrotated(frame: Frame, prefix: str) -> TransformStamped:

@@ -1,12 +1,8 @@
-"""Publishes the measurements of a plant in real time."""
+"""Converts the measurements of a plant to messages."""
 
 from __future__ import annotations
 
-import math
-import threading
-import time
-from collections.abc import Iterator
-from typing import Any, Protocol
+from typing import Any
 
 from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from sensor_msgs.msg import JointState, Temperature
@@ -25,22 +21,6 @@ from planetary_twin_py.plant.vibration import NAME
 from ..base.clock import set_stamp
 
 _SIDES = "input", "output"
-
-
-class PlantNode(Protocol):
-    """Node that publishes the messages of a plant."""
-
-    def ready(self) -> bool:
-        """Return whether the run may begin."""
-
-    def now(self) -> int:
-        """Return the ROS time [ns]."""
-
-    def play(self, message: Any) -> None:
-        """Publish a message."""
-
-    def ended(self, defect: Exception | None) -> None:
-        """Handle the end of the run; `defect` is the reason unless it is complete."""
 
 
 class PlantMessages:
@@ -106,51 +86,3 @@ class PlantMessages:
     def _stamp(self, message: Any, origin: int, seconds: float) -> None:
         message.header.frame_id = self._frame
         set_stamp(message.header.stamp, origin + round(seconds * 1e9))
-
-
-class PlantPlayer:
-    """Publishes each entry of `measured` at its time in a thread, starting with the first."""
-
-    def __init__(
-        self, measured: Iterator[Measured], messages: PlantMessages, node: PlantNode
-    ) -> None:
-        self._measured, self._messages, self._node = measured, messages, node
-        self.played = 0.0
-        """Time of the last published measurement [s]."""
-        self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="plant", daemon=True)
-        self._thread.start()
-
-    def stop(self) -> None:
-        """End the run."""
-        self._stop.set()
-        if self._thread is not threading.current_thread():
-            self._thread.join()
-
-    def _run(self) -> None:
-        try:
-            complete = self._play()
-        except Exception as defect:
-            self._node.ended(defect)
-        else:
-            if complete:
-                self._node.ended(None)
-
-    def _play(self) -> bool:
-        """Publish all measurements; return False if `stop` is called before the end."""
-        while not self._node.ready():
-            if self._stop.wait(0.05):
-                return False
-        begin, origin = math.nan, 0
-        for one in self._measured:
-            if math.isnan(begin):
-                begin, origin = (
-                    time.monotonic() - one.time,
-                    self._node.now() - round(one.time * 1e9),
-                )
-            message = self._messages.message(one, origin)
-            if self._stop.wait(max(begin + one.time - time.monotonic(), 0.0)):
-                return False
-            self._node.play(message)
-            self.played = one.time
-        return True
