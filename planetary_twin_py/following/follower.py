@@ -19,8 +19,8 @@ from .balance import BalanceFollower
 from .balance_filter import Innovation
 from .baseline import LearnedCell
 from .baseline_file import SavedBaseline, read_baseline, write_baseline
-from .bins import CHANNELS
 from .changed_teeth import ToothState
+from .channels.all import CHANNELS
 from .checked_bins import PERIOD
 from .checks import InputError
 from .clock_watch import ClockWatch

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .bins import CHANNELS, Mean
+from .bins import Mean
+from .channels.all import CHANNELS
 
 Array = NDArray[np.float64]
 NAMED = 3  # spans of a channel and reason that are named one by one

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ..recording.tables.measurements import TIME, Column, day_numbers, missing_column, read_columns
 from ..text.escaping import one_line
 from ..units.conversion import LARGEST
-from .bins import AHEAD, CHANNELS
+from .bins import AHEAD
+from .channels.all import CHANNELS
 from .follower import EncoderSamples, Readings
 from .stamps import stamp_remarks, unset_stamps
 from .vibration import VibrationSamples

@@ -1,91 +1,80 @@
-"""Leaves out readings that are codes, that no machine reaches, or of doubled or missing pulses."""
+"""Leaves out readings that are codes, that no machine reaches, or of doubled or missing pulses.
+
+Both are facts about the channel, and never events of the gearbox. The readings of a follower are
+those of one gearbox, the rows of a fleet those of many.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .bins import CHANNELS
+from .channels.all import MOVING, SENSORS, TORQUES
+from .channels.sensor import Sensor
 from .checks import CHECKED, InputError
-from .contradictions import LOADED, MOVING
+from .codes import Codes
 from .left_out import LeftOut
-from .plausibility import OIL, Range, beyond, equals_code, leaps, ranges_of
 from .pulses import Pulses
 from .repeats import STUCK, Repeats
 from .sensors import Sensors, torque_change
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
-TORQUES = "input_torque", "output_torque"
 CODE = "the value is a code for a missing or saturated reading"
 STOPS = "it leaps to 0 and back between two readings, as no shaft with inertia does"
-SPELLINGS = {
-    "speed": "rad/s, rpm, deg/s or Hz", "torque": "N m, N mm, kN m or lbf ft",
-}  # fmt: skip
 
 
-@dataclass
-class _First:
-    """Readings of a channel before its unit is known to be possible."""
+class _Limits:
+    """Counts the readings of a channel beyond the limits of the scene, of each gearbox."""
 
-    begin: float = math.nan  # [s]
-    possible: int = 0
-    impossible: list[float] = field(default_factory=list)
-    done: bool = False
+    def __init__(self, sensor: Sensor, train: FollowedTrain, count: int) -> None:
+        self.sensor, self.allowed = sensor, sensor.limits(train)
+        self._least = sensor.shown * sensor.nominal(train)
+        self._count = count
+        self.begin = np.full(count, math.nan)  # [s] first reading that shows the quantity
+        self.restart()
 
+    def restart(self) -> None:
+        """Forget what was counted."""
+        self._shown, self._beyond, self._sum = np.zeros((3, self._count))
 
-def nominal_values(train: FollowedTrain) -> dict[str, float]:
-    """Magnitudes of the readings at the operating point of a scene, by channel.
+    def judge(self, time: Array, values: Array, within: float) -> tuple[Mask, bool]:
+        """Which readings are beyond the limits, and whether the time in which they count is over.
 
-    Args:
-        train: gear train of the scene.
-    """
-    torque, speed, ratio = train.torque, train.speed, abs(train.ratio)
-    return {
-        "input_torque": torque, "output_torque": torque / ratio,
-        "input_speed": speed, "output_speed": speed * ratio, OIL: train.oil_temperature,
-    }  # fmt: skip
+        Args:
+            time: stamps [s], (n,).
+            values: readings in SI, (n, count).
+            within: time from the first reading in which readings are counted [s].
+        """
+        beyond = (values < self.allowed.low) | (values > self.allowed.high)
+        shown = np.isfinite(time)[:, None] & (np.abs(values) > self._least)
+        if not shown.any():
+            return beyond, False
+        first = np.where(shown.any(axis=0), time[shown.argmax(axis=0)], math.nan)
+        self.begin = np.where(np.isnan(self.begin), first, self.begin)
+        late = shown & (time[:, None] >= self.begin + within)
+        counted = shown & ~(np.maximum.accumulate(late, axis=0))
+        self._shown += counted.sum(axis=0)
+        self._beyond += (counted & beyond).sum(axis=0)
+        self._sum += np.where(counted & beyond, values, 0.0).sum(axis=0)
+        return beyond, bool(late.any())
 
-
-def limit_text(name: str, allowed: Range) -> str:
-    """Why a reading beyond a range is left out.
-
-    Args:
-        name: name of the channel.
-        allowed: the range.
-    """
-    limit = f"{allowed.high:.4g} {CHANNELS[name]}"
-    if name == OIL:
-        return f"it must be within {allowed.low:g} and {limit} (messages are in degrees Celsius)"
-    return f"it exceeds {allowed.limited_by}, {limit}"
-
-
-def impossible_text(name: str, allowed: Range, values: Array, total: int) -> str:
-    """What is said of a channel most of whose readings are beyond a range.
-
-    Args:
-        name: name of the channel.
-        allowed: the range.
-        values: the readings beyond it, in SI, (n,).
-        total: number of all readings.
-    """
-    unit = CHANNELS[name]
-    line = f"{name} = {np.median(values):.4g} {unit} in {len(values)} of {total} readings: "
-    if name == OIL:
-        return (
-            f"{line}must be within {allowed.low:g} and {allowed.high:g} K; a column in degrees "
-            f"Celsius is headed {name} [degC], and messages are in degrees Celsius"
-        )
-    return (
-        f"{line}exceeds {allowed.limited_by} = {allowed.high:.4g} {unit}; is it in {unit}? A "
-        f"heading states another unit ({SPELLINGS[name.split('_')[1]]}), as in {name} [UNIT], or "
-        f"scale {name} by a factor"
-    )
+    def refusals(self) -> Iterator[tuple[int, str]]:
+        """Gearboxes most of whose readings were beyond the limits, with a line."""
+        for n in np.flatnonzero(2.0 * self._beyond > self._shown):
+            count, mean = int(self._beyond[n]), self._sum[n] / self._beyond[n]
+            yield (
+                int(n),
+                (
+                    f"{self.sensor.name} = {mean:.4g} {self.sensor.unit} in {count} of "
+                    f"{int(self._shown[n])} readings: {self.sensor.refusal(self.allowed)}"
+                ),
+            )
 
 
 class ReadingCheck:
@@ -94,29 +83,33 @@ class ReadingCheck:
     Args:
         train: gear train of the scene.
         sensors: accuracy of the sensors, and factors that the readings have; a code has none.
+        count: number of gearboxes.
+        within: time from the first reading of a channel after which it is refused if most of its
+            readings are impossible [s]; infinite: `refusals` is called instead.
     """
 
-    def __init__(self, train: FollowedTrain, sensors: Sensors) -> None:
-        self.left_out, self.stops = LeftOut(), LeftOut()
+    def __init__(
+        self, train: FollowedTrain, sensors: Sensors, count: int = 1, within: float = CHECKED
+    ) -> None:
+        self.left_out, self.stops = [LeftOut() for _ in range(count)], LeftOut()
+        """What is left out, of each gearbox; and speeds of 0 that were found wrong too late."""
         self.stopped: list[tuple[str, NDArray[np.int64]]] = []
-        """Channels and rows with speeds of 0 that the last call of `judge` found wrong, too late to
-        leave them out."""
-        self._ranges = ranges_of(train)
-        self._scale, self._ratio = sensors.scale, train.ratio
-        self._changed = torque_change(sensors, train)
-        self._repeats: dict[str, Repeats] = {}
-        self._nominal = nominal_values(train)
-        self._usual: dict[tuple[str, str], float] = {}
-        self._rows: dict[str, int] = {}
-        self._first = {name: _First() for name in CHANNELS}
+        """Channels and rows of the latter that the last call of `judge` found."""
+        self._train, self._scale, self._count = train, sensors.scale, count
+        self._within, self._done = within, set[str]()
+        self._limits = {name: _Limits(one, train, count) for name, one in SENSORS.items()}
+        self._torque_change = torque_change(sensors, train)
+        self._rows: dict[str, int] = {}  # so far, by sender
+        self._codes: dict[tuple[str, str], Codes] = {}
         self._pulses: dict[tuple[str, str], Pulses] = {}
+        self._repeats: dict[str, Repeats] = {}
 
     def judge(self, time: Array, columns: Mapping[str, Array], sender: str) -> dict[str, Array]:
         """Judge readings of a sender.
 
         Args:
             time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where one is missing.
+            columns: readings in SI by channel, (n, count) each; NaN where one is missing.
             sender: name of the sender.
 
         Returns:
@@ -128,27 +121,31 @@ class ReadingCheck:
         """
         rows = self._rows.get(sender, 0) + np.arange(1.0, len(time) + 1.0)
         self._rows[sender] = self._rows.get(sender, 0) + len(time)
-        kept, self.stopped = {}, []
-        for name, given in columns.items():
-            values = np.array(given, dtype=float)
+        kept = {name: np.array(given, dtype=float) for name, given in columns.items()}
+        self.stopped = []
+        if not len(time):
+            return kept
+        for name, values in kept.items():
             values[np.isinf(values)] = math.nan
-            self._omit(name, CODE, self._codes(name, sender, values), (time, values, rows))
-            self._omit(name, *self._beyond(name, time, values), (time, values, rows))
-            if name.endswith("speed"):
-                least = MOVING * self._nominal[name]
-                pulses = self._pulses.setdefault((sender, name), Pulses(least))
-                for reason, which in pulses.judge(time, values, rows).items():
-                    self._omit(name, reason, which, (time, values, rows))
-                for stamps, numbers in pulses.stops:
-                    self.stops.add(name, STOPS, stamps, np.zeros(len(stamps)), numbers)
-                    self.stopped.append((name, numbers.astype(np.int64)))
-            kept[name] = values
-        if set(TORQUES) <= set(kept) and len(time):
-            repeats = self._repeats.setdefault(sender, Repeats(self._changed, self._ratio))
-            torques = kept[TORQUES[0]], kept[TORQUES[1]]
-            stuck = repeats.judge(torques[0][:, None], torques[1][:, None])
+            read, key = (time, values, rows), (sender, name)
+            if key not in self._codes:
+                sensor = SENSORS[name]
+                common = sensor.nominal(self._train), self._scale.get(name, 1.0), self._count
+                self._codes[key] = Codes(sensor, *common)
+            self._omit(name, CODE, self._codes[key].judge(values), read)
+            limits = self._limits[name]
+            beyond, over = limits.judge(time, values, self._within)
+            self._omit(name, limits.sensor.beyond(limits.allowed), beyond, read)
+            if over:
+                self._conclude(name)
+            if SENSORS[name].quantity == "speed" and self._count == 1:  # rows of a fleet are slow
+                self._judge_pulses(key, read)
+        if set(TORQUES) <= set(kept):
+            change, ratio = self._torque_change, self._train.ratio
+            repeats = self._repeats.setdefault(sender, Repeats(change, ratio, self._count))
+            stuck = repeats.judge(*(kept[name] for name in TORQUES))
             for name, which in zip(TORQUES, stuck, strict=True):
-                self._omit(name, STUCK, which[:, 0], (time, kept[name], rows))
+                self._omit(name, STUCK, which, (time, kept[name], rows))
         return kept
 
     def finish(self) -> None:
@@ -157,56 +154,40 @@ class ReadingCheck:
         Raises:
             InputError: see `judge`.
         """
-        for name in CHANNELS:
+        for name in SENSORS:
             self._conclude(name)
 
-    def _omit(
-        self, name: str, reason: str, which: NDArray[np.bool_], read: tuple[Array, Array, Array]
-    ) -> None:
-        time, values, rows = read
-        which &= np.isfinite(time)
-        if which.any():
-            self.left_out.add(name, reason, time[which], values[which], rows[which])
-            values[which] = math.nan
-
-    def _codes(self, name: str, sender: str, values: Array) -> NDArray[np.bool_]:
-        """Which readings are codes."""
-        equal = equals_code(name, values / self._scale.get(name, 1.0))
-        usual = np.isfinite(values) & ~equal
-        last = np.maximum.accumulate(np.where(usual, np.arange(len(values)), -1))
-        found = equal
-        if equal.any():
-            before = self._usual.get((sender, name), math.nan)
-            known = np.where(last >= 0, values[last], before)
-            nominal = np.copysign(self._nominal[name], values)
-            found = equal & leaps(values, np.where(np.isnan(known), nominal, known))
-        if len(last) and last[-1] >= 0:
-            self._usual[sender, name] = float(values[last[-1]])
+    def refusals(self) -> dict[int, str]:
+        """A line for each gearbox with a channel most of whose readings since the last call were
+        beyond the limits of the scene."""
+        found = dict(one for limits in self._limits.values() for one in limits.refusals())
+        for limits in self._limits.values():
+            limits.restart()
         return found
-
-    def _beyond(self, name: str, time: Array, values: Array) -> tuple[str, NDArray[np.bool_]]:
-        """Why and which readings are beyond the limits of the scene."""
-        allowed, first = self._ranges[name], self._first[name]
-        found = beyond(values, allowed)
-        if not first.done:
-            least = {"torque": LOADED, "speed": MOVING}.get(name.split("_")[1], 0.0)
-            shown = np.isfinite(time) & (np.abs(values) > least * self._nominal[name])
-            for k in np.flatnonzero(shown):
-                first.begin = float(time[k]) if math.isnan(first.begin) else first.begin
-                if time[k] >= first.begin + CHECKED:
-                    self._conclude(name)
-                    break
-                if found[k]:
-                    first.impossible.append(float(values[k]))
-                else:
-                    first.possible += 1
-        return limit_text(name, allowed), found
 
     def _conclude(self, name: str) -> None:
         """Refuse a channel most of whose first readings are impossible."""
-        allowed, first = self._ranges[name], self._first[name]
-        first.done = True
-        if len(first.impossible) <= first.possible:
-            return
-        total = len(first.impossible) + first.possible
-        raise InputError(impossible_text(name, allowed, np.array(first.impossible), total))
+        if name not in self._done:
+            self._done.add(name)
+            for _, line in self._limits[name].refusals():
+                raise InputError(line)
+
+    def _judge_pulses(self, key: tuple[str, str], read: tuple[Array, Array, Array]) -> None:
+        """Leave out speeds with extra or lost pulses, and name stops that no shaft makes."""
+        time, values, rows = read
+        name = key[1]
+        least = MOVING * SENSORS[name].nominal(self._train)
+        pulses = self._pulses.setdefault(key, Pulses(least))
+        for reason, which in pulses.judge(time, values[:, 0], rows).items():
+            self._omit(name, reason, which[:, None], read)
+        for stamps, numbers in pulses.stops:
+            self.stops.add(name, STOPS, stamps, np.zeros(len(stamps)), numbers)
+            self.stopped.append((name, numbers.astype(np.int64)))
+
+    def _omit(self, name: str, reason: str, which: Mask, read: tuple[Array, Array, Array]) -> None:
+        time, values, rows = read
+        which = which & np.isfinite(time)[:, None]
+        for n in np.flatnonzero(which.any(axis=0)):
+            wrong = which[:, n]
+            self.left_out[n].add(name, reason, time[wrong], values[wrong, n], rows[wrong])
+        values[which] = math.nan

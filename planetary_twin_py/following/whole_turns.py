@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .plausibility import SPEED
+from .channels.speed import HIGHEST
 from .train import FollowedTrain
 from .transmission_error import Counts
 
@@ -32,7 +32,7 @@ class WholeTurns:
     def __init__(
         self, train: FollowedTrain, counts_per_turn: tuple[int, int], period: float
     ) -> None:
-        fastest = SPEED * train.speed_limit / (2.0 * math.pi) * period  # turns of the input
+        fastest = HIGHEST * train.speed_limit / (2.0 * math.pi) * period  # turns of the input
         self._steps = np.ceil(
             [fastest * counts_per_turn[0], fastest * abs(train.ratio) * counts_per_turn[1]]
         ).astype(np.int64)  # largest steps in a period

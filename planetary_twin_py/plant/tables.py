@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.bins import CHANNELS
+from ..following.channels.all import CHANNELS
 from ..following.measured_tables import COUNTS, SAMPLE
 from ..recording.tables.message_tables import Column
 from ..recording.tables.table_files import FORMATS
