@@ -1,21 +1,21 @@
 """Leaves out readings that are codes, that no machine reaches, or of doubled or missing pulses.
 
-Both are facts about the channel, and never events of the gearbox. The readings of a follower are
-those of one gearbox, the rows of a fleet those of many.
+These are facts about a channel, and never events of the gearbox. Rows are those of one gearbox that
+is followed, or of many in a fleet.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .channels.all import MOVING, SENSORS, TORQUES
+from .channels.all import SENSORS, TORQUES
 from .channels.sensor import Sensor
 from .checks import CHECKED, InputError
-from .codes import Codes
+from .codes import equals_code
 from .left_out import LeftOut
 from .pulses import Pulses
 from .repeats import STUCK, Repeats
@@ -27,54 +27,63 @@ Mask = NDArray[np.bool_]
 
 CODE = "the value is a code for a missing or saturated reading"
 STOPS = "it leaps to 0 and back between two readings, as no shaft with inertia does"
+FAR = 0.5  # relative change of a reading above which it may be a code
 
 
-class _Limits:
-    """Counts the readings of a channel beyond the limits of the scene, of each gearbox."""
+class _Channel:
+    """Readings of a channel of a sender, of each gearbox.
 
-    def __init__(self, sensor: Sensor, train: FollowedTrain, count: int) -> None:
-        self.sensor, self.allowed = sensor, sensor.limits(train)
-        self._least = sensor.shown * sensor.nominal(train)
-        self._count = count
-        self.begin = np.full(count, math.nan)  # [s] first reading that shows the quantity
-        self.restart()
+    Args:
+        sensor: sensor of the channel.
+        train: gear train of the scene.
+        scale: factor that the readings have; a code has none.
+        count: number of gearboxes.
+    """
 
-    def restart(self) -> None:
-        """Forget what was counted."""
-        self._shown, self._beyond, self._sum = np.zeros((3, self._count))
+    def __init__(self, sensor: Sensor, train: FollowedTrain, scale: float, count: int) -> None:
+        self.sensor, self.allowed, self._scale = sensor, sensor.limits(train), scale
+        self._nominal = sensor.nominal(train)
+        self._least = sensor.shown * self._nominal
+        self._usual = np.full(count, math.nan)  # last reading that equals no code
+        self._begin = np.full(count, math.nan)  # [s] of the readings that are counted
+        self._counts = np.zeros((3, count))  # shown, beyond the limits, and the sum of these
+        self.pulses = Pulses(self._least)
+        self.concluded = False
 
-    def judge(self, time: Array, values: Array, within: float) -> tuple[Mask, bool]:
-        """Which readings are beyond the limits, and whether the time in which they count is over.
+    def codes(self, values: Array) -> Mask:
+        """Which readings, (n, count), are codes: a channel that passes a code's value has none."""
+        equal = equals_code(values / self._scale, self.sensor.written)
+        usual = np.isfinite(values) & ~equal
+        row = np.where(usual, np.arange(len(values))[:, None], -1)
+        last = np.maximum.accumulate(row, axis=0)
+        before = np.take_along_axis(values, np.maximum(last, 0), axis=0)
+        before = np.where(last >= 0, before, self._usual)
+        self._usual = before[-1]
+        if not equal.any():
+            return equal
+        before = np.where(np.isnan(before), np.copysign(self._nominal, values), before)
+        return equal & ~(np.abs(values - before) <= FAR * np.abs(before))
 
-        Args:
-            time: stamps [s], (n,).
-            values: readings in SI, (n, count).
-            within: time from the first reading in which readings are counted [s].
-        """
+    def beyond(self, time: Array, values: Array, within: float) -> tuple[Mask, bool]:
+        """Which readings are beyond the limits, and whether one is later than those that count."""
         beyond = (values < self.allowed.low) | (values > self.allowed.high)
         shown = np.isfinite(time)[:, None] & (np.abs(values) > self._least)
-        if not shown.any():
-            return beyond, False
         first = np.where(shown.any(axis=0), time[shown.argmax(axis=0)], math.nan)
-        self.begin = np.where(np.isnan(self.begin), first, self.begin)
-        late = shown & (time[:, None] >= self.begin + within)
-        counted = shown & ~(np.maximum.accumulate(late, axis=0))
-        self._shown += counted.sum(axis=0)
-        self._beyond += (counted & beyond).sum(axis=0)
-        self._sum += np.where(counted & beyond, values, 0.0).sum(axis=0)
+        self._begin = np.where(np.isnan(self._begin), first, self._begin)
+        late = shown & (time[:, None] >= self._begin + within)
+        counted = shown & ~np.maximum.accumulate(late, axis=0)
+        wrong = counted & beyond
+        self._counts += [counted.sum(axis=0), wrong.sum(axis=0), np.where(wrong, values, 0).sum(0)]
         return beyond, bool(late.any())
 
-    def refusals(self) -> Iterator[tuple[int, str]]:
-        """Gearboxes most of whose readings were beyond the limits, with a line."""
-        for n in np.flatnonzero(2.0 * self._beyond > self._shown):
-            count, mean = int(self._beyond[n]), self._sum[n] / self._beyond[n]
-            yield (
-                int(n),
-                (
-                    f"{self.sensor.name} = {mean:.4g} {self.sensor.unit} in {count} of "
-                    f"{int(self._shown[n])} readings: {self.sensor.refusal(self.allowed)}"
-                ),
-            )
+    def refusals(self) -> dict[int, str]:
+        """A line for each gearbox most of whose readings since the last call were impossible."""
+        (shown, beyond, total), self._counts = self._counts, np.zeros_like(self._counts)
+        return {
+            n: f"{self.sensor.name} = {total[n] / beyond[n]:.4g} {self.sensor.unit} in "
+            f"{beyond[n]:.0f} of {shown[n]:.0f} readings: {self.sensor.refusal(self.allowed)}"
+            for n in np.flatnonzero(2.0 * beyond > shown).tolist()
+        }
 
 
 class ReadingCheck:
@@ -82,10 +91,10 @@ class ReadingCheck:
 
     Args:
         train: gear train of the scene.
-        sensors: accuracy of the sensors, and factors that the readings have; a code has none.
+        sensors: accuracy of the sensors, and factors that the readings have.
         count: number of gearboxes.
         within: time from the first reading of a channel after which it is refused if most of its
-            readings are impossible [s]; infinite: `refusals` is called instead.
+            readings are impossible [s]; infinite: see `refusals`.
     """
 
     def __init__(
@@ -95,13 +104,10 @@ class ReadingCheck:
         """What is left out, of each gearbox; and speeds of 0 that were found wrong too late."""
         self.stopped: list[tuple[str, NDArray[np.int64]]] = []
         """Channels and rows of the latter that the last call of `judge` found."""
-        self._train, self._scale, self._count = train, sensors.scale, count
-        self._within, self._done = within, set[str]()
-        self._limits = {name: _Limits(one, train, count) for name, one in SENSORS.items()}
-        self._torque_change = torque_change(sensors, train)
+        self._train, self._sensors, self._count = train, sensors, count
+        self._within = within
         self._rows: dict[str, int] = {}  # so far, by sender
-        self._codes: dict[tuple[str, str], Codes] = {}
-        self._pulses: dict[tuple[str, str], Pulses] = {}
+        self._channels: dict[tuple[str, str], _Channel] = {}
         self._repeats: dict[str, Repeats] = {}
 
     def judge(self, time: Array, columns: Mapping[str, Array], sender: str) -> dict[str, Array]:
@@ -127,23 +133,16 @@ class ReadingCheck:
             return kept
         for name, values in kept.items():
             values[np.isinf(values)] = math.nan
-            read, key = (time, values, rows), (sender, name)
-            if key not in self._codes:
-                sensor = SENSORS[name]
-                common = sensor.nominal(self._train), self._scale.get(name, 1.0), self._count
-                self._codes[key] = Codes(sensor, *common)
-            self._omit(name, CODE, self._codes[key].judge(values), read)
-            limits = self._limits[name]
-            beyond, over = limits.judge(time, values, self._within)
-            self._omit(name, limits.sensor.beyond(limits.allowed), beyond, read)
-            if over:
-                self._conclude(name)
-            if SENSORS[name].quantity == "speed" and self._count == 1:  # rows of a fleet are slow
-                self._judge_pulses(key, read)
+            read, channel = (time, values, rows), self._channel(sender, name)
+            self._omit(name, CODE, channel.codes(values), read)
+            beyond, late = channel.beyond(time, values, self._within)
+            self._omit(name, f"it exceeds {channel.allowed.limit}", beyond, read)
+            if late:
+                _conclude(channel)
+            if channel.sensor.quantity == "speed" and self._count == 1:  # rows of fleets are slow
+                self._judge_pulses(channel, read)
         if set(TORQUES) <= set(kept):
-            change, ratio = self._torque_change, self._train.ratio
-            repeats = self._repeats.setdefault(sender, Repeats(change, ratio, self._count))
-            stuck = repeats.judge(*(kept[name] for name in TORQUES))
+            stuck = self._repeats_of(sender).judge(*(kept[name] for name in TORQUES))
             for name, which in zip(TORQUES, stuck, strict=True):
                 self._omit(name, STUCK, which, (time, kept[name], rows))
         return kept
@@ -154,33 +153,35 @@ class ReadingCheck:
         Raises:
             InputError: see `judge`.
         """
-        for name in SENSORS:
-            self._conclude(name)
+        for channel in self._channels.values():
+            _conclude(channel)
 
     def refusals(self) -> dict[int, str]:
         """A line for each gearbox with a channel most of whose readings since the last call were
         beyond the limits of the scene."""
-        found = dict(one for limits in self._limits.values() for one in limits.refusals())
-        for limits in self._limits.values():
-            limits.restart()
-        return found
+        return dict(
+            one for channel in self._channels.values() for one in channel.refusals().items()
+        )
 
-    def _conclude(self, name: str) -> None:
-        """Refuse a channel most of whose first readings are impossible."""
-        if name not in self._done:
-            self._done.add(name)
-            for _, line in self._limits[name].refusals():
-                raise InputError(line)
+    def _channel(self, sender: str, name: str) -> _Channel:
+        if (sender, name) not in self._channels:
+            scale = self._sensors.scale.get(name, 1.0)
+            channel = _Channel(SENSORS[name], self._train, scale, self._count)
+            self._channels[sender, name] = channel
+        return self._channels[sender, name]
 
-    def _judge_pulses(self, key: tuple[str, str], read: tuple[Array, Array, Array]) -> None:
+    def _repeats_of(self, sender: str) -> Repeats:
+        if sender not in self._repeats:
+            change = torque_change(self._sensors, self._train)
+            self._repeats[sender] = Repeats(change, self._train.ratio, self._count)
+        return self._repeats[sender]
+
+    def _judge_pulses(self, channel: _Channel, read: tuple[Array, Array, Array]) -> None:
         """Leave out speeds with extra or lost pulses, and name stops that no shaft makes."""
-        time, values, rows = read
-        name = key[1]
-        least = MOVING * SENSORS[name].nominal(self._train)
-        pulses = self._pulses.setdefault(key, Pulses(least))
-        for reason, which in pulses.judge(time, values[:, 0], rows).items():
+        (time, values, rows), name = read, channel.sensor.name
+        for reason, which in channel.pulses.judge(time, values[:, 0], rows).items():
             self._omit(name, reason, which[:, None], read)
-        for stamps, numbers in pulses.stops:
+        for stamps, numbers in channel.pulses.stops:
             self.stops.add(name, STOPS, stamps, np.zeros(len(stamps)), numbers)
             self.stopped.append((name, numbers.astype(np.int64)))
 
@@ -191,3 +192,11 @@ class ReadingCheck:
             wrong = which[:, n]
             self.left_out[n].add(name, reason, time[wrong], values[wrong, n], rows[wrong])
         values[which] = math.nan
+
+
+def _conclude(channel: _Channel) -> None:
+    """Refuse a channel most of whose first readings are impossible."""
+    if not channel.concluded:
+        channel.concluded = True
+        for line in channel.refusals().values():
+            raise InputError(line)

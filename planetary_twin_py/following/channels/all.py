@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from .sensor import Sensor
-from .speed import Speed
-from .temperature import Temperature
-from .torque import Torque
+from .speed import speed_at
+from .temperature import OIL_TEMPERATURE
+from .torque import torque_at
 
-SENSORS: dict[str, Sensor] = {
+SIDES = "input", "output"
+SENSORS = {
     sensor.name: sensor
     for sensor in (
-        Speed("input"), Torque("input"), Speed("output"), Torque("output"), Temperature("oil"),
+        *(measured(place) for place in SIDES for measured in (speed_at, torque_at)),
+        OIL_TEMPERATURE,
     )
-}  # fmt: skip
+}
 CHANNELS = {name: sensor.unit for name, sensor in SENSORS.items()}
 """SI units by channel."""
 TORQUES = "input_torque", "output_torque"
-OIL = "oil_temperature"
-LOADED, MOVING = Torque.shown, Speed.shown
+OIL = OIL_TEMPERATURE.name
+LOADED, MOVING = SENSORS["input_torque"].shown, SENSORS["input_speed"].shown
 """Shares of the torque and the speed of the scene below which these are not compared with it."""

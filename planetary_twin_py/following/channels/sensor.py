@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +19,12 @@ class Range(NamedTuple):
 
     low: float
     high: float
-    limited_by: str
-    """What limits them."""
+    limit: str
+    """What limits them, with the value."""
 
 
 class ErrorModel(NamedTuple):
-    """Errors of a sensor, or their standard deviations: (1 + gain) value + zero + noise."""
+    """Errors of a sensor, or their standard deviations."""
 
     noise: float
     """Standard deviation of a reading, in SI."""
@@ -33,7 +33,7 @@ class ErrorModel(NamedTuple):
     gain: float
 
     def reading(self, value: Array, normal: Array) -> Array:
-        """What the sensor reads.
+        """What the sensor reads: (1 + gain) value + zero + noise.
 
         Args:
             value: true values in SI, (n,).
@@ -46,50 +46,54 @@ class ErrorModel(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sensor(ABC):
-    """A sensor of one value at a time, of the channel PLACE_QUANTITY.
+class Sensor:
+    """A sensor of one value at a time.
 
-    Messages with joints, tables, recordings, the checks of a follower and of a fleet, and a plant
-    read what they need here.
+    Messages, tables and recordings, the checks of followers and fleets, and plants read here what
+    they need of it.
     """
 
-    quantity: ClassVar[str]
-    unit: ClassVar[str]
+    name: str
+    """Of the channel, as in gearbox_state."""
+    quantity: str
+    unit: str
     """SI unit of its readings."""
-    spellings: ClassVar[str]
-    """Other units that a heading may state."""
-    interface: ClassVar[str] = ""
+    spellings: tuple[str, ...]
+    """Other units that a heading may state, the usual one first."""
+    nominal: Callable[[FollowedTrain], float]
+    """Magnitude of a reading at the operating point of the scene, in SI."""
+    limits: Callable[[FollowedTrain], Range]
+    """Values that readings of a scene can have."""
+    written: tuple[tuple[float, float], ...]
+    """Factors and offsets from SI to the units in which a logger may have written a code."""
+    interface: str = ""
     """Its interface of a joint in a message; empty if it is not that of a joint."""
-    shown: ClassVar[float] = 0.0
+    shown: float = 0.0
     """Share of the nominal value below which readings say nothing about a unit or a sign."""
-    place: str
-    """"input", "output" or "oil"."""
-
-    @property
-    def name(self) -> str:
-        """Name of the channel, as in gearbox_state."""
-        return f"{self.place}_{self.quantity}"
-
-    @abstractmethod
-    def nominal(self, train: FollowedTrain) -> float:
-        """Magnitude of a reading at the operating point of the scene, in SI."""
-
-    @abstractmethod
-    def limits(self, train: FollowedTrain) -> Range:
-        """Values that readings of a scene can have."""
-
-    @abstractmethod
-    def as_written(self, values: Array) -> list[Array]:
-        """Readings in SI in the units in which a logger may have written them."""
-
-    def beyond(self, allowed: Range) -> str:
-        """Why a reading beyond the limits is left out."""
-        return f"it exceeds {allowed.limited_by}, {allowed.high:.4g} {self.unit}"
 
     def refusal(self, allowed: Range) -> str:
-        """The range of a channel most of whose readings are beyond it, and how to state a unit."""
+        """How to state the unit of a channel most of whose readings are beyond its limits.
+
+        Args:
+            allowed: the limits.
+        """
         return (
-            f"exceeds {allowed.limited_by} = {allowed.high:.4g} {self.unit}; is it in {self.unit}? "
-            f"A heading states another unit ({self.spellings}), as in {self.name} [UNIT], or scale "
-            f"{self.name} by a factor"
+            f"exceeds {allowed.limit}; is it in {self.unit}? A column in {self.spellings[0]} is "
+            f"headed {self.name} [{self.spellings[0]}], also possible are "
+            f"{', '.join(self.spellings[1:])}; or scale {self.name} by a factor"
         )
+
+
+def at_shaft(place: str, quantity: str, at_input: float, train: FollowedTrain) -> float:
+    """Speed or torque of a shaft, without losses.
+
+    Args:
+        place: "input" or "output".
+        quantity: "speed" or "torque".
+        at_input: that of the input, in SI.
+        train: gear train of the scene.
+    """
+    if place == "input":
+        return at_input
+    ratio = abs(train.ratio)
+    return at_input * ratio if quantity == "speed" else at_input / ratio

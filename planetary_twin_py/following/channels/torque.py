@@ -3,30 +3,25 @@
 from __future__ import annotations
 
 from ..train import FollowedTrain
-from .sensor import Array, Range, Sensor
+from .sensor import Range, Sensor, at_shaft
 
 HIGHEST = 2.0  # multiple of the limit of the scene that a reading may reach
 
 
-class Torque(Sensor):
-    """A torque transducer."""
+def torque_at(place: str) -> Sensor:
+    """The torque transducer at a shaft.
 
-    quantity, unit, interface = "torque", "N m", "effort"
-    spellings = "N m, N mm, kN m or lbf ft"
-    shown = 0.2
+    Args:
+        place: "input" or "output".
+    """
 
-    def nominal(self, train: FollowedTrain) -> float:
-        """Magnitude at the operating point of the scene [N m]."""
-        return train.torque / (1.0 if self.place == "input" else abs(train.ratio))
+    def limits(train: FollowedTrain) -> Range:
+        highest = at_shaft(place, "torque", HIGHEST * train.torque_limit, train)
+        limit = f"{HIGHEST:g} times drive.torque_limit, {highest:.4g} N m at the {place}"
+        return Range(-highest, highest, limit)
 
-    def limits(self, train: FollowedTrain) -> Range:
-        """Torques that the machines of a scene can have [N m]."""
-        highest, limited_by = HIGHEST * train.torque_limit, f"{HIGHEST:g} times drive.torque_limit"
-        if self.place == "input":
-            return Range(-highest, highest, limited_by)
-        highest /= abs(train.ratio)
-        return Range(-highest, highest, f"{limited_by} at the output")
-
-    def as_written(self, values: Array) -> list[Array]:
-        """Readings in N m, kN m and N mm."""
-        return [values * factor for factor in (1.0, 1e-3, 1e3)]
+    return Sensor(
+        f"{place}_torque", "torque", "N m", ("lbf ft", "N mm", "kN m"),
+        lambda train: at_shaft(place, "torque", train.torque, train), limits,
+        written=((1.0, 0.0), (1e-3, 0.0), (1e3, 0.0)), interface="effort", shown=0.2,
+    )  # fmt: skip
