@@ -187,9 +187,9 @@ class Follower:
             teeth = self._teeth_follower(block)
             if self._turns is None or self._encoder_speed is None:
                 raise ValueError("encoders: their format is not known")
-            counts = self._turns.add(block.sample, block.counts)
-            teeth.add(block.sample, counts)
-            self._encoder_speed.add(block.sample, counts)
+            sample, counts = self._turns.add(block.sample, block.counts)
+            teeth.add(sample, counts)
+            self._encoder_speed.add(sample, counts)
         elif isinstance(block, VibrationSamples):
             self._vibration_follower(block).add(block.time, block.values)
         else:

@@ -14,6 +14,7 @@ from .baseline_file import VibrationBaseline
 from .checks import InputError
 from .estimate import Event
 from .hunting_samples import HuntingPeriod, HuntingSamples, SampleCounters
+from .sample_check import VibrationCheck
 from .train import FollowedTrain
 from .turning import Turning
 from .vibration_growth import CELL, WINDOWS, JudgedPeriod, LearnedBaseline, VibrationGrowth
@@ -76,6 +77,7 @@ class VibrationFollower:
         self._samples = HuntingSamples(train, period, self.counters)
         self._growth = VibrationGrowth(names, self._amplitudes.patterns, learning)
         self._constant: set[str] = set()  # channels
+        self._check = VibrationCheck(names)
         self._highest = math.inf  # mesh order that the samples resolve, in the last hunting period
 
     @property
@@ -130,7 +132,7 @@ class VibrationFollower:
             time: stamps [s], (n,).
             values: samples in the units of the channels, (n, channels).
         """
-        self._samples.add(time, values)
+        self._samples.add(time, self._check.judge(time, values))
 
     def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
         """Judge the hunting periods that end by a time.
@@ -185,6 +187,7 @@ class VibrationFollower:
 
     def remarks(self) -> Iterator[str]:
         """Reasons why the results are less certain, or why there are none, one line each."""
+        yield from self._check.remarks()
         yield from self._learning_remarks()
         counted = self.counters
         complete = counted.periods + counted.dropped_periods

@@ -97,3 +97,12 @@ def at_shaft(place: str, quantity: str, at_input: float, train: FollowedTrain) -
         return at_input
     ratio = abs(train.ratio)
     return at_input * ratio if quantity == "speed" else at_input / ratio
+
+
+def seen_at(place: str) -> str:
+    """Words for a limit of the input as it is at a shaft.
+
+    Args:
+        place: "input" or "output".
+    """
+    return "" if place == "input" else f" at the {place}"

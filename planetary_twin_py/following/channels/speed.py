@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..train import FollowedTrain
-from .sensor import Range, Sensor, at_shaft
+from .sensor import Range, Sensor, at_shaft, seen_at
 
 HIGHEST = 1.2  # multiple of the limit of the scene that a reading may reach
 
@@ -19,7 +19,7 @@ def speed_at(place: str) -> Sensor:
 
     def limits(train: FollowedTrain) -> Range:
         highest = at_shaft(place, "speed", HIGHEST * train.speed_limit, train)
-        limit = f"{HIGHEST:g} times drive.speed_limit, {highest:.4g} rad/s at the {place}"
+        limit = f"{HIGHEST:g} times drive.speed_limit{seen_at(place)}, {highest:.4g} rad/s"
         return Range(-highest, highest, limit)
 
     return Sensor(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..train import FollowedTrain
-from .sensor import Range, Sensor, at_shaft
+from .sensor import Range, Sensor, at_shaft, seen_at
 
 HIGHEST = 2.0  # multiple of the limit of the scene that a reading may reach
 
@@ -17,7 +17,7 @@ def torque_at(place: str) -> Sensor:
 
     def limits(train: FollowedTrain) -> Range:
         highest = at_shaft(place, "torque", HIGHEST * train.torque_limit, train)
-        limit = f"{HIGHEST:g} times drive.torque_limit, {highest:.4g} N m at the {place}"
+        limit = f"{HIGHEST:g} times drive.torque_limit{seen_at(place)}, {highest:.4g} N m"
         return Range(-highest, highest, limit)
 
     return Sensor(
