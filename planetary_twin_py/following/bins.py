@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .channels.all import CHANNELS
+from .channels.block_tables import AHEAD
 
 Array = NDArray[np.float64]
 
 LAG = 0.2  # [s] by which stamps may be out of order
-AHEAD = 1.0  # [s]; a single stamp that is later than both of its neighbours by more is wrong
 OUTLIER = 5.0  # robust standard deviations above which a reading is an outlier
 NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
 UNUSED = 0.05  # share of the readings that are not used, above which there is a remark

@@ -10,8 +10,9 @@ import numpy as np
 from ..scene import Scene
 from .bins import Array, Bin, Counters
 from .channels.all import TORQUES
-from .checks import CHECKED, Checks, InputError
+from .checks import CHECKED, Checks
 from .contradictions import Contradictions
+from .input_error import InputError
 from .load_remarks import LoadRemarks
 from .loss_map import loss_map
 from .merging import Merge

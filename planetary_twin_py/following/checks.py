@@ -18,10 +18,6 @@ Array = NDArray[np.float64]
 CHECKED = 5.0  # [s] of readings of a follower that are compared together
 
 
-class InputError(ValueError):
-    """Readings that contradict the scene; the message names channel, value and correction."""
-
-
 class Checks:
     """Compares readings with the scene in spans of rows.
 

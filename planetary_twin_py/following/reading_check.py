@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from .channels.all import SENSORS, TORQUES
 from .channels.sensor import Sensor
-from .checks import CHECKED, InputError
+from .checks import CHECKED
 from .codes import equals_code
+from .input_error import InputError
 from .left_out import LeftOut
 from .pulses import Pulses
 from .repeats import STUCK, Repeats

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .baseline_file import VibrationBaseline
-from .checks import InputError
 from .estimate import Event
 from .hunting_samples import HuntingPeriod, HuntingSamples, SampleCounters
+from .input_error import InputError
 from .sample_check import VibrationCheck
 from .train import FollowedTrain
 from .turning import Turning
@@ -26,19 +25,6 @@ PRESENT = 0.99  # share of the samples of a hunting period, below which it is no
 STEADY = 0.02  # relative standard deviation of the speed, above which the period is not used
 DOUBTFUL = 0.05  # share of the hunting periods that are not judged, above which there is a remark
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
-
-
-class VibrationSamples(NamedTuple):
-    """Samples of vibration in the order of their arrival."""
-
-    time: Array
-    """Stamps [s], (n,)."""
-    values: Array
-    """Samples in the units of the channels, (n, channels)."""
-    names: tuple[str, ...]
-    """Names of the channels."""
-    period: float
-    """Sample period [s]."""
 
 
 @dataclass

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.measured_tables import COUNTS
+from ..following.channels.encoders import COUNTS
 from .chunk import Chunk
 from .encoders import encoders
 from .readings import Plant

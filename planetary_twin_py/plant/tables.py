@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..following.channels.all import CHANNELS
-from ..following.measured_tables import SAMPLE
+from ..following.channels.encoders import SAMPLE
 from ..recording.tables.message_tables import Batch
 from ..recording.tables.table_files import write_batches
 from .readings import Plant, simulate_readings

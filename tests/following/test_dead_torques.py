@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from following.plants import paper, played
 
-from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.input_error import InputError
 
 BOTH = "input_torque", "output_torque"
 

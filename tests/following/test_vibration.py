@@ -5,12 +5,12 @@ import pytest
 from following.plants import paper
 from tiers import first
 
+from planetary_twin_py.following.channels.vibration import VibrationSamples
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.play_back import play_back
 from planetary_twin_py.following.sample_check import VibrationCheck
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.following.vibration import VibrationSamples
 
 RATE = 4_000.0  # [Hz]
 TRAIN = followed_train(paper())
