@@ -45,7 +45,7 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
             "scatter": result.scatter[0],
             "smallest_step": result.smallest_step,
         }
-        for heading, value in row.items():
-            columns.setdefault(heading, []).append(value)
+        for heading, entry in row.items():
+            columns.setdefault(heading, []).append(entry)
     batch = {heading: np.array(values) for heading, values in columns.items()}
     write_batches(path, {heading: units.get(heading, "") for heading in batch}, [batch])
