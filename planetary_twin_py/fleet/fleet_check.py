@@ -40,8 +40,8 @@ class FleetCheck:
         self, scene: Scene, table: LossTable, sensors: Sensors, period: float, count: int
     ) -> None:
         self.faults: dict[int, str] = {}
-        """Channel, value and correction by index of a gearbox whose readings contradict the scene.
-        """
+        """Channel, value and correction by index of a gearbox whose readings contradict the scene,
+        and did so in the last rows that were compared."""
         self._train, self._table = followed_train(scene), table
         self._inertia = self._train.inertia if sensors.inertia is None else sensors.inertia
         self._readings = ReadingCheck(self._train, sensors, count, math.inf)
@@ -100,8 +100,8 @@ class FleetCheck:
 
     def finish(self) -> None:
         """Compare the last rows, at the end of a table."""
-        self._checks.check()
-        self._note_faults()
+        if self._checks.check():
+            self._note_faults()
 
     def remarks(self, gearbox: int) -> Iterator[str]:
         """A line for each channel of a gearbox and reason, and for torques and speeds.
@@ -113,6 +113,5 @@ class FleetCheck:
         yield from self._load.remarks(gearbox)
 
     def _note_faults(self) -> None:
-        """Note the first contradiction of each gearbox."""
-        later = {n: next(iter(lines.values())) for n, lines in self._checks.later.items()}
-        self.faults = later | self._checks.refused | self._readings.refusals() | self.faults
+        """Note the present contradictions."""
+        self.faults = self._checks.present | self._readings.refusals()

@@ -33,10 +33,13 @@ class Checks:
     ) -> None:
         self.refused: dict[int, str] = {}
         """The first contradiction from the start, by index of the gearbox."""
+        self.present: dict[int, str] = {}
+        """A contradiction that the last rows still show, by index of the gearbox."""
         self.later: dict[int, dict[str, str]] = {}
         """The first later contradiction of each comparison, by index of the gearbox."""
         self._contradictions, self._count = contradictions, count
         self._together, self._most = together
+        self._fewest = together[0]
         self._in_order: list[set[str]] = [set() for _ in range(count)]  # comparisons, once
         self._times: list[float] = []
         self._rows: list[Array] = []  # (channels, count) each
@@ -64,18 +67,27 @@ class Checks:
         self._together = min(4 * self._together, self._most)
         return True
 
-    def check(self) -> None:
-        """Compare the rows since the last comparison."""
+    def check(self) -> bool:
+        """Compare the rows since the last comparison; return whether there are any."""
         if not self._times:
-            return
+            return False
         time, read = np.array(self._times), np.array(self._rows)
         self._times.clear()
         self._rows.clear()
         for n in range(self._count):
-            if n not in self.refused:
-                own = dict(zip(CHANNELS, read[:, :, n].T, strict=True))
-                for name, line in self._contradictions.shown_by(Rows(time, own)).items():
-                    self._note(n, name, line, float(time[0]))
+            shown = self._shown_by(time, read[:, :, n])
+            for name, line in shown.items():
+                self._note(n, name, line, float(time[0]))
+            self.present.pop(n, None)
+            if any(shown.values()):
+                last = self._shown_by(time[-self._fewest :], read[-self._fewest :, :, n])
+                for name in filter(last.get, shown):
+                    self.present.setdefault(n, shown[name] or last[name])
+        return True
+
+    def _shown_by(self, time: Array, read: Array) -> dict[str, str]:
+        """What some rows of a gearbox, (rows, channels), show."""
+        return self._contradictions.shown_by(Rows(time, dict(zip(CHANNELS, read.T, strict=True))))
 
     def _note(self, gearbox: int, name: str, line: str, first: float) -> None:
         """Note the result of a comparison of rows of which the first ends at `first` [s]."""

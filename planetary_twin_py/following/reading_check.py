@@ -12,10 +12,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ..recording.tables.codes import equals_code
 from .channels.all import SENSORS, TORQUES
 from .channels.sensor import Sensor
 from .checks import CHECKED
-from .codes import equals_code
 from .input_error import InputError
 from .left_out import LeftOut
 from .pulses import Pulses
@@ -48,22 +48,29 @@ class _Channel:
         self._usual = np.full(count, math.nan)  # last reading that equals no code
         self._begin = np.full(count, math.nan)  # [s] of the readings that are counted
         self._counts = np.zeros((3, count))  # shown, beyond the limits, and the sum of these
+        self._ends_beyond = np.zeros(count, dtype=bool)  # the last reading
         self.pulses = Pulses(self._least)
         self.concluded = False
 
     def codes(self, values: Array) -> Mask:
         """Which readings, (n, count), are codes: a channel that passes a code's value has none."""
-        equal = equals_code(values / self._scale, self.sensor.written)
-        usual = np.isfinite(values) & ~equal
+        given, equal = values / self._scale, np.zeros(values.shape, dtype=bool)
+        written = [given * factor + offset for factor, offset in self.sensor.written]
+        codes = [equals_code(number) for number in written]
+        if self.sensor.quantity == "temperature":  # a thermometer without signal is at 0 degC
+            codes = [code | (number == 0.0) for code, number in zip(codes, written, strict=True)]
+        usual = np.isfinite(values) & ~np.any(codes, axis=0)
         row = np.where(usual, np.arange(len(values))[:, None], -1)
         last = np.maximum.accumulate(row, axis=0)
-        before = np.take_along_axis(values, np.maximum(last, 0), axis=0)
+        before = np.take_along_axis(given, np.maximum(last, 0), axis=0)
         before = np.where(last >= 0, before, self._usual)
         self._usual = before[-1]
-        if not equal.any():
-            return equal
-        before = np.where(np.isnan(before), np.copysign(self._nominal, values), before)
-        return equal & ~(np.abs(values - before) <= FAR * np.abs(before))
+        before = np.where(np.isnan(before), np.copysign(self._nominal / self._scale, given), before)
+        for code, number, (factor, offset) in zip(codes, written, self.sensor.written, strict=True):
+            if code.any():
+                expected = before * factor + offset
+                equal |= code & ~(np.abs(number - expected) <= FAR * np.abs(expected))
+        return equal
 
     def beyond(self, time: Array, values: Array, within: float) -> tuple[Mask, bool]:
         """Which readings are beyond the limits, and whether one is later than those that count."""
@@ -74,16 +81,20 @@ class _Channel:
         late = shown & (time[:, None] >= self._begin + within)
         counted = shown & ~np.maximum.accumulate(late, axis=0)
         wrong = counted & beyond
+        last = len(time) - 1 - shown[::-1].argmax(axis=0)
+        ends = beyond[last, np.arange(beyond.shape[1])]
+        self._ends_beyond = np.where(shown.any(axis=0), ends, self._ends_beyond)
         self._counts += [counted.sum(axis=0), wrong.sum(axis=0), np.where(wrong, values, 0).sum(0)]
         return beyond, bool(late.any())
 
     def refusals(self) -> dict[int, str]:
-        """A line for each gearbox most of whose readings since the last call were impossible."""
+        """A line for each gearbox most of whose readings since the last call were impossible, and
+        still are: those of an outage that is over are left out only."""
         (shown, beyond, total), self._counts = self._counts, np.zeros_like(self._counts)
         return {
             n: f"{self.sensor.name} = {total[n] / beyond[n]:.4g} {self.sensor.unit} in "
             f"{beyond[n]:.0f} of {shown[n]:.0f} readings: {self.sensor.refusal(self.allowed)}"
-            for n in np.flatnonzero(2.0 * beyond > shown).tolist()
+            for n in np.flatnonzero((2.0 * beyond > shown) & self._ends_beyond).tolist()
         }
 
 

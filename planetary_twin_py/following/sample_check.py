@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ..recording.tables.codes import far_codes
 from .channels.speed import HIGHEST
-from .codes import equals_code
 from .left_out import LeftOut, Span
 from .train import FollowedTrain
 from .transmission_error import Counts
@@ -22,8 +22,6 @@ RANGES = 2 ** np.arange(8, 49)
 """Ranges of counters, beside the counts of a turn."""
 RESTARTED = 20  # changes of counts that have leapt, after which the counter has a new zero
 CODE = "the value is a code for a missing or saturated reading"
-USUAL = 8.0  # root mean squares of a channel within which a sample may equal a code
-HUGE = 1e30  # magnitude of a sample that is a code in any unit
 
 
 class CountCheck:
@@ -186,14 +184,7 @@ class VibrationCheck:
         rows = self._rows + np.arange(1.0, len(time) + 1.0)
         self._rows += len(time)
         kept = np.array(values, dtype=float)
-        huge = ~(np.abs(kept) < HUGE)
-        equal = huge | equals_code(np.where(huge, 0.0, kept), ((1.0, 0.0),))
-        usual = np.where(equal, 0.0, kept)
-        squares = self._squares + np.cumsum(usual**2, axis=0)
-        count = self._count + np.cumsum(~equal, axis=0)
-        if len(time):
-            self._squares, self._count = squares[-1], count[-1]
-        wrong = equal & (huge | (kept**2 > USUAL**2 * squares / np.maximum(count, 1.0)))
+        wrong, self._squares, self._count = far_codes(kept, self._squares, self._count)
         for k in np.flatnonzero(wrong.any(axis=0)):
             own = wrong[:, k] & np.isfinite(time) & np.isfinite(kept[:, k])
             if own.any():

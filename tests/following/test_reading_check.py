@@ -41,6 +41,7 @@ def judged(channel, values, split=1, scale=None):
         ("input_torque", -999.0), ("input_torque", 32767.0), ("input_torque", 9.9e37),
         ("input_torque", -5000.0), ("input_torque", -9999e3), ("input_speed", -9999.0 / RPM),
         ("input_speed", 65535.0), ("oil_temperature", -9999.0 + 273.15), ("oil_temperature", 0.0),
+        ("oil_temperature", 273.15),
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("split", [1, 7])
