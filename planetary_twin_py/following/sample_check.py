@@ -27,7 +27,8 @@ CODE = "the value is a code for a missing or saturated reading"
 class CountCheck:
     """Judges the counts of two encoders in the order of their arrival.
 
-    Counters may wrap. Those that leap and then follow the shaft have a new zero; they are used.
+    Counters may wrap. Those that leap and go on from there have a new zero; they are used, so that
+    wrong counts per turn are recognised later.
 
     Args:
         train: gear train of the scene.
@@ -128,14 +129,12 @@ class CountCheck:
     def _leaping(self, sample: Counts, counts: Counts) -> int:
         """Number of samples before one that is back, or of a counter with a new zero."""
         back = ~self._is_away(sample, counts).any(axis=1)
-        numbers, steps = self._steps_from(self._last, sample, counts)
-        far = self._far(numbers, steps).any(axis=1)
-        changes = self._changes + np.cumsum(steps.any(axis=1) & ~far)
-        lost = np.maximum.accumulate(np.where(far, changes, 0))
-        ended = back | (changes - lost >= RESTARTED)
+        _, steps = self._steps_from(self._last, sample, counts)
+        changes = self._changes + np.cumsum(steps.any(axis=1))
+        ended = back | (changes >= RESTARTED)
         end = int(np.argmax(ended)) if ended.any() else len(sample)
         if end:
-            self._changes = int(changes[end - 1] - lost[end - 1])
+            self._changes = int(changes[end - 1])
             self._last = int(sample[end - 1]), counts[end - 1].copy()
         return end
 

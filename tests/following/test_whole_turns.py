@@ -65,3 +65,10 @@ def test_codes_between_counts_are_left_out_and_named(code, span, size):
     left_out = [line for line in lines if "left out" in line]
     assert left_out  # of both, unless the code is near the begin of a turn
     assert all("leap" in line and "(10 readings, rows " in line for line in left_out)
+
+
+def test_enough_counts_of_a_wrong_unit_are_used_to_recognise_it():
+    whole = counted(2**20)
+    found, _ = added(whole, 2**14, 997)  # each step is further than the shaft can turn
+    assert len(found) > 1000
+    assert np.ptp(found, axis=0) == pytest.approx(np.ptp(whole, axis=0), rel=0.01)
