@@ -33,9 +33,9 @@ from planetary_twin_py.following.teeth import WINDOWS, TeethFollower
 from planetary_twin_py.following.tooth_scores import Bank
 from planetary_twin_py.following.tooth_search import ALARM
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.plant.encoders import simulate_encoders
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant
+from planetary_twin_py.plant.sampled import simulate_samples
 
 SEED = 7000
 LEARNING = 24  # hunting periods of a baseline
@@ -69,9 +69,9 @@ def follow(laws: dict[str, object], seconds: float, seed: int) -> Quiet:
         return float(true) + 0.011 * noise.standard_normal()
 
     found, largest = [], -np.inf
-    for packets in simulate_encoders(plant):
+    for packets in simulate_samples(plant, "encoders"):
         before = follower.blocks
-        follower.add(packets.sample, packets.counts)
+        follower.add(packets.sample, packets.values)
         follower.judge(np.inf, torque)
         if follower.blocks != before and follower.every_z:
             found.append(follower.every_z)

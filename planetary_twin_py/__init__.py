@@ -36,9 +36,10 @@ if TYPE_CHECKING:
     from .following.balance_filter import Innovation
     from .following.baseline import LearnedCell
     from .following.changed_teeth import ToothState
-    from .following.checks import InputError
+    from .following.channels.encoders import EncoderFormat, EncoderSamples
     from .following.estimate import Estimate, Event
-    from .following.follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
+    from .following.follower import Follower, Following, Readings
+    from .following.input_error import InputError
     from .following.sensors import Sensors
     from .modal.modes import NaturalModes
     from .plots.study import plot_study
@@ -88,11 +89,10 @@ _EXPORTS = {
     "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent", "FleetScatter"),
     "following.balance_filter": ("Innovation",),
     "following.baseline": ("LearnedCell",),
-    "following.checks": ("InputError",),
+    "following.channels.encoders": ("EncoderFormat", "EncoderSamples"),
+    "following.input_error": ("InputError",),
     "following.estimate": ("Estimate", "Event"),
-    "following.follower": (
-        "EncoderFormat", "EncoderSamples", "Follower", "Following", "Readings",
-    ),
+    "following.follower": ("Follower", "Following", "Readings"),
     "following.sensors": ("Sensors",),
     "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),

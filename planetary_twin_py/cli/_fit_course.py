@@ -5,19 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..terminal.messages import remark
 from ..terminal.names import shown
-from ..text.intervals import interval_text
-from ._fitted import Fitted, Part
+from ._fitted import Fitted, Part, finite, parameter_figures, print_fit
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ..following.sensors import Sensors
     from ..plots.fit_report import Report
-    from ..studies.fit.fit_course import FittedCourse
 
 
 def fit_manoeuvre(
@@ -46,7 +44,7 @@ def fit_manoeuvre(
         ArithmeticError: the scene cannot be simulated.
         OSError: the file cannot be read.
     """
-    from ..studies.fit.fit_course import course_remarks, fit_course
+    from ..studies.fit.fit_course import CONFIDENCE, course_remarks, fit_course
     from ..terminal.settings import changed_scene
 
     if scene is None:
@@ -61,34 +59,9 @@ def fit_manoeuvre(
             file, changed_scene(scene, {}), tuple(free), start, limits, part.hold_out,
             lambda count: status.update(f"{count} simulated points"), sensors,
         )  # fmt: skip
-    _print(console, found)
-    warnings = list(course_remarks(found))
-    for line in warnings:
-        remark(f"warning: {line}")
-
-    def report() -> Report:
-        from ..plots.fit_report import report_of_course
-
-        return report_of_course(found)
-
-    return Fitted(_figures(found, warnings), report)
-
-
-def _print(console: Console, found: FittedCourse) -> None:
-    from rich.table import Table
-
-    course, estimate = found.course, found.estimate
-    table = Table(
-        title=f"{shown(found.scene.name)}, {course.time[0]:.4g} to {course.time[-1]:.4g} s"
-    )
-    for heading in ("field", "estimate", "95 % interval", "unit"):
-        table.add_column(heading, justify="right")
-    for k, parameter in enumerate(found.parameters):
-        low, high, _ = estimate.intervals[k]
-        value, span = interval_text(estimate.values[k], low, high)
-        shown_value = value if estimate.identifiable(k) else "not identifiable"
-        table.add_row(parameter.name, shown_value, span, parameter.unit)
-    console.print(table)
+    course = found.course
+    title = f"{shown(found.scene.name)}, {course.time[0]:.4g} to {course.time[-1]:.4g} s"
+    print_fit(console, title, found.parameters, found.estimate, CONFIDENCE)
     if found.held_out is not None:
         console.print(
             f"held out: {len(found.held_out.time)} bins, {100.0 * found.inside:.3g} % within their "
@@ -100,27 +73,17 @@ def _print(console: Console, found: FittedCourse) -> None:
         f"{course.time[-1] - course.time[0]:.1f} s of data",
         highlight=False,
     )
+    warnings = list(course_remarks(found))
+    for line in warnings:
+        remark(f"warning: {line}")
 
+    def report() -> Report:
+        from ..plots.fit_report import report_of_course
 
-def _figures(found: FittedCourse, warnings: list[str]) -> dict[str, Any]:
-    """Results for `--json`."""
-    estimate = found.estimate
+        return report_of_course(found)
 
-    def finite(value: float) -> float | None:
-        return float(value) if math.isfinite(value) else None
-
-    return {
-        "parameters": {
-            p.name: {
-                "estimate": float(estimate.values[k]) if estimate.identifiable(k) else None,
-                "low": finite(estimate.intervals[k].low),
-                "high": finite(estimate.intervals[k].high),
-                "unit": p.unit,
-                "identifiable": estimate.identifiable(k),
-                "at_bound": estimate.at_bound[k],
-            }
-            for k, p in enumerate(found.parameters)
-        },
+    figures = {
+        "parameters": parameter_figures(found.parameters, found.estimate),
         "noise": found.noise,
         "correlation": found.correlation,
         "inside": finite(found.inside),
@@ -128,3 +91,4 @@ def _figures(found: FittedCourse, warnings: list[str]) -> dict[str, Any]:
         "processor_time_s": found.processor_time,
         "remarks": warnings,
     }
+    return Fitted(figures, report)

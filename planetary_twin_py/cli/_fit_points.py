@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..terminal.messages import remark
 from ..terminal.names import shown
-from ..text.intervals import interval_text
 from ..units.engineering import percent
-from ._fitted import Fitted, Part
+from ._fitted import Fitted, Part, finite, parameter_figures, print_fit
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -63,28 +62,17 @@ def fit_points(
 
 
 def _print(console: Console, found: Identified) -> None:
-    from rich.table import Table
-
     excerpt, estimate = found.excerpt, found.estimate
-    table = Table(title=f"{shown(excerpt.scene.name)}, {excerpt.start:g} to {excerpt.end:g} s")
-    for heading in (
-        "field",
-        "estimate",
-        f"{100.0 * found.confidence:g} % interval",
-        "unit",
-        "from",
-    ):
-        table.add_column(heading, justify="right")
-    for k, parameter in enumerate(found.parameters):
-        low, high, profiled = estimate.intervals[k]
-        identifiable = estimate.identifiable(k)
-        source = ("profile" if profiled else "curvature") if identifiable else "search range"
-        value, span = interval_text(estimate.values[k], low, high)
-        if math.isnan(low):
-            source = "combination only"
-        shown_value = value if identifiable else "not identifiable"
-        table.add_row(parameter.name, shown_value, span, parameter.unit, source)
-    console.print(table)
+    sources = []
+    for k, (low, _, profiled) in enumerate(estimate.intervals):
+        source = (
+            ("profile" if profiled else "curvature")
+            if estimate.identifiable(k)
+            else ("combination only" if math.isnan(low) else "search range")
+        )
+        sources.append(source)
+    title = f"{shown(excerpt.scene.name)}, {excerpt.start:g} to {excerpt.end:g} s"
+    print_fit(console, title, found.parameters, estimate, found.confidence, sources)
     for one in found.predictions:
         console.print(
             f"held out: {one.name} at {len(one.measured)} operating points: rms error "
@@ -98,29 +86,19 @@ def _print(console: Console, found: Identified) -> None:
 def _figures(found: Identified) -> dict[str, Any]:
     """Results for `--json`; "told" and "untold" are deprecated names, kept for compatibility."""
     estimate = found.estimate
-    parameters = {
-        p.name: {
-            "estimate": float(estimate.values[k]) if estimate.identifiable(k) else None,
-            "low": _finite(estimate.intervals[k].low),
-            "high": _finite(estimate.intervals[k].high),
-            "unit": p.unit,
-            "identifiable": estimate.identifiable(k),
-            "told": estimate.identifiable(k),
-            "at_bound": estimate.at_bound[k],
-            "profiled": estimate.intervals[k].profiled,
-        }
-        for k, p in enumerate(found.parameters)
-    }
+    parameters = parameter_figures(found.parameters, estimate)
+    for one, interval in zip(parameters.values(), estimate.intervals, strict=True):
+        one |= {"told": one["identifiable"], "profiled": interval.profiled}
     groups = [[found.parameters[k].name for k in group] for group in estimate.not_identifiable]
     return {
         "parameters": parameters,
         "confidence": found.confidence,
-        "correlation": [[_finite(value) for value in row] for row in estimate.correlation],
+        "correlation": [[finite(value) for value in row] for row in estimate.correlation],
         "not_identifiable": groups,
         "untold": groups,
         "excess": estimate.excess,
         "noise": {
-            readings.name: _finite(float(noise.reading.max()))
+            readings.name: finite(float(noise.reading.max()))
             for readings, noise in zip(found.weighted.recorded, found.weighted.noise, strict=True)
         },
         "predictions": {
@@ -128,7 +106,7 @@ def _figures(found: Identified) -> dict[str, Any]:
                 "measured": one.measured.tolist(),
                 "predicted": one.predicted.tolist(),
                 "reach": one.reach.tolist(),
-                "rms": _finite(one.rms),
+                "rms": finite(one.rms),
                 "inside": one.inside,
             }
             for one in found.predictions
@@ -139,8 +117,3 @@ def _figures(found: Identified) -> dict[str, Any]:
         "simulations": found.simulations,
         "wall_time_s": found.wall_time,
     }
-
-
-def _finite(value: float) -> float | None:
-    """`value`, or None in place of an infinity or NaN, which JSON lacks."""
-    return float(value) if math.isfinite(value) else None

@@ -14,10 +14,10 @@ from ..terminal.settings import settings
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..following.follower import EncoderFormat, EncoderSamples
+    from ..following.channels.encoders import EncoderFormat, EncoderSamples
+    from ..following.channels.vibration import VibrationSamples
     from ..following.measured_messages import Block
     from ..following.sensors import Sensors
-    from ..following.vibration import VibrationSamples
 
 SensorsOption = Annotated[
     Path | None,
@@ -84,7 +84,7 @@ def encoder_format(files: Files, sensors: Sensors) -> EncoderFormat | None:
         files: files with the measurements.
         sensors: sensors of the gearbox.
     """
-    from ..following.follower import EncoderFormat
+    from ..following.channels.encoders import EncoderFormat
 
     if files.encoders is None:
         return None
@@ -146,7 +146,8 @@ def _samples(
     files: Files, sensors: Sensors, begin: np.datetime64 | None
 ) -> list[EncoderSamples | VibrationSamples]:
     """Samples of encoders and accelerometers."""
-    from ..following.measured_tables import read_encoders, read_vibration
+    from ..following.channels.encoders import read_encoders
+    from ..following.channels.vibration import read_vibration
 
     found: list[EncoderSamples | VibrationSamples] = []
     if files.encoders is not None:
@@ -158,7 +159,7 @@ def _samples(
 
 def _note_unused(columns: tuple[str, ...], samples: Sequence[object]) -> None:
     """Name the columns that neither the readings nor the samples use."""
-    from ..following.measured_tables import COUNTS, SAMPLE
+    from ..following.channels.encoders import COUNTS, SAMPLE
 
     used = {name for one in samples for name in getattr(one, "names", (SAMPLE, *COUNTS))}
     left = [name for name in columns if name not in used]

@@ -88,11 +88,11 @@ def _write(
     scene: Scene, truth: Hidden, duration: float, files: tuple[Path, Path | None, Path | None]
 ) -> list[str]:
     from ..plant.readings import Plant
-    from ..plant.tables import encoders_table, readings_table, vibration_table, write_table
+    from ..plant.tables import readings_table, samples_table, write_table
 
     plant = Plant(scene, truth, duration)
     lines = [f"{files[0]}: {write_table(readings_table(plant), files[0])} readings"]
-    for path, table in zip(files[1:], (encoders_table, vibration_table), strict=True):
+    for path, name in zip(files[1:], ("encoders", "vibration"), strict=True):
         if path is not None:
-            lines.append(f"{path}: {write_table(table(plant), path)} samples")
+            lines.append(f"{path}: {write_table(samples_table(plant, name), path)} samples")
     return lines

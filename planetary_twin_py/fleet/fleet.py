@@ -21,7 +21,6 @@ from ..scene.given import check_scene
 from ..text.object_repr import brief
 from .balances import PARAMETERS, Balances, F, Row
 from .cusums import TERM, Cusums, Steps, limit
-from .faults import Faults
 from .fleet_check import FleetCheck
 from .loss_table import loss_table
 from .scatter import Scatter
@@ -120,9 +119,8 @@ class Fleet:
         self._interval_filters = Balances(*common, interval_memory(), self.count)
         self._alarm_filters = Balances(*common, alarm_memory(self.train), self.count)
         self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
-        self._faults = Faults(self.scene, self.sensors, self.period, self.count)
         self._scatter = Scatter(self.count)
-        self._check = FleetCheck(self.train, self.table, self.sensors, self.count)
+        self._check = FleetCheck(self.scene, self.table, self.sensors, self.period, self.count)
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
         self._oil = np.full(self.count, self.train.oil_temperature)
         self.readings = np.zeros(self.count, dtype=np.int64)
@@ -164,9 +162,9 @@ class Fleet:
         if time <= self._time:
             raise ValueError(f"time = {time:g} s: must be after {self._time:g} s")
         step = self.period if math.isnan(self._time) else time - self._time
-        self._faults.add(time, self._check.without_codes(time, row))
+        row = self._check.judge(time, row)
         acceleration = self._acceleration(row["input_speed"], step)
-        self._check.leave_out(time, row, acceleration, self._oil)
+        self._check.leave_out_torques(time, row, acceleration, self._oil)
         speed = row["input_speed"]
         self._time, self._speed = time, speed
         oil = row["oil_temperature"]
@@ -191,7 +189,7 @@ class Fleet:
 
     def finish(self) -> None:
         """Judge the last readings, at the end of a table."""
-        self._faults.check()
+        self._check.finish()
         self._widen(self._scatter.finish())
 
     @property
@@ -201,7 +199,7 @@ class Fleet:
         Units and signs are checked after 10 rows, and then after ever more, up to 640. Such a
         gearbox has no estimates.
         """
-        return self._faults.lines
+        return self._check.faults
 
     def remarks(self, gearbox: int) -> tuple[str, ...]:
         """Torques and speeds whose unit may be wrong, and a doubtful friction level.
@@ -216,10 +214,7 @@ class Fleet:
         low, value, high = (float(v[gearbox]) for v in (level.low, level.value, level.high))
         losses = self.table(self._last_torque[one], self._last_speed[one], self._oil[one])
         doubtful = friction_remarks(low, value, high, float(losses.teeth[0]))  # none of NaN
-        left_out = (
-            self._check.left_out[gearbox].remarks() if gearbox in self._check.left_out else ()
-        )
-        return (*left_out, *self._faults.remarks(gearbox), *doubtful)
+        return (*self._check.remarks(gearbox), *doubtful)
 
     @property
     def scatter(self) -> FleetScatter:

@@ -1,73 +1,79 @@
-"""Leaves out readings of each gearbox that no machine has, see `following.plausibility`."""
+"""Judges the readings of many gearboxes by the checks of a follower, see `following.checks`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.left_out import LeftOut
-from ..following.plausibility import OIL, beyond, equals_code, leaps, ranges_of
+from ..following.channels.all import OIL, TORQUES
+from ..following.checks import Checks
+from ..following.contradictions import Contradictions
+from ..following.load_remarks import LoadRemarks
+from ..following.loss_map import loss_map
 from ..following.power_check import IMPOSSIBLE, balance, wrong_torques
-from ..following.reading_check import CODE, TORQUES, limit_text, nominal_values
-from ..following.repeats import STUCK, Repeats
-from ..following.sensors import Sensors, torque_change
-from ..following.train import FollowedTrain
+from ..following.reading_check import ReadingCheck
+from ..following.sensors import Sensors
+from ..following.train import followed_train
+from ..scene import Scene
 from .loss_table import LossTable
 
 Array = NDArray[np.float64]
+
+TOGETHER = 10, 640  # rows that are compared together, first and at most
 
 
 class FleetCheck:
     """Judges the rows of many gearboxes in the order of time.
 
     Args:
-        train: gear train of the type.
+        scene: scene of the type, with one input.
         table: table of its losses.
         sensors: accuracy of the sensors.
+        period: time between two rows [s].
         count: number of gearboxes.
     """
 
     def __init__(
-        self, train: FollowedTrain, table: LossTable, sensors: Sensors, count: int
+        self, scene: Scene, table: LossTable, sensors: Sensors, period: float, count: int
     ) -> None:
-        self.left_out: dict[int, LeftOut] = {}
-        """Readings that are left out, by index of the gearbox."""
-        self._train, self._table, self._ranges = train, table, ranges_of(train)
-        self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
-        nominal = nominal_values(train)
-        self._usual = {name: np.full(count, value) for name, value in nominal.items()}
-        self._known = {name: np.zeros(count, dtype=bool) for name in nominal}
-        self._torques = np.full((2, count), np.nan)
-        self._repeats = Repeats(torque_change(sensors, train), train.ratio, count)
+        self.faults: dict[int, str] = {}
+        """Channel, value and correction by index of a gearbox whose readings contradict the scene,
+        and did so in the last rows that were compared."""
+        self._train, self._table = followed_train(scene), table
+        self._inertia = self._train.inertia if sensors.inertia is None else sensors.inertia
+        self._readings = ReadingCheck(self._train, sensors, count, math.inf)
+        contradictions = Contradictions(self._train, loss_map(scene), sensors, period)
+        self._checks = Checks(contradictions, count, TOGETHER)
+        self._load = LoadRemarks(scene.operating_point, self._train, period, count)
+        self._torques = np.full((2, count), np.nan)  # the last ones that belonged together
         self._number = 0
 
-    def without_codes(self, time: float, row: dict[str, Array]) -> dict[str, Array]:
-        """Remove the codes for missing readings from a row.
+    def judge(self, time: float, row: dict[str, Array]) -> dict[str, Array]:
+        """Compare a row with the scene, and leave out readings that no machine has.
 
         Args:
             time: time of the row [s].
-            row: readings in SI by channel, (n,) each; changed in place.
+            row: readings in SI by channel, (n,) each.
 
         Returns:
-            A copy for the comparison with the scene, also without the torques of dead sensors.
+            The readings, NaN where one is left out.
         """
         self._number += 1
-        for name, values in row.items():
-            usual = self._usual[name]
-            usual = np.where(self._known[name], usual, np.copysign(usual, values))
-            equal = equals_code(name, values)
-            self._omit(name, CODE, equal & leaps(values, usual), time, row)
-            plain = np.isfinite(values) & ~equal
-            self._usual[name] = np.where(plain, values, self._usual[name])
-            self._known[name] |= plain
-        return {name: values.copy() for name, values in row.items()}
+        columns = {name: values[None] for name, values in row.items()}
+        judged = self._readings.judge(np.array([time]), columns, "rows")
+        kept = {name: values[0] for name, values in judged.items()}
+        self._load.add(time, kept)
+        if self._checks.add(time, kept):
+            self._note_faults()
+        return kept
 
-    def leave_out(
+    def leave_out_torques(
         self, time: float, row: dict[str, Array], acceleration: Array, oil: Array
     ) -> None:
-        """Remove readings beyond the limits of the scene, and torques that do not belong together.
+        """Remove torques that do not belong together.
 
         Args:
             time: time of the row [s].
@@ -75,46 +81,37 @@ class FleetCheck:
             acceleration: of the inputs [rad/s^2], (n,).
             oil: last temperatures of the oil [K], (n,).
         """
-        for name, values in row.items():
-            allowed = self._ranges[name]
-            self._omit(name, limit_text(name, allowed), beyond(values, allowed), time, row)
-        torques = row[TORQUES[0]], row[TORQUES[1]]
-        speed = row["input_speed"]
+        torques, speed = (row[TORQUES[0]], row[TORQUES[1]]), row["input_speed"]
         found = balance(self._train, torques, speed, self._inertia * acceleration)
         loss = np.full(len(speed), np.nan)
         if (doubtful := found.doubtful).any():
             oil = np.where(np.isfinite(row[OIL]), row[OIL], oil)
             loss[doubtful] = sum(self._table(torques[0][doubtful], speed[doubtful], oil[doubtful]))
         impossible = found.impossible(loss)
-        usual = self._torques[0], self._torques[1]
-        for name, wrong in zip(TORQUES, wrong_torques(self._train, torques, usual), strict=True):
-            self._omit(name, IMPOSSIBLE, wrong & impossible, time, row)
-        stuck = self._repeats.judge(row[TORQUES[0]][None], row[TORQUES[1]][None])
-        for name, which in zip(TORQUES, stuck, strict=True):
-            self._omit(name, STUCK, which[0], time, row)
         sound = np.isfinite(found.lost) & ~impossible
+        wrong = wrong_torques(self._train, torques, (self._torques[0], self._torques[1]))
         self._torques = np.where(sound, torques, self._torques)
+        for name, which in zip(TORQUES, wrong, strict=True):
+            for n in np.flatnonzero(which & impossible):
+                number, value = np.array([self._number]), row[name][[n]]
+                left_out = self._readings.left_out[n]
+                left_out.add(name, IMPOSSIBLE, np.array([time]), value, number)
+                row[name][n] = math.nan
+
+    def finish(self) -> None:
+        """Compare the last rows, at the end of a table."""
+        if self._checks.check():
+            self._note_faults()
 
     def remarks(self, gearbox: int) -> Iterator[str]:
-        """A line for each channel of a gearbox and reason.
+        """A line for each channel of a gearbox and reason, and for torques and speeds.
 
         Args:
             gearbox: index of the gearbox.
         """
-        if gearbox in self.left_out:
-            yield from self.left_out[gearbox].remarks()
+        yield from self._readings.left_out[gearbox].remarks()
+        yield from self._load.remarks(gearbox)
 
-    def _omit(
-        self,
-        name: str,
-        reason: str,
-        which: NDArray[np.bool_],
-        time: float,
-        row: Mapping[str, Array],
-    ) -> None:
-        for n in np.flatnonzero(which):
-            one = np.array([n])
-            self.left_out.setdefault(int(n), LeftOut()).add(
-                name, reason, np.array([time]), row[name][one], np.array([self._number])
-            )
-        row[name][which] = np.nan
+    def _note_faults(self) -> None:
+        """Note the present contradictions."""
+        self.faults = self._checks.present | self._readings.refusals()

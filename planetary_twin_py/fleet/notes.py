@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..following.balance import UNITS
-from ..recording.tables.message_tables import Column
-from ..recording.tables.table_files import FORMATS
+from ..recording.tables.table_files import write_batches
 from .groups import GearboxResult
 
 
@@ -24,41 +23,29 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
         ValueError: the format is unknown.
         OSError: the file cannot be written.
     """
-    kind = path.suffix.removeprefix(".")
-    if kind not in FORMATS:
-        raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
-    batch: dict[str, np.ndarray] = {
-        "gearbox": np.array([result.gearbox for result in found]),
-        "readings": np.array([result.readings for result in found]),
-        "missing": np.array([result.missing[0] for result in found]),
-        "first_missing": np.array([result.missing[1] for result in found]),
-    }
-    units = {
-        "gearbox": "",
-        "readings": "",
-        "missing": "",
-        "first_missing": "s",
-        "fits": "",
-        "fault": "",
-        "events": "",
-        "last_event": "s",
-        "last_size": "N m",
-        "scatter": "N m",
-        "smallest_step": "",
-    }
-    for name in found[0].estimates:
-        for part, heading in enumerate((name, f"{name}_low", f"{name}_high")):
-            batch[heading] = np.array([result.estimates[name][part] for result in found])
-            units[heading] = UNITS[name]
-    batch["fits"] = np.array([int(result.fits) for result in found])
-    batch["fault"] = np.array([result.fault for result in found])
-    batch["events"] = np.array([len(result.events) for result in found])
-    last = [result.events[-1] if result.events else None for result in found]
-    batch["last_event"] = np.array([np.nan if event is None else event.found for event in last])
-    batch["last_size"] = np.array([np.nan if event is None else event.size for event in last])
-    batch["scatter"] = np.array([result.scatter[0] for result in found])
-    batch["smallest_step"] = np.array([result.smallest_step for result in found])
-    columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
-    table = FORMATS[kind](path, columns)
-    table.write(batch)
-    table.close()
+    units = {"first_missing": "s", "last_event": "s", "last_size": "N m", "scatter": "N m"}
+    columns: dict[str, list[object]] = {}
+    for result in found:
+        last = result.events[-1] if result.events else None
+        row: dict[str, object] = {
+            "gearbox": result.gearbox,
+            "readings": result.readings,
+            "missing": result.missing[0],
+            "first_missing": result.missing[1],
+        }
+        for name, estimate in result.estimates.items():
+            for heading, value in zip((name, f"{name}_low", f"{name}_high"), estimate, strict=True):
+                row[heading], units[heading] = value, UNITS[name]
+        row |= {
+            "fits": int(result.fits),
+            "fault": result.fault,
+            "events": len(result.events),
+            "last_event": np.nan if last is None else last.found,
+            "last_size": np.nan if last is None else last.size,
+            "scatter": result.scatter[0],
+            "smallest_step": result.smallest_step,
+        }
+        for heading, entry in row.items():
+            columns.setdefault(heading, []).append(entry)
+    batch = {heading: np.array(values) for heading, values in columns.items()}
+    write_batches(path, {heading: units.get(heading, "") for heading in batch}, [batch])

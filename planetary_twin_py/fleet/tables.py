@@ -11,7 +11,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from ..following.bins import CHANNELS as UNITS
+from ..following.channels.all import CHANNELS as UNITS
 from ..following.stamps import stamp_remarks
 from ..recording.tables.measurements import day_numbers, missing_column, read_columns
 from .fleet import CHANNELS

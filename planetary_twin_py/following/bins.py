@@ -15,18 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .channels.all import CHANNELS
+from .channels.block_tables import AHEAD
+
 Array = NDArray[np.float64]
 
-CHANNELS = {
-    "input_speed": "rad/s",
-    "input_torque": "N m",
-    "output_speed": "rad/s",
-    "output_torque": "N m",
-    "oil_temperature": "K",
-}
-"""SI units of the measured channels; names and signs are those of gearbox_state."""
 LAG = 0.2  # [s] by which stamps may be out of order
-AHEAD = 1.0  # [s]; a single stamp that is later than both of its neighbours by more is wrong
 OUTLIER = 5.0  # robust standard deviations above which a reading is an outlier
 NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
 UNUSED = 0.05  # share of the readings that are not used, above which there is a remark
@@ -72,7 +66,7 @@ class Counters:
     ahead: int = 0
     """Readings with a single stamp far in the future."""
     implausible: int = 0
-    """Readings that no machine can have, see `plausibility`, `pulses` and `power_check`."""
+    """Readings that no machine can have, see `reading_check` and `power_check`."""
 
     def remarks(self) -> Iterator[str]:
         """A line for each reason for which a large share of the readings was not used.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
@@ -10,8 +9,11 @@ import numpy as np
 
 from ..scene import Scene
 from .bins import Array, Bin, Counters
-from .checks import Checks
-from .dead_torques import DeadTorques
+from .channels.all import TORQUES
+from .checks import CHECKED, Checks
+from .contradictions import Contradictions
+from .input_error import InputError
+from .load_remarks import LoadRemarks
 from .loss_map import loss_map
 from .merging import Merge
 from .power_check import PowerCheck
@@ -19,7 +21,6 @@ from .reading_check import ReadingCheck
 from .sensors import Sensors, torque_noise
 from .spacing import Spacing
 from .train import FollowedTrain, followed_train
-from .unit_remarks import UnitRemarks
 
 PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when the load reverses
 
@@ -37,14 +38,15 @@ class CheckedBins:
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
         noise, losses = torque_noise(sensors, train), loss_map(scene)
         self._readings = ReadingCheck(train, sensors)
-        self._left_out = self._readings.left_out
+        self._left_out = self._readings.left_out[0]
         self._power = PowerCheck(train, losses, sensors, period, self._left_out)
-        self._ratio, self._period = train.ratio, period
-        self._merge = Merge(period, {"input_torque": noise[0], "output_torque": noise[1]})
-        self._checks = Checks(train, losses, sensors, period)
+        self._period = period
+        self._merge = Merge(period, dict(zip(TORQUES, noise, strict=True)))
+        together = max(round(CHECKED / period), 1)
+        contradictions = Contradictions(train, losses, sensors, period)
+        self._checks = Checks(contradictions, 1, (together, together))
         self._spacing = Spacing()
-        self._dead_torques = DeadTorques(train, period)
-        self._unit_remarks = UnitRemarks(scene.operating_point)
+        self._load = LoadRemarks(scene.operating_point, train, period)
 
     @property
     def counters(self) -> Counters:
@@ -66,7 +68,7 @@ class CheckedBins:
             InputError: a channel has another unit, sign or shaft, see `checks`.
         """
         before = self._left_out.count
-        kept = self._readings.judge(np.asarray(time, float), columns, sender)
+        kept = _judged(self._readings, time, columns, sender)
         self.counters.missing -= self._left_out.count - before  # as which the bins count them
         for time_bin in self._merge.add(time, kept, sender):
             yield from self._checked(time_bin)
@@ -86,29 +88,36 @@ class CheckedBins:
             yield from self._checked(time_bin)
         yield from self._judged(self._power.finish())
         self._checks.check()
+        self._refuse()
 
     def remarks(self) -> Iterator[str]:
-        """A line for each unit that may be wrong, each later contradiction and dead torque."""
+        """A line for readings that are left out, and for those unlike the scene."""
         yield from self._left_out.remarks()
         yield from self._readings.stops.remarks("not used")
-        yield from self._checks.remarks()
-        yield from self._dead_torques.remarks()
+        yield from self._checks.later.get(0, {}).values()
         yield from self._spacing.remarks(self._period)
-        yield from self._unit_remarks.remarks()
+        yield from self._load.remarks()
 
     def _checked(self, time_bin: Bin) -> Iterator[Bin]:
-        agreed = self._checks.agreed
+        agreed = self._checks.agreed()
         if not agreed:
-            self._checks.add(time_bin)  # a wrong sign from the start is refused, not left out
+            self._compare(time_bin)  # a wrong sign from the start is refused, not left out
         self._spacing.add((time_bin.number + 1) * self._period)
-        values = {name: mean.value for name, mean in time_bin.means.items()}
-        speed = values.get("input_speed", values.get("output_speed", math.nan) / self._ratio)
-        self._dead_torques.add(time_bin.number * self._period, values, speed)
-        self._unit_remarks.add(values.get("input_torque", math.nan), speed)
+        self._load.add(time_bin.number * self._period, _row(time_bin))
         for judged in self._judged(self._power.add(time_bin)):
             if agreed:
-                self._checks.add(judged)
+                self._compare(judged)
             yield judged
+
+    def _compare(self, time_bin: Bin) -> None:
+        """Compare a bin with the scene."""
+        self._checks.add((time_bin.number + 1) * self._period, _row(time_bin))
+        self._refuse()
+
+    def _refuse(self) -> None:
+        """Refuse readings that contradict the scene from the start."""
+        if 0 in self._checks.refused:
+            raise InputError(self._checks.refused[0])
 
     def _judged(self, bins: Iterator[Bin]) -> Iterator[Bin]:
         """Bins after the check of the power, whose readings that are left out are not used."""
@@ -117,6 +126,20 @@ class CheckedBins:
             self.counters.used -= self._left_out.count - before
             before = self.counters.implausible = self._left_out.count
             yield time_bin
+
+
+def _row(time_bin: Bin) -> dict[str, Array]:
+    """Means of a bin as a row of one gearbox."""
+    return {name: np.array([mean.value]) for name, mean in time_bin.means.items()}
+
+
+def _judged(
+    check: ReadingCheck, time: Array, columns: Mapping[str, Array], sender: str
+) -> dict[str, Array]:
+    """Readings of one gearbox without those that are left out, (n,) each."""
+    rows = {name: np.asarray(values, dtype=float)[:, None] for name, values in columns.items()}
+    kept = check.judge(np.asarray(time, dtype=float), rows, sender)
+    return {name: values[:, 0] for name, values in kept.items()}
 
 
 class CheckedTable(NamedTuple):
@@ -146,11 +169,11 @@ def checked_table(
     bins = CheckedBins(scene, train, sensors, PERIOD)
     judged = [*bins.add(time, columns, "table"), *bins.finish()]
     check = ReadingCheck(train, sensors)
-    kept = check.judge(time, columns, "table")
+    kept = _judged(check, time, columns, "table")
     for name, rows in check.stopped:
         kept[name][rows - 1] = np.nan
     slots = np.floor(np.where(np.isfinite(time), time, -1.0) / PERIOD + 1e-9).astype(np.int64)
-    for name in ("input_torque", "output_torque"):
+    for name in TORQUES:
         sound = [one.number for one in judged if name in one.means]
         if name in kept:
             kept[name][~np.isin(slots, sound)] = np.nan

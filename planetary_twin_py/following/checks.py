@@ -1,4 +1,4 @@
-"""Checks readings for a wrong unit, a wrong sign or exchanged shafts, as long as they arrive.
+"""Compares readings with the scene as long as they arrive, of one gearbox or of many.
 
 Readings that contradict the scene as soon as they show a quantity are refused. Later ones are a
 remark: a sensor may fail or be connected again at any time.
@@ -6,100 +6,98 @@ remark: a sensor may fail or be connected again at any time.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .bins import Bin
-from .contradictions import CHANNELS, LOADED, MOVING, Contradictions, Rows
-from .loss_map import LossMap
-from .sensors import Sensors
-from .train import FollowedTrain
+from .contradictions import CHANNELS, Contradictions, Rows
 
-CHECKED = 5.0  # [s] of readings that are compared together
+Array = NDArray[np.float64]
 
-
-class InputError(ValueError):
-    """Readings that contradict the scene; the message names channel, value and correction."""
+CHECKED = 5.0  # [s] of readings of a follower that are compared together
 
 
-@dataclass
 class Checks:
-    """Compares readings with the scene, in spans in which the train turns or is loaded.
+    """Compares readings with the scene in spans of rows.
 
     Args:
-        train: gear train of the scene.
-        losses: loss torques of the scene.
-        sensors: accuracy of the torque sensors.
-        length: length of a bin [s].
+        contradictions: compares the rows of one gearbox.
+        count: number of gearboxes.
+        together: rows that are compared together, first and at most: a fault is named soon, and
+            more rows at a time cost less.
     """
 
-    train: FollowedTrain
-    losses: LossMap
-    sensors: Sensors
-    length: float
-    _rows: list[tuple[float, ...]] = field(default_factory=list)  # time and `CHANNELS`
-    _in_order: set[str] = field(default_factory=set)  # comparisons that were in order once
-    _later: dict[str, str] = field(default_factory=dict)
-    """The first later contradiction of each comparison."""
+    def __init__(
+        self, contradictions: Contradictions, count: int, together: tuple[int, int]
+    ) -> None:
+        self.refused: dict[int, str] = {}
+        """The first contradiction from the start, by index of the gearbox."""
+        self.present: dict[int, str] = {}
+        """A contradiction that the last rows still show, by index of the gearbox."""
+        self.later: dict[int, dict[str, str]] = {}
+        """The first later contradiction of each comparison, by index of the gearbox."""
+        self._contradictions, self._count = contradictions, count
+        self._together, self._most = together
+        self._fewest = together[0]
+        self._in_order: list[set[str]] = [set() for _ in range(count)]  # comparisons, once
+        self._times: list[float] = []
+        self._rows: list[Array] = []  # (channels, count) each
 
-    def __post_init__(self) -> None:
-        self._contradictions = Contradictions(self.train, self.losses, self.sensors, self.length)
-        train = self.train
-        self._least = (
-            MOVING * train.speed, MOVING * train.speed * abs(train.ratio),
-            LOADED * train.torque, LOADED * train.torque / abs(train.ratio),
-        )  # fmt: skip
+    def agreed(self, gearbox: int = 0) -> bool:
+        """Whether the torques of a gearbox were in order once."""
+        return "torques" in self._in_order[gearbox]
 
-    @property
-    def agreed(self) -> bool:
-        """Whether the torques were in order once."""
-        return "torques" in self._in_order
-
-    def add(self, found: Bin) -> None:
-        """Add a bin; at the end of a span, check the readings.
+    def add(self, time: float, row: Mapping[str, Array]) -> bool:
+        """Add a row; at the end of a span, compare its rows.
 
         Args:
-            found: the bin.
+            time: end of the row [s].
+            row: readings in SI by channel, (count,) each; NaN where one is missing.
 
-        Raises:
-            InputError: a channel has another unit, sign or shaft.
+        Returns:
+            Whether rows have been compared.
         """
-        means, time = found.means, (found.number + 1) * self.length
-        values = [means[name].value if name in means else math.nan for name in CHANNELS]
-        if any(abs(value) > least for value, least in zip(values, self._least, strict=True)):
-            self._rows.append((time, *values))
-            if len(self._rows) * self.length >= CHECKED:
-                self.check()
+        missing = np.full(self._count, np.nan)
+        self._times.append(time)
+        self._rows.append(np.array([row.get(name, missing) for name in CHANNELS]))
+        if len(self._times) < self._together:
+            return False
+        self.check()
+        self._together = min(4 * self._together, self._most)
+        return True
 
-    def check(self) -> None:
-        """Check what has been read since the last check.
-
-        Raises:
-            InputError: see `add`.
-        """
-        if not self._rows:
-            return
-        time, *columns = np.array(self._rows).T
+    def check(self) -> bool:
+        """Compare the rows since the last comparison; return whether there are any."""
+        if not self._times:
+            return False
+        time, read = np.array(self._times), np.array(self._rows)
+        self._times.clear()
         self._rows.clear()
-        shown = self._contradictions.shown_by(Rows(time, dict(zip(CHANNELS, columns, strict=True))))
-        for name, line in shown.items():
-            self._note(name, line, float(time[0]) - self.length)
+        for n in range(self._count):
+            shown = self._shown_by(time, read[:, :, n])
+            for name, line in shown.items():
+                self._note(n, name, line, float(time[0]))
+            self.present.pop(n, None)
+            if any(shown.values()):
+                last = self._shown_by(time[-self._fewest :], read[-self._fewest :, :, n])
+                for name in filter(last.get, shown):
+                    self.present.setdefault(n, shown[name] or last[name])
+        return True
 
-    def remarks(self) -> Iterator[str]:
-        """A line for each comparison that was in order first and is not any more."""
-        yield from self._later.values()
+    def _shown_by(self, time: Array, read: Array) -> dict[str, str]:
+        """What some rows of a gearbox, (rows, channels), show."""
+        return self._contradictions.shown_by(Rows(time, dict(zip(CHANNELS, read.T, strict=True))))
 
-    def _note(self, name: str, line: str, begin: float) -> None:
-        """Refuse a contradiction, unless the same comparison was in order before."""
+    def _note(self, gearbox: int, name: str, line: str, first: float) -> None:
+        """Note the result of a comparison of rows of which the first ends at `first` [s]."""
         if not line:
-            self._in_order.add(name)
-        elif name not in self._in_order:
-            raise InputError(line)
+            self._in_order[gearbox].add(name)
+        elif name not in self._in_order[gearbox]:
+            self.refused.setdefault(gearbox, line)
         else:
-            self._later.setdefault(
+            begin = first - self._contradictions.length
+            self.later.setdefault(gearbox, {}).setdefault(
                 name,
                 f"readings after {begin:.1f} s contradict the scene, and those before did not: "
                 f"{line}",

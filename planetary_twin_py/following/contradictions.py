@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .channels.all import LOADED, MOVING
 from .estimate import CONFIDENT
 from .loss_map import LossMap
 from .sensors import Sensors, torque_gain, torque_zero
@@ -24,10 +25,8 @@ Array = NDArray[np.float64]
 CHANNELS = "input_speed", "output_speed", "input_torque", "output_torque"
 NEAR = 0.02  # relative deviation within which two speed ratios agree
 MOST = 0.7  # share of the torque that a gearbox loses at most beside the loss of its scene
-LOADED = 0.2  # share of the torque of the scene below which torques are not compared
 INERTIAL = 0.3  # share of the torque for the acceleration above which torques are not compared
 FEWEST = 5  # rows of which torques are compared: fewer do not show what accelerates the train
-MOVING = 0.05  # share of the speed of the scene below which speeds are not compared
 GAINED = 4.0  # standard deviations by which a loss may be negative
 ASK = (
     "state units in the headings, such as input_speed [rpm] or output_torque [lbf ft], and a "

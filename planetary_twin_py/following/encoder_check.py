@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .checks import InputError
+from .input_error import InputError
 from .train import FollowedTrain
 from .transmission_error import Counts
 

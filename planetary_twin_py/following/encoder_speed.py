@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .checks import InputError
+from .input_error import InputError
 from .transmission_error import Counts
 from .turning import Turning
 

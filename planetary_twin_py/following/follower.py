@@ -19,16 +19,18 @@ from .balance import BalanceFollower
 from .balance_filter import Innovation
 from .baseline import LearnedCell
 from .baseline_file import SavedBaseline, read_baseline, write_baseline
-from .bins import CHANNELS
 from .changed_teeth import ToothState
+from .channels.all import CHANNELS
+from .channels.encoders import EncoderFormat, EncoderSamples
+from .channels.vibration import VibrationSamples
 from .checked_bins import PERIOD
-from .checks import InputError
 from .clock_watch import ClockWatch
 from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
+from .input_error import InputError
 from .sensors import Sensors, check_scale
 from .teeth import TeethFollower
-from .vibration import VibrationFollower, VibrationSamples
+from .vibration import VibrationFollower
 from .whole_turns import WholeTurns
 
 Array = NDArray[np.float64]
@@ -48,27 +50,6 @@ class Readings(NamedTuple):
     """Times of arrival by the receiver's clock [s], (n,); None if unknown."""
     sender: str = "readings"
     """Name of the device whose clock made the stamps."""
-
-
-class EncoderFormat(NamedTuple):
-    """Format of two encoders on the input and output members, read by one device."""
-
-    counts_per_turn: tuple[int, int]
-    """Counts per turn of the input and of the output."""
-    period: float
-    """Sample period [s]."""
-
-
-class EncoderSamples(NamedTuple):
-    """Counts of two encoders, in the order of their arrival."""
-
-    sample: NDArray[np.int64]
-    """Numbers of the samples, (n,): times in sample periods."""
-    counts: NDArray[np.int64]
-    """Counts of the input and the output encoder, (n, 2): with whole turns, or of counters that
-    wrap after a turn or a power of two."""
-    format: EncoderFormat | None = None
-    """Format of the encoders; None: that given to the follower."""
 
 
 @dataclass(frozen=True)
@@ -187,9 +168,9 @@ class Follower:
             teeth = self._teeth_follower(block)
             if self._turns is None or self._encoder_speed is None:
                 raise ValueError("encoders: their format is not known")
-            counts = self._turns.add(block.sample, block.counts)
-            teeth.add(block.sample, counts)
-            self._encoder_speed.add(block.sample, counts)
+            sample, counts = self._turns.add(block.sample, block.counts)
+            teeth.add(sample, counts)
+            self._encoder_speed.add(sample, counts)
         elif isinstance(block, VibrationSamples):
             self._vibration_follower(block).add(block.time, block.values)
         else:

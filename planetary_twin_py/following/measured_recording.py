@@ -11,7 +11,7 @@ from rosbags.typesys.store import Typestore
 
 from ..recording.container.records import RecordingError, files_of, records_of
 from ..recording.ros2.typestore import DefinitionError, types_of
-from .bins import CHANNELS
+from .channels.all import CHANNELS
 from .follower import Readings
 from .measured_messages import KINDS, Arrived, Block, MessageReader
 from .message_types import JOINTS

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..recording.tables.message_tables import Column
-from ..recording.tables.table_files import FORMATS
+from ..recording.tables.table_files import write_batches
 from .follower import Following
 
 
@@ -23,9 +22,6 @@ def write_notes(path: Path, states: Sequence[Following]) -> None:
         ValueError: the format is unknown.
         OSError: the file cannot be written.
     """
-    kind = path.suffix.removeprefix(".")
-    if kind not in FORMATS:
-        raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
     rows = [state for state in states if np.isfinite(state.time)]
     batch = {"time": np.array([state.time for state in rows])}
     units = {"time": "s", "events": ""}
@@ -35,7 +31,4 @@ def write_notes(path: Path, states: Sequence[Following]) -> None:
             batch[column] = np.array([getattr(state[name], part) for state in rows])
             units[column] = unit
     batch["events"] = np.array([len(state.events) for state in rows])
-    columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
-    table = FORMATS[kind](path, columns)
-    table.write(batch)
-    table.close()
+    write_batches(path, units, [batch])

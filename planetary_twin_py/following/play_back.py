@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .follower import EncoderSamples, Follower, Following, Readings
+from .channels.encoders import EncoderSamples
+from .channels.vibration import VibrationSamples
+from .follower import Follower, Following, Readings
 from .measured_messages import Block
-from .vibration import VibrationSamples
 
 EVERY = 1.0  # [s] between two estimated states
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .checks import CHECKED, InputError
+from .checks import CHECKED
+from .input_error import InputError
 
 FITS = 0.02  # relative deviation within which two rates agree
 FEWEST = 50  # pairs of readings that are needed

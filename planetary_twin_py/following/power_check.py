@@ -15,17 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bins import Bin, Mean
-from .contradictions import INERTIAL, LOADED, MOST, MOVING
+from .channels.all import LOADED, MOVING, OIL, TORQUES
+from .contradictions import INERTIAL, MOST
 from .left_out import LeftOut
 from .loss_map import LossMap
-from .plausibility import OIL
 from .sensors import Sensors, torque_noise
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-TORQUES = "input_torque", "output_torque"
 LEAST = -0.15  # share of the torque that is lost
 NOISY = 6.0  # standard deviations of the balance that are no change
 CHANGE = 0.1  # share of the torque; a balance that changes by more must stay for `WAIT`

@@ -1,91 +1,101 @@
-"""Leaves out readings that are codes, that no machine reaches, or of doubled or missing pulses."""
+"""Leaves out readings that are codes, that no machine reaches, or of doubled or missing pulses.
+
+These are facts about a channel, and never events of the gearbox. Rows are those of one gearbox that
+is followed, or of many in a fleet.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .bins import CHANNELS
-from .checks import CHECKED, InputError
-from .contradictions import LOADED, MOVING
+from ..recording.tables.codes import equals_code
+from .channels.all import SENSORS, TORQUES
+from .channels.sensor import Sensor
+from .checks import CHECKED
+from .input_error import InputError
 from .left_out import LeftOut
-from .plausibility import OIL, Range, beyond, equals_code, leaps, ranges_of
 from .pulses import Pulses
 from .repeats import STUCK, Repeats
 from .sensors import Sensors, torque_change
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
-TORQUES = "input_torque", "output_torque"
 CODE = "the value is a code for a missing or saturated reading"
 STOPS = "it leaps to 0 and back between two readings, as no shaft with inertia does"
-SPELLINGS = {
-    "speed": "rad/s, rpm, deg/s or Hz", "torque": "N m, N mm, kN m or lbf ft",
-}  # fmt: skip
+FAR = 0.5  # relative change of a reading above which it may be a code
 
 
-@dataclass
-class _First:
-    """Readings of a channel before its unit is known to be possible."""
-
-    begin: float = math.nan  # [s]
-    possible: int = 0
-    impossible: list[float] = field(default_factory=list)
-    done: bool = False
-
-
-def nominal_values(train: FollowedTrain) -> dict[str, float]:
-    """Magnitudes of the readings at the operating point of a scene, by channel.
+class _Channel:
+    """Readings of a channel of a sender, of each gearbox.
 
     Args:
+        sensor: sensor of the channel.
         train: gear train of the scene.
+        scale: factor that the readings have; a code has none.
+        count: number of gearboxes.
     """
-    torque, speed, ratio = train.torque, train.speed, abs(train.ratio)
-    return {
-        "input_torque": torque, "output_torque": torque / ratio,
-        "input_speed": speed, "output_speed": speed * ratio, OIL: train.oil_temperature,
-    }  # fmt: skip
 
+    def __init__(self, sensor: Sensor, train: FollowedTrain, scale: float, count: int) -> None:
+        self.sensor, self.allowed, self._scale = sensor, sensor.limits(train), scale
+        self._nominal = sensor.nominal(train)
+        self._least = sensor.shown * self._nominal
+        self._usual = np.full(count, math.nan)  # last reading that equals no code
+        self._begin = np.full(count, math.nan)  # [s] of the readings that are counted
+        self._counts = np.zeros((3, count))  # shown, beyond the limits, and the sum of these
+        self._ends_beyond = np.zeros(count, dtype=bool)  # the last reading
+        self.pulses = Pulses(self._least)
+        self.concluded = False
 
-def limit_text(name: str, allowed: Range) -> str:
-    """Why a reading beyond a range is left out.
+    def codes(self, values: Array) -> Mask:
+        """Which readings, (n, count), are codes: a channel that passes a code's value has none."""
+        given, equal = values / self._scale, np.zeros(values.shape, dtype=bool)
+        written = [given * factor + offset for factor, offset in self.sensor.written]
+        codes = [equals_code(number) for number in written]
+        if self.sensor.quantity == "temperature":  # a thermometer without signal is at 0 degC
+            codes = [code | (number == 0.0) for code, number in zip(codes, written, strict=True)]
+        usual = np.isfinite(values) & ~np.any(codes, axis=0)
+        row = np.where(usual, np.arange(len(values))[:, None], -1)
+        last = np.maximum.accumulate(row, axis=0)
+        before = np.take_along_axis(given, np.maximum(last, 0), axis=0)
+        before = np.where(last >= 0, before, self._usual)
+        self._usual = before[-1]
+        before = np.where(np.isnan(before), np.copysign(self._nominal / self._scale, given), before)
+        for code, number, (factor, offset) in zip(codes, written, self.sensor.written, strict=True):
+            if code.any():
+                expected = before * factor + offset
+                equal |= code & ~(np.abs(number - expected) <= FAR * np.abs(expected))
+        return equal
 
-    Args:
-        name: name of the channel.
-        allowed: the range.
-    """
-    limit = f"{allowed.high:.4g} {CHANNELS[name]}"
-    if name == OIL:
-        return f"it must be within {allowed.low:g} and {limit} (messages are in degrees Celsius)"
-    return f"it exceeds {allowed.limited_by}, {limit}"
+    def beyond(self, time: Array, values: Array, within: float) -> tuple[Mask, bool]:
+        """Which readings are beyond the limits, and whether one is later than those that count."""
+        beyond = (values < self.allowed.low) | (values > self.allowed.high)
+        shown = np.isfinite(time)[:, None] & (np.abs(values) > self._least)
+        first = np.where(shown.any(axis=0), time[shown.argmax(axis=0)], math.nan)
+        self._begin = np.where(np.isnan(self._begin), first, self._begin)
+        late = shown & (time[:, None] >= self._begin + within)
+        counted = shown & ~np.maximum.accumulate(late, axis=0)
+        wrong = counted & beyond
+        last = len(time) - 1 - shown[::-1].argmax(axis=0)
+        ends = beyond[last, np.arange(beyond.shape[1])]
+        self._ends_beyond = np.where(shown.any(axis=0), ends, self._ends_beyond)
+        self._counts += [counted.sum(axis=0), wrong.sum(axis=0), np.where(wrong, values, 0).sum(0)]
+        return beyond, bool(late.any())
 
-
-def impossible_text(name: str, allowed: Range, values: Array, total: int) -> str:
-    """What is said of a channel most of whose readings are beyond a range.
-
-    Args:
-        name: name of the channel.
-        allowed: the range.
-        values: the readings beyond it, in SI, (n,).
-        total: number of all readings.
-    """
-    unit = CHANNELS[name]
-    line = f"{name} = {np.median(values):.4g} {unit} in {len(values)} of {total} readings: "
-    if name == OIL:
-        return (
-            f"{line}must be within {allowed.low:g} and {allowed.high:g} K; a column in degrees "
-            f"Celsius is headed {name} [degC], and messages are in degrees Celsius"
-        )
-    return (
-        f"{line}exceeds {allowed.limited_by} = {allowed.high:.4g} {unit}; is it in {unit}? A "
-        f"heading states another unit ({SPELLINGS[name.split('_')[1]]}), as in {name} [UNIT], or "
-        f"scale {name} by a factor"
-    )
+    def refusals(self) -> dict[int, str]:
+        """A line for each gearbox most of whose readings since the last call were impossible, and
+        still are: those of an outage that is over are left out only."""
+        (shown, beyond, total), self._counts = self._counts, np.zeros_like(self._counts)
+        return {
+            n: f"{self.sensor.name} = {total[n] / beyond[n]:.4g} {self.sensor.unit} in "
+            f"{beyond[n]:.0f} of {shown[n]:.0f} readings: {self.sensor.refusal(self.allowed)}"
+            for n in np.flatnonzero((2.0 * beyond > shown) & self._ends_beyond).tolist()
+        }
 
 
 class ReadingCheck:
@@ -93,30 +103,31 @@ class ReadingCheck:
 
     Args:
         train: gear train of the scene.
-        sensors: accuracy of the sensors, and factors that the readings have; a code has none.
+        sensors: accuracy of the sensors, and factors that the readings have.
+        count: number of gearboxes.
+        within: time from the first reading of a channel after which it is refused if most of its
+            readings are impossible [s]; infinite: see `refusals`.
     """
 
-    def __init__(self, train: FollowedTrain, sensors: Sensors) -> None:
-        self.left_out, self.stops = LeftOut(), LeftOut()
+    def __init__(
+        self, train: FollowedTrain, sensors: Sensors, count: int = 1, within: float = CHECKED
+    ) -> None:
+        self.left_out, self.stops = [LeftOut() for _ in range(count)], LeftOut()
+        """What is left out, of each gearbox; and speeds of 0 that were found wrong too late."""
         self.stopped: list[tuple[str, NDArray[np.int64]]] = []
-        """Channels and rows with speeds of 0 that the last call of `judge` found wrong, too late to
-        leave them out."""
-        self._ranges = ranges_of(train)
-        self._scale, self._ratio = sensors.scale, train.ratio
-        self._changed = torque_change(sensors, train)
+        """Channels and rows of the latter that the last call of `judge` found."""
+        self._train, self._sensors, self._count = train, sensors, count
+        self._within = within
+        self._rows: dict[str, int] = {}  # so far, by sender
+        self._channels: dict[tuple[str, str], _Channel] = {}
         self._repeats: dict[str, Repeats] = {}
-        self._nominal = nominal_values(train)
-        self._usual: dict[tuple[str, str], float] = {}
-        self._rows: dict[str, int] = {}
-        self._first = {name: _First() for name in CHANNELS}
-        self._pulses: dict[tuple[str, str], Pulses] = {}
 
     def judge(self, time: Array, columns: Mapping[str, Array], sender: str) -> dict[str, Array]:
         """Judge readings of a sender.
 
         Args:
             time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where one is missing.
+            columns: readings in SI by channel, (n, count) each; NaN where one is missing.
             sender: name of the sender.
 
         Returns:
@@ -128,27 +139,24 @@ class ReadingCheck:
         """
         rows = self._rows.get(sender, 0) + np.arange(1.0, len(time) + 1.0)
         self._rows[sender] = self._rows.get(sender, 0) + len(time)
-        kept, self.stopped = {}, []
-        for name, given in columns.items():
-            values = np.array(given, dtype=float)
+        kept = {name: np.array(given, dtype=float) for name, given in columns.items()}
+        self.stopped = []
+        if not len(time):
+            return kept
+        for name, values in kept.items():
             values[np.isinf(values)] = math.nan
-            self._omit(name, CODE, self._codes(name, sender, values), (time, values, rows))
-            self._omit(name, *self._beyond(name, time, values), (time, values, rows))
-            if name.endswith("speed"):
-                least = MOVING * self._nominal[name]
-                pulses = self._pulses.setdefault((sender, name), Pulses(least))
-                for reason, which in pulses.judge(time, values, rows).items():
-                    self._omit(name, reason, which, (time, values, rows))
-                for stamps, numbers in pulses.stops:
-                    self.stops.add(name, STOPS, stamps, np.zeros(len(stamps)), numbers)
-                    self.stopped.append((name, numbers.astype(np.int64)))
-            kept[name] = values
-        if set(TORQUES) <= set(kept) and len(time):
-            repeats = self._repeats.setdefault(sender, Repeats(self._changed, self._ratio))
-            torques = kept[TORQUES[0]], kept[TORQUES[1]]
-            stuck = repeats.judge(torques[0][:, None], torques[1][:, None])
+            read, channel = (time, values, rows), self._channel(sender, name)
+            self._omit(name, CODE, channel.codes(values), read)
+            beyond, late = channel.beyond(time, values, self._within)
+            self._omit(name, f"it exceeds {channel.allowed.limit}", beyond, read)
+            if late:
+                _conclude(channel)
+            if channel.sensor.quantity == "speed" and self._count == 1:  # rows of fleets are slow
+                self._judge_pulses(channel, read)
+        if set(TORQUES) <= set(kept):
+            stuck = self._repeats_of(sender).judge(*(kept[name] for name in TORQUES))
             for name, which in zip(TORQUES, stuck, strict=True):
-                self._omit(name, STUCK, which[:, 0], (time, kept[name], rows))
+                self._omit(name, STUCK, which, (time, kept[name], rows))
         return kept
 
     def finish(self) -> None:
@@ -157,56 +165,50 @@ class ReadingCheck:
         Raises:
             InputError: see `judge`.
         """
-        for name in CHANNELS:
-            self._conclude(name)
+        for channel in self._channels.values():
+            _conclude(channel)
 
-    def _omit(
-        self, name: str, reason: str, which: NDArray[np.bool_], read: tuple[Array, Array, Array]
-    ) -> None:
+    def refusals(self) -> dict[int, str]:
+        """A line for each gearbox with a channel most of whose readings since the last call were
+        beyond the limits of the scene."""
+        return dict(
+            one for channel in self._channels.values() for one in channel.refusals().items()
+        )
+
+    def _channel(self, sender: str, name: str) -> _Channel:
+        if (sender, name) not in self._channels:
+            scale = self._sensors.scale.get(name, 1.0)
+            channel = _Channel(SENSORS[name], self._train, scale, self._count)
+            self._channels[sender, name] = channel
+        return self._channels[sender, name]
+
+    def _repeats_of(self, sender: str) -> Repeats:
+        if sender not in self._repeats:
+            change = torque_change(self._sensors, self._train)
+            self._repeats[sender] = Repeats(change, self._train.ratio, self._count)
+        return self._repeats[sender]
+
+    def _judge_pulses(self, channel: _Channel, read: tuple[Array, Array, Array]) -> None:
+        """Leave out speeds with extra or lost pulses, and name stops that no shaft makes."""
+        (time, values, rows), name = read, channel.sensor.name
+        for reason, which in channel.pulses.judge(time, values[:, 0], rows).items():
+            self._omit(name, reason, which[:, None], read)
+        for stamps, numbers in channel.pulses.stops:
+            self.stops.add(name, STOPS, stamps, np.zeros(len(stamps)), numbers)
+            self.stopped.append((name, numbers.astype(np.int64)))
+
+    def _omit(self, name: str, reason: str, which: Mask, read: tuple[Array, Array, Array]) -> None:
         time, values, rows = read
-        which &= np.isfinite(time)
-        if which.any():
-            self.left_out.add(name, reason, time[which], values[which], rows[which])
-            values[which] = math.nan
+        which = which & np.isfinite(time)[:, None]
+        for n in np.flatnonzero(which.any(axis=0)):
+            wrong = which[:, n]
+            self.left_out[n].add(name, reason, time[wrong], values[wrong, n], rows[wrong])
+        values[which] = math.nan
 
-    def _codes(self, name: str, sender: str, values: Array) -> NDArray[np.bool_]:
-        """Which readings are codes."""
-        equal = equals_code(name, values / self._scale.get(name, 1.0))
-        usual = np.isfinite(values) & ~equal
-        last = np.maximum.accumulate(np.where(usual, np.arange(len(values)), -1))
-        found = equal
-        if equal.any():
-            before = self._usual.get((sender, name), math.nan)
-            known = np.where(last >= 0, values[last], before)
-            nominal = np.copysign(self._nominal[name], values)
-            found = equal & leaps(values, np.where(np.isnan(known), nominal, known))
-        if len(last) and last[-1] >= 0:
-            self._usual[sender, name] = float(values[last[-1]])
-        return found
 
-    def _beyond(self, name: str, time: Array, values: Array) -> tuple[str, NDArray[np.bool_]]:
-        """Why and which readings are beyond the limits of the scene."""
-        allowed, first = self._ranges[name], self._first[name]
-        found = beyond(values, allowed)
-        if not first.done:
-            least = {"torque": LOADED, "speed": MOVING}.get(name.split("_")[1], 0.0)
-            shown = np.isfinite(time) & (np.abs(values) > least * self._nominal[name])
-            for k in np.flatnonzero(shown):
-                first.begin = float(time[k]) if math.isnan(first.begin) else first.begin
-                if time[k] >= first.begin + CHECKED:
-                    self._conclude(name)
-                    break
-                if found[k]:
-                    first.impossible.append(float(values[k]))
-                else:
-                    first.possible += 1
-        return limit_text(name, allowed), found
-
-    def _conclude(self, name: str) -> None:
-        """Refuse a channel most of whose first readings are impossible."""
-        allowed, first = self._ranges[name], self._first[name]
-        first.done = True
-        if len(first.impossible) <= first.possible:
-            return
-        total = len(first.impossible) + first.possible
-        raise InputError(impossible_text(name, allowed, np.array(first.impossible), total))
+def _conclude(channel: _Channel) -> None:
+    """Refuse a channel most of whose first readings are impossible."""
+    if not channel.concluded:
+        channel.concluded = True
+        for line in channel.refusals().values():
+            raise InputError(line)

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ..scene.quantity import Section, quantity
 from ..scene.yaml_file import read_section
-from .bins import CHANNELS
+from .channels.all import CHANNELS
 from .train import FollowedTrain
 
 FULL_SCALE = 1.6  # default full scale over the torque of the operating point

@@ -14,11 +14,11 @@ from ..scene import Scene
 from .baseline import Baseline, LearnedCell
 from .baseline_file import TeethBaseline
 from .changed_teeth import ChangedTeeth, JudgedBlock, ToothState
-from .checks import InputError
 from .compliance import Compliance
 from .encoder_check import EncoderCheck
 from .estimate import Estimate, Event
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
+from .input_error import InputError
 from .signatures import signatures
 from .tooth_scores import Bank
 from .tooth_search import ALARM, Residual, find_teeth

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .baseline_file import VibrationBaseline
-from .checks import InputError
 from .estimate import Event
 from .hunting_samples import HuntingPeriod, HuntingSamples, SampleCounters
+from .input_error import InputError
+from .sample_check import VibrationCheck
 from .train import FollowedTrain
 from .turning import Turning
 from .vibration_growth import CELL, WINDOWS, JudgedPeriod, LearnedBaseline, VibrationGrowth
@@ -25,19 +25,6 @@ PRESENT = 0.99  # share of the samples of a hunting period, below which it is no
 STEADY = 0.02  # relative standard deviation of the speed, above which the period is not used
 DOUBTFUL = 0.05  # share of the hunting periods that are not judged, above which there is a remark
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
-
-
-class VibrationSamples(NamedTuple):
-    """Samples of vibration in the order of their arrival."""
-
-    time: Array
-    """Stamps [s], (n,)."""
-    values: Array
-    """Samples in the units of the channels, (n, channels)."""
-    names: tuple[str, ...]
-    """Names of the channels."""
-    period: float
-    """Sample period [s]."""
 
 
 @dataclass
@@ -76,6 +63,7 @@ class VibrationFollower:
         self._samples = HuntingSamples(train, period, self.counters)
         self._growth = VibrationGrowth(names, self._amplitudes.patterns, learning)
         self._constant: set[str] = set()  # channels
+        self._check = VibrationCheck(names)
         self._highest = math.inf  # mesh order that the samples resolve, in the last hunting period
 
     @property
@@ -130,7 +118,7 @@ class VibrationFollower:
             time: stamps [s], (n,).
             values: samples in the units of the channels, (n, channels).
         """
-        self._samples.add(time, values)
+        self._samples.add(time, self._check.judge(time, values))
 
     def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
         """Judge the hunting periods that end by a time.
@@ -185,6 +173,7 @@ class VibrationFollower:
 
     def remarks(self) -> Iterator[str]:
         """Reasons why the results are less certain, or why there are none, one line each."""
+        yield from self._check.remarks()
         yield from self._learning_remarks()
         counted = self.counters
         complete = counted.periods + counted.dropped_periods

@@ -6,18 +6,14 @@ leaves a step of the shaft beside the range is a wrap, and not a loss of counts.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
 
-from .plausibility import SPEED
+from .sample_check import ENCODERS as NAMES
+from .sample_check import CountCheck
 from .train import FollowedTrain
 from .transmission_error import Counts
-
-RANGES = 2 ** np.arange(8, 49)
-"""Ranges of counters, beside the counts of a turn."""
-NAMES = "input_counts", "output_counts"
 
 
 class WholeTurns:
@@ -32,10 +28,7 @@ class WholeTurns:
     def __init__(
         self, train: FollowedTrain, counts_per_turn: tuple[int, int], period: float
     ) -> None:
-        fastest = SPEED * train.speed_limit / (2.0 * math.pi) * period  # turns of the input
-        self._steps = np.ceil(
-            [fastest * counts_per_turn[0], fastest * abs(train.ratio) * counts_per_turn[1]]
-        ).astype(np.int64)  # largest steps in a period
+        self._check = CountCheck(train, counts_per_turn, period)
         self._counts_per_turn, self._period = counts_per_turn, period
         self._last: tuple[int, Counts] | None = None  # number and counts of the last sample
         self._span: tuple[Counts, Counts] | None = None  # smallest and largest counts
@@ -43,7 +36,7 @@ class WholeTurns:
         self._range = [0, 0]  # of a counter that has wrapped
         self._wraps: list[list[float]] = [[], []]  # number, and time of the first [s]
 
-    def add(self, sample: Counts, counts: Counts) -> Counts:
+    def add(self, sample: Counts, counts: Counts) -> tuple[Counts, Counts]:
         """Add samples in the order of their arrival.
 
         Args:
@@ -51,10 +44,12 @@ class WholeTurns:
             counts: counts of both encoders, (n, 2).
 
         Returns:
-            The counts with whole turns, (n, 2).
+            The sound samples: their numbers, (m,), and counts with whole turns, (m, 2).
         """
+        sound = self._check.judge(sample, counts)
+        sample, counts = sample[sound], counts[sound]
         if not len(sample):
-            return counts
+            return sample, counts
         before = (int(sample[0]), counts[0]) if self._last is None else self._last
         number = np.concatenate([[before[0]], sample])
         read = np.concatenate([before[1][None], counts])
@@ -71,10 +66,11 @@ class WholeTurns:
         )  # fmt: skip
         offset = self._offset + np.cumsum(added, axis=0)
         self._offset = offset[-1]
-        return counts + offset
+        return sample, counts + offset
 
     def remarks(self) -> Iterator[str]:
-        """A line for each encoder whose counter wraps."""
+        """A line for each encoder whose counter wraps, or whose counts leapt."""
+        yield from self._check.remarks()
         for name, size, turn, wraps in zip(
             NAMES, self._range, self._counts_per_turn, self._wraps, strict=True
         ):
@@ -88,7 +84,7 @@ class WholeTurns:
     def _added(self, k: int, number: Counts, read: Counts, span: int) -> Counts:
         """What the wraps of an encoder add at each sample, (n,)."""
         step = np.diff(read)
-        reach = self._steps[k] * np.maximum(np.abs(np.diff(number)), 1)
+        reach = self._check.reach[k] * np.maximum(np.abs(np.diff(number)), 1)
         added = np.zeros(len(step), dtype=np.int64)
         for n in np.flatnonzero(np.abs(step) > reach):
             size = self._range[k] or self._range_of(k, abs(int(step[n])), int(reach[n]))
@@ -103,6 +99,6 @@ class WholeTurns:
 
     def _range_of(self, k: int, jump: int, reach: int) -> int:
         """Range of a counter that jumps so far; 0 if it is none."""
-        sizes = np.append(RANGES, self._counts_per_turn[k])
+        sizes = self._check.sizes[k]
         nearest = int(sizes[np.argmin(np.abs(sizes - jump))])
         return nearest if abs(nearest - jump) <= reach else 0

@@ -3,58 +3,44 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .chunk import Array, Chunk
 from .hidden import EncoderErrors
-from .packets import chunks, received
 from .pattern import course_of
 from .readings import Plant
 
-Array = NDArray[np.float64]
 
-
-class EncoderCounts(NamedTuple):
-    """Successive samples of both encoders."""
-
-    sample: NDArray[np.int64]
-    """Numbers of the samples, (n,); sample 0 is taken at time 0."""
-    counts: NDArray[np.int64]
-    """Counts of input and output since time 0, (n, 2)."""
-
-
-def simulate_encoders(plant: Plant) -> Iterator[EncoderCounts]:
-    """Simulate the encoders of a plant, in packets of which some are lost.
+def encoders(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk], NDArray[np.int64]]:
+    """Make the function that reads both encoders.
 
     Args:
-        plant: the plant; `hidden.sensors.encoders.rate` must not be 0.
+        plant: the plant.
+        chance: random number generator.
 
     Returns:
-        Counts of several packets at a time.
+        Function of some samples that returns the counts of input and output since time 0, (n, 2).
     """
-    train = plant.train
-    errors = plant.hidden.sensors.encoders
-    chance = np.random.default_rng([plant.hidden.seed, 2])
-    phases = chance.uniform(0.0, 2.0 * math.pi, 4)
-    for sample, time, angle, torque, cycles in chunks(plant, errors.rate):
-        twist = course_of(plant.error_stages, time, cycles, torque) / train.lever
-        output = (float(train.twist[0]) * angle - twist) / float(train.twist[1])
-        delay = errors.delay + errors.jitter * chance.standard_normal(len(time))
-        read = output + train.ratio * plant.course.speed_at(time) * delay
-        orders = float(train.cycles), float(train.cycles) / train.ratio
-        columns = [
-            _counts(value, order, errors, phases[2 * k : 2 * k + 2], chance)
-            for k, (value, order) in enumerate(zip((angle, read), orders, strict=True))
-        ]
-        delivered = received(sample, errors.packet, errors.lost, chance)
-        yield EncoderCounts(sample[delivered], np.stack(columns, axis=1)[delivered])
+    train, errors = plant.train, plant.hidden.sensors.encoders
+    orders = float(train.cycles), float(train.cycles) / train.ratio
+    phases = chance.uniform(0.0, 2.0 * math.pi, (2, 2))
+
+    def read(chunk: Chunk) -> NDArray[np.int64]:
+        twist = course_of(plant.error_stages, chunk.time, chunk.cycles, chunk.torque) / train.lever
+        output = (float(train.twist[0]) * chunk.angle - twist) / float(train.twist[1])
+        delay = errors.delay + errors.jitter * chance.standard_normal(len(chunk.time))
+        late = output + train.ratio * plant.course.speed_at(chunk.time) * delay
+        ends = zip((chunk.angle, late), orders, phases, strict=True)
+        return np.stack([_counts(*end, errors, chance) for end in ends], axis=1)
+
+    return read
 
 
 def _counts(
-    angle: Array, order: float, errors: EncoderErrors, phases: Array, chance: np.random.Generator
+    angle: Array, order: float, phases: Array, errors: EncoderErrors, chance: np.random.Generator
 ) -> NDArray[np.int64]:
     """Counts of one encoder."""
     reading = angle + errors.long_wave * np.sin(angle + phases[0])

@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from ..following.channels.sensor import ErrorModel
 from ..scene import Scene, SceneError
 from ..scene.faults import MOST_FAULTS, Fault
 from ..scene.quantity import Section, listed, quantity
@@ -67,6 +68,11 @@ class TorqueErrors(Section):
     noise: float = quantity("N m", "standard deviation of a reading", 0.0, ge=0.0, le=1e6)
     zero: float = quantity("N m", "error of the zero", 0.0, ge=-1e6, le=1e6)
     gain: float = quantity("", "relative error of the gain", 0.0, gt=-1.0, le=1.0)
+
+    @property
+    def errors(self) -> ErrorModel:
+        """The errors as they act on readings."""
+        return ErrorModel(self.noise, self.zero, self.gain)
 
 
 class EncoderErrors(Section):

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..following.channels.sensor import ErrorModel
 from ..following.loss_map import loss_map
 from ..following.train import FollowedTrain, followed_train
 from ..scene import Scene
@@ -113,15 +114,14 @@ def simulate_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
               - course.torque_at(output_time)) / train.ratio  # fmt: skip
     chance = np.random.default_rng([plant.hidden.seed, 1])
     at_input, at_output = sensors.input_torque, sensors.output_torque
+    tachometer = ErrorModel(sensors.speed_noise, 0.0, 0.0)
     zero = plant.at("torque_zero", time, at_input.zero)
     noise = chance.standard_normal((4, len(time)))
     columns = {
-        "input_torque": driving * (1.0 + at_input.gain) + zero + at_input.noise * noise[0],
-        "output_torque": driven * (1.0 + at_output.gain)
-        + at_output.zero
-        + at_output.noise * noise[1],
-        "input_speed": speed + sensors.speed_noise * noise[2],
-        "output_speed": train.ratio * speed + sensors.speed_noise * noise[3],
+        "input_torque": at_input.errors._replace(zero=0.0).reading(driving, noise[0]) + zero,
+        "output_torque": at_output.errors.reading(driven, noise[1]),
+        "input_speed": tachometer.reading(speed, noise[2]),
+        "output_speed": tachometer.reading(train.ratio * speed, noise[3]),
     }
     for name, values in columns.items():
         if name.endswith("torque"):

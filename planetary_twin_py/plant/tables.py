@@ -4,26 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..following.bins import CHANNELS
-from ..following.measured_tables import COUNTS, SAMPLE
-from ..recording.tables.message_tables import Column
-from ..recording.tables.table_files import FORMATS
-from .encoders import simulate_encoders
+from ..following.channels.all import CHANNELS
+from ..following.channels.encoders import SAMPLE
+from ..recording.tables.message_tables import Batch
+from ..recording.tables.table_files import write_batches
 from .readings import Plant, simulate_readings
-from .vibration import NAME, simulate_vibration
+from .sampled import SAMPLED, Samples, simulate_samples
 
 
 class PlantTable(NamedTuple):
     """A table of measurements, computed while it is written."""
 
-    columns: list[Column]
-    batches: Iterator[dict[str, NDArray[Any]]]
-    """Values by column, (n,) each."""
+    units: dict[str, str]
+    """Unit by column."""
+    batches: Iterator[Batch]
 
 
 def readings_table(plant: Plant) -> PlantTable:
@@ -33,38 +29,25 @@ def readings_table(plant: Plant) -> PlantTable:
         plant: the plant.
     """
     time, readings = simulate_readings(plant)
-    batch = {"time": time, **readings}
-    units = {"time": "s", **CHANNELS}
-    columns = [Column(name, units[name], np.dtype(float)) for name in batch]
-    return PlantTable(columns, iter([batch]))
+    return PlantTable({"time": "s", **CHANNELS}, iter([{"time": time, **readings}]))
 
 
-def encoders_table(plant: Plant) -> PlantTable:
-    """Samples of both encoders.
+def samples_table(plant: Plant, name: str) -> PlantTable:
+    """Samples of a sensor: those of counts with their numbers, others with their times.
 
     Args:
-        plant: the plant; it has encoders.
+        plant: the plant; the rate of the sensor is not 0.
+        name: name of the sensor in `SAMPLED`.
     """
-    names = SAMPLE, *COUNTS
-    batches = (
-        dict(zip(names, (sample, *counts.T), strict=True))
-        for sample, counts in simulate_encoders(plant)
-    )
-    return PlantTable([Column(name, "", np.dtype(np.int64)) for name in names], batches)
+    units, rate = SAMPLED[name].units, getattr(plant.hidden.sensors, name).rate
+    numbered = not any(units.values())
 
+    def batch(samples: Samples) -> Batch:
+        place = {SAMPLE: samples.sample} if numbered else {"time": samples.sample / rate}
+        return place | dict(zip(units, samples.values.T, strict=True))
 
-def vibration_table(plant: Plant) -> PlantTable:
-    """Samples of the accelerometer.
-
-    Args:
-        plant: the plant; it has an accelerometer.
-    """
-    rate, units = plant.hidden.sensors.vibration.rate, {"time": "s", NAME: "m/s^2"}
-    batches = (
-        {"time": packet.sample / rate, NAME: packet.values} for packet in simulate_vibration(plant)
-    )
-    columns = [Column(name, unit, np.dtype(float)) for name, unit in units.items()]
-    return PlantTable(columns, batches)
+    first = {SAMPLE: ""} if numbered else {"time": "s"}
+    return PlantTable(first | units, map(batch, simulate_samples(plant, name)))
 
 
 def write_table(table: PlantTable, path: Path) -> int:
@@ -81,12 +64,4 @@ def write_table(table: PlantTable, path: Path) -> int:
         ValueError: the format is unknown, or the scene cannot be simulated.
         OSError: the file cannot be written.
     """
-    kind = path.suffix.removeprefix(".")
-    if kind not in FORMATS:
-        raise ValueError(f"{path}: must end in {', '.join('.' + name for name in FORMATS)}")
-    file, rows = FORMATS[kind](path, table.columns), 0
-    for batch in table.batches:
-        file.write(batch)
-        rows += len(next(iter(batch.values())))
-    file.close()
-    return rows
+    return write_batches(path, table.units, table.batches)

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
-import numpy as np
 from numpy.typing import NDArray
 
-from .encoders import simulate_encoders
+from ..following.channels.all import OIL
 from .readings import Plant, simulate_readings
-from .vibration import simulate_vibration
+from .sampled import SAMPLED, packets
 
-Number = TypeVar("Number", bound=np.generic)
-WARMTH = "oil_temperature"
 EVERY = 1.0  # [s] between two readings of the oil temperature
 
 
@@ -38,29 +35,20 @@ class OilReading(NamedTuple):
     """[K]."""
 
 
-class CountPacket(NamedTuple):
-    """Successive samples of both encoders."""
+class Packet(NamedTuple):
+    """Successive samples of a sensor."""
 
     time: float
     """Time of the last sample [s]."""
+    sensor: str
+    """Its name in `SAMPLED`."""
     first: int
     """Number of the first sample; sample 0 is taken at time 0."""
-    counts: NDArray[np.int64]
-    """Counts of input and output since time 0, (n, 2)."""
+    values: NDArray[Any]
+    """Samples in the units of the channels, (n, channels)."""
 
 
-class AccelerationPacket(NamedTuple):
-    """Successive samples of an accelerometer."""
-
-    time: float
-    """Time of the last sample [s]."""
-    begin: float
-    """Time of the first sample [s]."""
-    values: NDArray[np.float64]
-    """Accelerations [m/s^2], (n,)."""
-
-
-Measured = ShaftReading | OilReading | CountPacket | AccelerationPacket
+Measured = ShaftReading | OilReading | Packet
 
 
 def timeline(plant: Plant) -> Iterator[Measured]:
@@ -70,23 +58,20 @@ def timeline(plant: Plant) -> Iterator[Measured]:
         plant: the plant.
 
     Returns:
-        Readings, and packets of encoder samples and accelerations, in the order of time.
+        Readings, and packets of samples, in the order of time.
 
     Raises:
         SceneError: the scene cannot be simulated.
     """
-    streams: list[Iterator[Measured]] = [_readings(plant)]
-    if plant.hidden.sensors.encoders.rate:
-        streams.append(_packets(plant))
-    if plant.hidden.sensors.vibration.rate:
-        streams.append(_accelerations(plant))
-    return heapq.merge(*streams, key=lambda measured: measured.time)
+    rates = {name: float(getattr(plant.hidden.sensors, name).rate) for name in SAMPLED}
+    streams = [_packets(plant, name, rate) for name, rate in rates.items() if rate]
+    return heapq.merge(_readings(plant), *streams, key=lambda measured: measured.time)
 
 
 def _readings(plant: Plant) -> Iterator[Measured]:
     """Readings of the shafts, and of the oil once a second."""
     times, columns = simulate_readings(plant)
-    oil = columns.pop(WARMTH)
+    oil = columns.pop(OIL)
     ratio = plant.train.ratio
     due = 0.0
     for n, time in enumerate(times.tolist()):
@@ -98,28 +83,7 @@ def _readings(plant: Plant) -> Iterator[Measured]:
             yield OilReading(time, float(oil[n]))
 
 
-def _packets(plant: Plant) -> Iterator[Measured]:
-    """Packets of encoder samples, without the lost ones."""
-    errors = plant.hidden.sensors.encoders
-    for chunk in simulate_encoders(plant):
-        for sample, counts in _cut(chunk.sample, chunk.counts, errors.packet):
-            yield CountPacket(float(sample[-1]) / errors.rate, int(sample[0]), counts)
-
-
-def _accelerations(plant: Plant) -> Iterator[Measured]:
-    """Packets of accelerations, without the lost ones."""
-    sensor = plant.hidden.sensors.vibration
-    for chunk in simulate_vibration(plant):
-        for sample, values in _cut(chunk.sample, chunk.values, sensor.packet):
-            first, last = float(sample[0]), float(sample[-1])
-            yield AccelerationPacket(last / sensor.rate, first / sensor.rate, values)
-
-
-def _cut(
-    sample: NDArray[np.int64], values: NDArray[Number], packet: int
-) -> Iterator[tuple[NDArray[np.int64], NDArray[Number]]]:
-    """Numbers and values of the samples of each packet."""
-    cuts = np.flatnonzero(np.diff(sample // packet)) + 1
-    for numbers, part in zip(np.split(sample, cuts), np.split(values, cuts), strict=True):
-        if len(numbers):
-            yield numbers, part
+def _packets(plant: Plant, name: str, rate: float) -> Iterator[Measured]:
+    """Packets of a sensor, without the lost ones."""
+    for sample, values in packets(plant, name):
+        yield Packet(float(sample[-1]) / rate, name, int(sample[0]), values)

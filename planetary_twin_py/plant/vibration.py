@@ -8,58 +8,46 @@ sampling removes what the sample rate does not resolve.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .chunk import Array, Chunk
 from .hidden import Accelerometer
-from .packets import chunks, received
 from .pattern import POINTS, Pattern, course_of
 from .readings import Plant
-
-Array = NDArray[np.float64]
 
 NAME = "acceleration"
 RESOLVED = 0.4  # share of the sample rate that the filter passes
 
 
-class Acceleration(NamedTuple):
-    """Successive samples of an accelerometer."""
-
-    sample: NDArray[np.int64]
-    """Numbers of the samples, (n,); sample 0 is taken at time 0."""
-    values: Array
-    """Accelerations [m/s^2], (n,)."""
-
-
-def simulate_vibration(plant: Plant) -> Iterator[Acceleration]:
-    """Simulate the accelerometer of a plant, in packets of which some are lost.
+def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk], Array]:
+    """Make the function that reads the accelerometer.
 
     Args:
-        plant: the plant; `hidden.sensors.vibration.rate` must not be 0.
+        plant: the plant.
+        chance: random number generator.
 
     Returns:
-        Samples of several packets at a time.
-
-    Raises:
-        SceneError: the scene cannot be simulated.
+        Function of some samples that returns accelerations [m/s^2], (n, 1).
     """
     sensor, train = plant.hidden.sensors.vibration, plant.train
-    chance = np.random.default_rng([plant.hidden.seed, 3])
     per_turn = abs(float(train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian of the input
     highest = RESOLVED * sensor.rate / (per_turn * train.speed)
     path = _path(sensor, highest, chance)
     stages = tuple(
         stage._replace(pattern=_curvature(stage.pattern, path)) for stage in plant.error_stages
     )
-    for sample, time, _, torque, cycles in chunks(plant, sensor.rate):
-        curvature = course_of(stages, time, cycles, torque)
-        values = curvature * (per_turn * plant.course.speed_at(time)) ** 2
-        values += sensor.noise * chance.standard_normal(len(time))
-        delivered = received(sample, sensor.packet, sensor.lost, chance)
-        yield Acceleration(sample[delivered], values[delivered])
+
+    def read(chunk: Chunk) -> Array:
+        curvature = course_of(stages, chunk.time, chunk.cycles, chunk.torque)
+        values = curvature * (per_turn * plant.course.speed_at(chunk.time)) ** 2
+        values += sensor.noise * chance.standard_normal(len(chunk.time))
+        return values[:, None]
+
+    return read
 
 
 def _path(sensor: Accelerometer, highest: float, chance: np.random.Generator) -> NDArray[Any]:

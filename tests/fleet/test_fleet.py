@@ -187,3 +187,22 @@ def test_impossible_readings_are_left_out_and_change_nothing(channel, value):
     (line,) = fleet.remarks(1)
     assert line.startswith(f"{channel}: left out, because ")
     assert "from 201.00 to 220.00 s (20 readings, rows 201 to 220)" in line
+
+
+@pytest.mark.parametrize(
+    ("channel", "value"),
+    [("output_torque", 16777215.0), ("input_speed", 9.9e37), ("oil_temperature", 273.15)],
+)
+def test_a_gearbox_is_judged_again_after_a_long_outage(channel, value):
+    played, fleet = Played(3, 12), Fleet(paper(), 3)
+    for time in range(1, 401):
+        row = played.row(float(time))
+        if 30 < time <= 250:
+            row[channel][1] = value
+        fleet.add(float(time), row)
+        if time == 210 and channel != "oil_temperature":
+            assert list(fleet.faults) == [1]
+    fleet.finish()
+    assert not fleet.events and not fleet.faults and fleet.fits.all()
+    assert np.isfinite(fleet.estimate("friction_level").value).all()
+    assert "(220 readings, rows 31 to 250)" in fleet.remarks(1)[0]

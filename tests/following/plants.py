@@ -8,9 +8,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.following.balance import BalanceFollower
 from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.teeth import TeethFollower
-from planetary_twin_py.plant.encoders import simulate_encoders
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
+from planetary_twin_py.plant.sampled import simulate_samples
 
 RATE, COUNTS = 20_000.0, 2**20
 LAWS = {  # of plants; the follower has the first
@@ -94,8 +94,8 @@ def hunted(laws, changes, duration, seed=0, encoders=None, wander=0.02):
         true = plant.course.torque_at(np.linspace(begin, end, 50)).mean()
         return float(true) + 0.011 * noise.standard_normal()
 
-    for packets in simulate_encoders(plant):
-        follower.add(packets.sample, packets.counts)
+    for packets in simulate_samples(plant, "encoders"):
+        follower.add(packets.sample, packets.values)
         blocks = follower.blocks
         follower.judge(np.inf, torque)
         if follower.blocks != blocks:

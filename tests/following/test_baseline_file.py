@@ -10,14 +10,15 @@ from following.test_vibration import NAMES, readings_of, signals
 from following.test_vibration import RATE as SAMPLED
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.checks import InputError
-from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
+from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
+from planetary_twin_py.following.channels.vibration import VibrationSamples
+from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.following.vibration import VibrationSamples
-from planetary_twin_py.plant.encoders import simulate_encoders
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
+from planetary_twin_py.plant.sampled import simulate_samples
 
 pytestmark = pytest.mark.slow
 SCENE = pt.load_scene("paper")
@@ -37,7 +38,7 @@ def played():
                     "output_torque": {"noise": 0.25}, "speed_noise": 0.02},
     }  # fmt: skip
     plant = Plant(SCENE, Hidden.model_validate(hidden), 17.5)
-    samples = [EncoderSamples(*one, FORMAT) for one in simulate_encoders(plant)]
+    samples = [EncoderSamples(*one, FORMAT) for one in simulate_samples(plant, "encoders")]
     return *simulate_readings(plant), samples
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.encoder_check import EncoderCheck
+from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.teeth import TeethFollower
 from planetary_twin_py.following.train import followed_train
 

@@ -5,8 +5,9 @@ import pytest
 from following.plants import COUNTS, RATE, paper
 from tiers import first, first_rows
 
-from planetary_twin_py.following.checks import InputError
-from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
+from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
+from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.train import followed_train
 
 TRAIN = followed_train(paper())

@@ -5,10 +5,11 @@ import pytest
 from following.plants import COUNTS, RATE, crack, paper, played, torque_errors
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
-from planetary_twin_py.plant.encoders import simulate_encoders
+from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
+from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
+from planetary_twin_py.plant.sampled import simulate_samples
 
 FORMAT = EncoderFormat((COUNTS, COUNTS), 1.0 / RATE)
 
@@ -21,7 +22,7 @@ def machine():
          "changes": [{"at": 11.0, "faults": [crack("sun", 3, 0.05)], "friction": 1.5}]}
     )  # fmt: skip
     plant = Plant(pt.load_scene("paper"), hidden, 16.0)
-    packets = list(simulate_encoders(plant))
+    packets = list(simulate_samples(plant, "encoders"))
     samples = EncoderSamples(*(np.concatenate(part) for part in zip(*packets, strict=True)))
     return plant.scene, Readings(*simulate_readings(plant)), samples
 

@@ -8,8 +8,9 @@ from following.test_hunting_blocks import RATE as FAST
 from following.test_hunting_blocks import TRAIN, N, counts_of, wave
 
 import planetary_twin_py as pt
+from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
 from planetary_twin_py.following.clock_watch import ClockWatch
-from planetary_twin_py.following.follower import EncoderFormat, EncoderSamples, Follower, Readings
+from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.hunting_blocks import BINS, MARGIN, MOST, HuntingBlocks
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.vibration import VibrationFollower

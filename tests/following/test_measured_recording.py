@@ -6,15 +6,11 @@ import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
 
-from planetary_twin_py.following.checks import InputError
-from planetary_twin_py.following.follower import EncoderFormat
-from planetary_twin_py.following.measured_messages import (
-    ENCODERS,
-    VIBRATION,
-    Arrived,
-    MessageReader,
-)
+from planetary_twin_py.following.channels.encoders import EncoderFormat
+from planetary_twin_py.following.input_error import InputError
+from planetary_twin_py.following.measured_messages import Arrived, MessageReader
 from planetary_twin_py.following.measured_recording import read_recording
+from planetary_twin_py.following.message_types import ENCODERS, VIBRATION
 from planetary_twin_py.following.sensors import JointNames
 
 HEADER = """

@@ -9,7 +9,9 @@ from pyarrow import parquet
 from scipy.io import savemat
 
 from planetary_twin_py.fleet.tables import read_fleet
-from planetary_twin_py.following.measured_tables import read_encoders, read_readings, read_vibration
+from planetary_twin_py.following.channels.encoders import read_encoders
+from planetary_twin_py.following.channels.vibration import read_vibration
+from planetary_twin_py.following.measured_tables import read_readings
 from planetary_twin_py.following.sensors import read_sensors
 from planetary_twin_py.plant.hidden import read_hidden
 from planetary_twin_py.recording.tables.measurements import read_measurements

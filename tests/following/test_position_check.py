@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.position_check import PositionCheck
 
 TURN = 2.0 * math.pi

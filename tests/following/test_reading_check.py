@@ -27,12 +27,12 @@ def steady(channel):
 def judged(channel, values, split=1, scale=None):
     check = ReadingCheck(TRAIN, Sensors(scale=scale or {}))
     parts = [
-        check.judge(time, {channel: part}, "rig")[channel]
+        check.judge(time, {channel: part[:, None]}, "rig")[channel][:, 0]
         for time, part in zip(
             np.array_split(TIME, split), np.array_split(values, split), strict=True
         )
     ]
-    return np.concatenate(parts), list(check.left_out.remarks())
+    return np.concatenate(parts), list(check.left_out[0].remarks())
 
 
 @pytest.mark.parametrize(
@@ -41,6 +41,7 @@ def judged(channel, values, split=1, scale=None):
         ("input_torque", -999.0), ("input_torque", 32767.0), ("input_torque", 9.9e37),
         ("input_torque", -5000.0), ("input_torque", -9999e3), ("input_speed", -9999.0 / RPM),
         ("input_speed", 65535.0), ("oil_temperature", -9999.0 + 273.15), ("oil_temperature", 0.0),
+        ("oil_temperature", 273.15),
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("split", [1, 7])
@@ -84,8 +85,8 @@ def test_a_speed_that_is_zero_between_equal_readings_is_named(split):
     speed[(TIME > 8.0) & (TIME <= 8.5)] = 0.0
     check = ReadingCheck(TRAIN, Sensors())
     for time, part in zip(np.array_split(TIME, split), np.array_split(speed, split), strict=True):
-        kept = check.judge(time, {"input_speed": part}, "rig")["input_speed"]
-        assert np.array_equal(kept, part)  # earlier rows have been passed on as standstill
+        kept = check.judge(time, {"input_speed": part[:, None]}, "rig")["input_speed"]
+        assert np.array_equal(kept[:, 0], part)  # earlier rows have been passed on as standstill
     (line,) = check.stops.remarks("not used")
     assert line.startswith("input_speed: not used, because it leaps to 0 and back")
     assert "0 rad/s from 8.01 to 8.50 s (50 readings, rows 801 to 850)" in line
@@ -103,7 +104,8 @@ def test_a_speed_that_is_zero_between_equal_readings_is_named(split):
 )
 def test_a_stop_of_the_machine_is_not_taken_for_a_lost_signal(factor):
     check = ReadingCheck(TRAIN, Sensors())
-    check.judge(TIME, {"input_speed": steady("input_speed") * factor}, "rig")
+    speed = steady("input_speed") * factor
+    check.judge(TIME, {"input_speed": speed[:, None]}, "rig")
     assert not list(check.stops.remarks())
 
 
@@ -122,8 +124,9 @@ def paired(input_torque, split):
     load = 63.0 + 5.0 * np.sin(TIME)
     columns = {"input_torque": input_torque(load + 0.1 * noise), "output_torque": 2.3 * load}
     for part in np.array_split(np.arange(len(TIME)), split):
-        check.judge(TIME[part], {name: values[part] for name, values in columns.items()}, "rig")
-    return list(check.left_out.remarks())
+        rows = {name: values[part, None] for name, values in columns.items()}
+        check.judge(TIME[part], rows, "rig")
+    return list(check.left_out[0].remarks())
 
 
 @pytest.mark.parametrize("split", [1, 11])

@@ -5,11 +5,12 @@ import pytest
 from following.plants import paper
 from tiers import first
 
+from planetary_twin_py.following.channels.vibration import VibrationSamples
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.play_back import play_back
+from planetary_twin_py.following.sample_check import VibrationCheck
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.following.vibration import VibrationSamples
 
 RATE = 4_000.0  # [Hz]
 TRAIN = followed_train(paper())
@@ -183,3 +184,25 @@ def test_what_is_judged_is_said_to_be_unchanged():
     state = followed(20.0)
     assert state.judged == {"torque balance": True, "vibration": True}
     assert state.unchanged == "no change found"
+
+
+@pytest.mark.parametrize("size", [1000, 17])
+@pytest.mark.parametrize("code", [-9999.0, 32767.0, 9.9e37])
+def test_codes_among_samples_are_left_out_and_named(code, size):
+    values = np.random.default_rng(0).standard_normal((3000, 2))
+    values[2000:2003, 1] = code
+    time, check = np.arange(3000) / 1e4, VibrationCheck(("a", "b"))
+    parts = [slice(k, k + size) for k in range(0, 3000, size)]
+    kept = np.concatenate([check.judge(time[part], values[part]) for part in parts])
+    assert list(np.flatnonzero(np.isnan(kept[:, 1]))) == [2000, 2001, 2002]
+    (line,) = check.remarks()
+    assert line.startswith("vibration: b: left out, because the value is a code")
+    assert f"{code:g} from 0.20 to 0.20 s (3 readings, rows 2001 to 2003)" in line
+
+
+def test_numbers_of_a_converter_that_pass_a_code_are_used():
+    counts = np.round(12_000.0 * np.random.default_rng(0).standard_normal((300_000, 1)))
+    counts = np.clip(counts, -32768.0, 32767.0)
+    assert np.isin(counts, [999.0, -999.0, 32767.0, -9999.0]).sum() > 100
+    check = VibrationCheck(("raw",))
+    assert np.array_equal(check.judge(np.arange(300_000) / 1e4, counts), counts)

@@ -6,9 +6,9 @@ from command_line import run
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.train import followed_train
-from planetary_twin_py.plant.encoders import simulate_encoders
 from planetary_twin_py.plant.hidden import Hidden, read_hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
+from planetary_twin_py.plant.sampled import simulate_samples
 
 SCENE = pt.load_scene("paper")
 STILL = {"torque_wander": 0.0, "speed_wander": 0.0}
@@ -74,8 +74,8 @@ def test_encoders_show_the_transmission_error_of_the_twin():
     perfect = {"bits": 30, "noise": 0.0, "long_wave": 0.0, "mesh_wave": 0.0, "delay": 0.0}
     hidden = {"duty": STILL, "sensors": {"encoders": {"rate": 20_000.0, **perfect}}}
     plant = Plant(SCENE, Hidden.model_validate(hidden), 0.1)
-    (packet,) = simulate_encoders(plant)
-    turned = packet.counts / 2.0**30 * 2.0 * np.pi
+    (packet,) = simulate_samples(plant, "encoders")
+    turned = packet.values / 2.0**30 * 2.0 * np.pi
     shown = turned[:, 0] + 7.0 / 3.0 * turned[:, 1]
     run = pt.simulate(SCENE, 0.1, 20_000.0, tolerance=1e-5, settling=1.0)
     sun, ring = (run.angle[:, run.bodies.index(body)] for body in ("sun", "ring"))
@@ -88,7 +88,7 @@ def test_encoders_show_the_transmission_error_of_the_twin():
 def test_lost_packets_and_quantisation_are_as_given():
     hidden = {"sensors": {"encoders": {"rate": 20_000.0, "bits": 12, "lost": 0.1}}}
     plant = Plant(SCENE, Hidden.model_validate(hidden), 5.0)
-    sample = np.concatenate([packet.sample for packet in simulate_encoders(plant)])
+    sample = np.concatenate([packet.sample for packet in simulate_samples(plant, "encoders")])
     assert 0.85 < len(sample) / 100_000 < 0.95
     assert set(np.diff(np.flatnonzero(np.diff(sample) > 1)) % 200) == {0}
 

@@ -5,11 +5,12 @@ import pytest
 from tiers import first
 
 import planetary_twin_py as pt
+from planetary_twin_py.following.channels.vibration import VibrationSamples
 from planetary_twin_py.following.follower import Follower, Readings
-from planetary_twin_py.following.vibration import VibrationSamples
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
-from planetary_twin_py.plant.vibration import NAME, simulate_vibration
+from planetary_twin_py.plant.sampled import simulate_samples
+from planetary_twin_py.plant.vibration import NAME
 
 RATE = 10_000.0  # [Hz]
 SCENE = pt.load_scene("paper")
@@ -32,8 +33,8 @@ def events(played):
     time, columns = simulate_readings(played)
     follower = Follower(SCENE)
     follower.add(Readings(time, columns))
-    for one in simulate_vibration(played):
-        samples = one.sample / RATE, one.values[:, None]
+    for one in simulate_samples(played, "vibration"):
+        samples = one.sample / RATE, one.values
         follower.add(VibrationSamples(*samples, (NAME,), 1.0 / RATE))
     follower.finish()
     return follower.estimate().events
@@ -46,7 +47,7 @@ def crack(loss, at=25.0):
 
 def test_lines_are_second_derivative_of_the_transmission_error():
     played = plant(1.68, STILL, noise=0.0, path=1.0)  # two hunting periods
-    values = np.concatenate([one.values for one in simulate_vibration(played)])
+    values = np.concatenate([one.values for one in simulate_samples(played, "vibration")])
     mesh = 500.0  # [Hz] of 30 teeth at 1000 rpm
     run = pt.simulate(SCENE, duration=0.84, sample_rate=40_000.0, tolerance=1e-5, settling=1.0)
     train = played.train
@@ -67,7 +68,7 @@ def test_lines_are_second_derivative_of_the_transmission_error():
 
 def test_lost_packets_leave_whole_packets():
     played = plant(10.0, STILL, lost=0.2, packet=100)
-    sample = np.concatenate([one.sample for one in simulate_vibration(played)])
+    sample = np.concatenate([one.sample for one in simulate_samples(played, "vibration")])
     numbers, counts = np.unique(sample // 100, return_counts=True)
     assert set(counts) == {100} and 0.7 < len(numbers) / 1000 < 0.9
 

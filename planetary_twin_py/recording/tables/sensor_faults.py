@@ -1,4 +1,6 @@
-"""Recognises a stuck sensor and a clipped signal by samples that are exactly equal.
+"""Recognises codes for missing samples, a stuck sensor and a clipped signal.
+
+The latter two show by samples that are exactly equal.
 
 Successive samples of a quantised signal are equal with a probability p that the signal itself
 shows. A run of L equal samples among n is chance with a probability of about n p^(L - 1). A signal
@@ -13,6 +15,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from .codes import far_codes
+
 Array = NDArray[np.float64]
 
 CHANCE = 1e-6  # probability of a run, below which it is no chance
@@ -24,13 +28,22 @@ CLIPPED = 3  # successive samples at an extreme value; a tone has two at most
 
 
 def fault_remarks(time: Array, samples: Array) -> Iterator[str]:
-    """A line for a run of constant samples, and for samples that pile up at an extreme value.
+    """A line for codes, a run of constant samples, and samples that pile up at an extreme value.
 
     Args:
         time: time stamps [s], (n,).
         samples: in any unit, (n,).
     """
     if len(samples) < FEWEST or np.ptp(samples) == 0.0:
+        return
+    codes, *_ = far_codes(samples[:, None], np.zeros(1), np.zeros(1))
+    if len(rows := np.flatnonzero(codes)):
+        first = rows[0]
+        yield (
+            f"{len(rows)} samples are codes for missing or saturated readings, the first is "
+            f"{samples[first]:.6g} at {time[first]:.6g} s: lines are wrong by them; select another "
+            "interval by --from and --to"
+        )
         return
     begins, lengths = _runs(samples)
     longest = int(lengths.argmax())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Protocol
@@ -123,6 +123,37 @@ class Npz:
 
 
 FORMATS: dict[str, Any] = {"parquet": Parquet, "csv": Csv, "npz": Npz}
+
+
+def write_batches(path: Path, units: Mapping[str, str], batches: Iterable[Batch]) -> int:
+    """Write a table whose format is the suffix of its path.
+
+    Args:
+        path: path of the table: .csv, .parquet or .npz.
+        units: unit by column, in any order.
+        batches: successive rows, all with the same columns.
+
+    Returns:
+        Number of rows.
+
+    Raises:
+        ValueError: the format is unknown.
+        OSError: the file cannot be written.
+    """
+    kind = path.suffix.removeprefix(".")
+    if kind not in FORMATS:
+        raise ValueError(f"{path}: must end in {', '.join('.' + name for name in FORMATS)}")
+    file, rows = None, 0
+    for batch in batches:
+        if file is None:
+            columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
+            file = FORMATS[kind](path, columns)
+        file.write(batch)
+        rows += len(next(iter(batch.values())))
+    if file is None:
+        file = FORMATS[kind](path, [Column(*one, np.dtype(float)) for one in units.items()])
+    file.close()
+    return rows
 
 
 def _schema(columns: Sequence[Column]) -> pa.Schema:

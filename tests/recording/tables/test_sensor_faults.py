@@ -49,3 +49,11 @@ def test_samples_that_a_logger_repeats_are_not_stuck():
 
 def test_a_constant_signal_is_not_reported():
     assert remarks(np.zeros(len(TIME))) == []
+
+
+@pytest.mark.parametrize("code", [-9999.0, 32767.0, 9.9e37])
+def test_codes_for_missing_samples_are_reported_with_their_time(code):
+    samples = SIGNAL.copy()
+    samples[10_000:10_007] = code
+    (line,) = remarks(samples)
+    assert line.startswith("7 samples are codes") and f"the first is {code:.6g} at 0.5 s" in line

@@ -20,13 +20,8 @@ from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.follower import Follower
-from planetary_twin_py.following.measured_messages import (
-    ENCODERS,
-    JOINTS,
-    TEMPERATURE,
-    Arrived,
-    MessageReader,
-)
+from planetary_twin_py.following.measured_messages import Arrived, MessageReader
+from planetary_twin_py.following.message_types import ENCODERS, JOINTS, TEMPERATURE
 from planetary_twin_py.following.sensors import read_sensors
 
 from ..conftest import starting

@@ -15,7 +15,8 @@ from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.follower import Following
-from planetary_twin_py.following.measured_messages import JOINTS, TEMPERATURE, Arrived
+from planetary_twin_py.following.measured_messages import Arrived
+from planetary_twin_py.following.message_types import JOINTS, TEMPERATURE
 from planetary_twin_py.following.sensors import JointNames
 
 from .test_inputs import BEGIN, RATE, RATIO, stamp

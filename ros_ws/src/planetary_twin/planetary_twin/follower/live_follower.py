@@ -13,14 +13,10 @@ from typing import Protocol
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.bins import closed_by
-from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.channels.stamp import stamp_of
 from planetary_twin_py.following.follower import Following
-from planetary_twin_py.following.measured_messages import (
-    BLOCKS,
-    Arrived,
-    MessageReader,
-    stamp_of,
-)
+from planetary_twin_py.following.input_error import InputError
+from planetary_twin_py.following.measured_messages import BLOCKS, Arrived, MessageReader
 
 from .parameters import Followed, FollowerSettings
 from .subscriptions import Intake

@@ -7,16 +7,11 @@ from typing import Any
 from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from sensor_msgs.msg import JointState, Temperature
 
-from planetary_twin_py.following.measured_messages import INTERFACES, ZERO_CELSIUS
+from planetary_twin_py.following.channels.temperature import ZERO_CELSIUS
+from planetary_twin_py.following.measured_messages import INTERFACES
 from planetary_twin_py.plant.hidden import SensorErrors
-from planetary_twin_py.plant.timeline import (
-    AccelerationPacket,
-    CountPacket,
-    Measured,
-    OilReading,
-    ShaftReading,
-)
-from planetary_twin_py.plant.vibration import NAME
+from planetary_twin_py.plant.sampled import SAMPLED
+from planetary_twin_py.plant.timeline import Measured, OilReading, Packet, ShaftReading
 
 from ..base.clock import set_stamp
 
@@ -33,18 +28,17 @@ class PlantMessages:
     def __init__(self, joints: tuple[str, str], sensors: SensorErrors, frame: str) -> None:
         self._joints, self._frame = joints, frame
         self._sensors = sensors
-        self._blocks = self._accelerations = 0
+        self._sent = dict.fromkeys(SAMPLED, 0)  # packets, by sensor
 
     def message(
         self, measured: Measured, origin: int
     ) -> JointState | Temperature | EncoderBlock | SampledBlock:
         """Return a message; `origin` is the ROS time [ns] of time 0 of the plant."""
-        if isinstance(measured, CountPacket):
-            self._blocks += 1
-            return self._block(measured, origin)
-        if isinstance(measured, AccelerationPacket):
-            self._accelerations += 1
-            return self._acceleration(measured, origin)
+        if isinstance(measured, Packet):
+            self._sent[measured.sensor] += 1
+            block, rate = self._block(measured), getattr(self._sensors, measured.sensor).rate
+            self._stamp(block, origin, measured.first / rate)
+            return block
         if isinstance(measured, OilReading):
             found = Temperature(temperature=measured.temperature - ZERO_CELSIUS)
         else:
@@ -59,29 +53,23 @@ class PlantMessages:
         }
         return JointState(name=list(self._joints), position=list(reading.angles), **fields)
 
-    def _block(self, packet: CountPacket, origin: int) -> EncoderBlock:
-        errors = self._sensors.encoders
-        found = EncoderBlock(
-            sequence=self._blocks,
-            first_sample=packet.first,
-            sample_period=1.0 / errors.rate,
-            input_counts_per_turn=2**errors.bits,
-            output_counts_per_turn=2**errors.bits,
-        )
-        found.input_counts, found.output_counts = (column.tolist() for column in packet.counts.T)
-        self._stamp(found, origin, packet.first / errors.rate)
-        return found
-
-    def _acceleration(self, packet: AccelerationPacket, origin: int) -> SampledBlock:
-        found = SampledBlock(
-            sequence=self._accelerations,
-            sample_period=1.0 / self._sensors.vibration.rate,
-            names=[NAME],
-            units=["m/s^2"],
-        )
-        found.samples = packet.values.tolist()
-        self._stamp(found, origin, packet.begin)
-        return found
+    def _block(self, packet: Packet) -> EncoderBlock | SampledBlock:
+        errors = getattr(self._sensors, packet.sensor)
+        common = {"sequence": self._sent[packet.sensor], "sample_period": 1.0 / errors.rate}
+        if packet.sensor == "encoders":
+            counts = 2**errors.bits
+            block = EncoderBlock(
+                first_sample=packet.first,
+                input_counts_per_turn=counts,
+                output_counts_per_turn=counts,
+                **common,
+            )
+            block.input_counts, block.output_counts = packet.values.T.tolist()
+            return block
+        units = SAMPLED[packet.sensor].units
+        block = SampledBlock(names=list(units), units=list(units.values()), **common)
+        block.samples = packet.values.T.ravel().tolist()
+        return block
 
     def _stamp(self, message: Any, origin: int, seconds: float) -> None:
         message.header.frame_id = self._frame

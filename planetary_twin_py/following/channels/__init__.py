@@ -1,0 +1,1 @@
+"""Sensors of one value at a time; `all` lists them."""

@@ -1,0 +1,27 @@
+"""Sensors that send many samples at a time, by the type of their messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+from ..message_types import ENCODERS, VIBRATION
+from .encoders import EncoderMessages, EncoderSamples
+from .vibration import VibrationMessages, VibrationSamples
+
+
+class SampledMessages(Protocol):
+    """Converts the messages of one sensor in the order of their arrival."""
+
+    def read(self, sender: str, block: Any) -> Any:
+        """Convert a message of a sender to samples; raises `InputError` if it does not fit."""
+
+    def join(self, blocks: Sequence[Any]) -> Any:
+        """Join successive samples."""
+
+
+Samples = EncoderSamples | VibrationSamples
+SAMPLED: dict[str, Callable[[], SampledMessages]] = {
+    ENCODERS: EncoderMessages,
+    VIBRATION: VibrationMessages,
+}

@@ -1,0 +1,108 @@
+"""What a sensor of one value at a time is: where it measures what, in which unit, within limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..train import FollowedTrain
+
+Array = NDArray[np.float64]
+
+
+class Range(NamedTuple):
+    """Values that a channel can have, in SI."""
+
+    low: float
+    high: float
+    limit: str
+    """What limits them, with the value."""
+
+
+class ErrorModel(NamedTuple):
+    """Errors of a sensor, or their standard deviations."""
+
+    noise: float
+    """Standard deviation of a reading, in SI."""
+    zero: float
+    """In SI."""
+    gain: float
+
+    def reading(self, value: Array, normal: Array) -> Array:
+        """What the sensor reads: (1 + gain) value + zero + noise.
+
+        Args:
+            value: true values in SI, (n,).
+            normal: standard normal random numbers, (n,).
+
+        Returns:
+            Readings in SI, (n,).
+        """
+        return value * (1.0 + self.gain) + self.zero + self.noise * normal
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """A sensor of one value at a time.
+
+    Messages, tables and recordings, the checks of followers and fleets, and plants read here what
+    they need of it.
+    """
+
+    name: str
+    """Of the channel, as in gearbox_state."""
+    quantity: str
+    unit: str
+    """SI unit of its readings."""
+    spellings: tuple[str, ...]
+    """Other units that a heading may state, the usual one first."""
+    nominal: Callable[[FollowedTrain], float]
+    """Magnitude of a reading at the operating point of the scene, in SI."""
+    limits: Callable[[FollowedTrain], Range]
+    """Values that readings of a scene can have."""
+    written: tuple[tuple[float, float], ...]
+    """Factors and offsets from SI to the units in which a logger may have written a code."""
+    interface: str = ""
+    """Its interface of a joint in a message; empty if it is not that of a joint."""
+    shown: float = 0.0
+    """Share of the nominal value below which readings say nothing about a unit or a sign."""
+
+    def refusal(self, allowed: Range) -> str:
+        """How to state the unit of a channel most of whose readings are beyond its limits.
+
+        Args:
+            allowed: the limits.
+        """
+        return (
+            f"exceeds {allowed.limit}; is it in {self.unit}? A column in {self.spellings[0]} is "
+            f"headed {self.name} [{self.spellings[0]}], also possible are "
+            f"{', '.join(self.spellings[1:])}; or scale {self.name} by a factor"
+        )
+
+
+def at_shaft(place: str, quantity: str, at_input: float, train: FollowedTrain) -> float:
+    """Speed or torque of a shaft, without losses.
+
+    Args:
+        place: "input" or "output".
+        quantity: "speed" or "torque".
+        at_input: that of the input, in SI.
+        train: gear train of the scene.
+    """
+    if place == "input":
+        return at_input
+    ratio = abs(train.ratio)
+    return at_input * ratio if quantity == "speed" else at_input / ratio
+
+
+def seen_at(place: str) -> str:
+    """Words for a limit of the input as it is at a shaft.
+
+    Args:
+        place: "input" or "output".
+    """
+    return "" if place == "input" else f" at the {place}"

@@ -1,0 +1,15 @@
+"""Stamps of messages."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def stamp_of(message: Any) -> float:
+    """Stamp of a message [s].
+
+    Args:
+        message: a message with a header.
+    """
+    stamp = message.header.stamp
+    return float(stamp.sec + 1e-9 * stamp.nanosec)
