@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.left_out import LeftOut
+from ..following.loss_map import LossMap
 from ..following.plausibility import OIL, beyond, equals_code, leaps, ranges_of
 from ..following.power_check import IMPOSSIBLE, balance, wrong_torques
 from ..following.reading_check import CODE, TORQUES, limit_text, nominal_values
 from ..following.repeats import STUCK, Repeats
 from ..following.sensors import Sensors, torque_change
 from ..following.train import FollowedTrain
-from .loss_table import LossTable
 
 Array = NDArray[np.float64]
 
@@ -29,9 +29,7 @@ class FleetCheck:
         count: number of gearboxes.
     """
 
-    def __init__(
-        self, train: FollowedTrain, table: LossTable, sensors: Sensors, count: int
-    ) -> None:
+    def __init__(self, train: FollowedTrain, table: LossMap, sensors: Sensors, count: int) -> None:
         self.left_out: dict[int, LeftOut] = {}
         """Readings that are left out, by index of the gearbox."""
         self._train, self._table, self._ranges = train, table, ranges_of(train)
@@ -84,7 +82,7 @@ class FleetCheck:
         loss = np.full(len(speed), np.nan)
         if (doubtful := found.doubtful).any():
             oil = np.where(np.isfinite(row[OIL]), row[OIL], oil)
-            loss[doubtful] = sum(self._table(torques[0][doubtful], speed[doubtful], oil[doubtful]))
+            loss[doubtful] = self._table(torques[0][doubtful], speed[doubtful], oil[doubtful]).total
         impossible = found.impossible(loss)
         usual = self._torques[0], self._torques[1]
         for name, wrong in zip(TORQUES, wrong_torques(self._train, torques, usual), strict=True):
