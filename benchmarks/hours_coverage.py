@@ -5,8 +5,8 @@ with zeros of both torque sensors that drift), `--runs` gearboxes with errors of
 sensors and a drag that the scene lacks run together. At each full hour, the share of the estimates
 whose interval holds the truth is printed. No step happens: every event is a false alarm.
 
-The readings are means of `PERIOD`, as the bins of a follower, without the readings themselves; the
-losses are those of the table of the plant, as in `simulate_readings`.
+The readings are those of the middle of each `PERIOD`, with the noise of a mean; the losses are those
+of the table of the plant, as in `simulate_readings`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ PLANTS = {
     "bearings": {"losses.planet_bearing": {"mean_diameter": 0.02}},
 }
 DRIFTING = "bearings"
-PERIOD, READINGS = 0.2, 20  # [s] of a mean, and readings in it
+PERIOD, READINGS = 0.5, 50  # [s] of a mean, and readings in it
 DRIFT = 86_400.0  # [s] period of zeros that drift as the temperature of a day does
 SPEED_NOISE = 0.02  # [rad/s] of a reading
 TOGETHER = 2000  # rows that are simulated together

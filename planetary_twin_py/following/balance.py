@@ -183,9 +183,9 @@ class BalanceFollower:
         self.gated += innovation.gated
         if not innovation.gated:
             self._variety.add(read)
-        if self._identified(F):
-            sd = _uncertainty(self._interval_filter, F)
-            self._slow_change.add(read.time, self.friction_level, sd)
+        if self._slow_change.due(read.time) and self._identified(F):
+            level, sd = self._interval_filter.apparent_level()
+            self._slow_change.add(read.time, float(level[0]), float(sd[0]))
         refused_since = self._refusals.add(read.time, innovation)
         if len(found.steps.since):
             self._alarm(float(found.steps.since[0]), read.time)

@@ -47,7 +47,7 @@ class _Extremes:
 class Variety:
     """Which torques and speeds the readings contain, since the start or the last step.
 
-    Readings older than 6 to 12 h are forgotten, as the parameters are.
+    Readings older than 1 to 2 h are forgotten, as the parameters are.
 
     Args:
         train: gear train with the torque and the speed of the scene.
