@@ -5,8 +5,8 @@ with zeros of both torque sensors that drift), `--runs` gearboxes with errors of
 sensors and a drag that the scene lacks run together. At each full hour, the share of the estimates
 whose interval holds the truth is printed. No step happens: every event is a false alarm.
 
-The readings are those of the middle of each `PERIOD`, with the noise of a mean; the losses are those
-of the table of the plant, as in `simulate_readings`.
+The readings are those of the middle of each `PERIOD`, with the noise of a mean; the losses are
+those of the table of the plant, as in `simulate_readings`.
 """
 
 from __future__ import annotations

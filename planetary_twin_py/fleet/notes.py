@@ -27,38 +27,27 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
     kind = path.suffix.removeprefix(".")
     if kind not in FORMATS:
         raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
-    batch: dict[str, np.ndarray] = {
-        "gearbox": np.array([result.gearbox for result in found]),
-        "readings": np.array([result.readings for result in found]),
-        "missing": np.array([result.missing[0] for result in found]),
-        "first_missing": np.array([result.missing[1] for result in found]),
-    }
-    units = {
-        "gearbox": "",
-        "readings": "",
-        "missing": "",
-        "first_missing": "s",
-        "fits": "",
-        "fault": "",
-        "events": "",
-        "last_event": "s",
-        "last_size": "N m",
-        "scatter": "N m",
-        "smallest_step": "",
-    }
-    for name in found[0].estimates:
-        for part, heading in enumerate((name, f"{name}_low", f"{name}_high")):
-            batch[heading] = np.array([result.estimates[name][part] for result in found])
-            units[heading] = UNITS[name]
-    batch["fits"] = np.array([int(result.fits) for result in found])
-    batch["fault"] = np.array([result.fault for result in found])
-    batch["events"] = np.array([len(result.events) for result in found])
     last = [result.events[-1] if result.events else None for result in found]
-    batch["last_event"] = np.array([np.nan if event is None else event.found for event in last])
-    batch["last_size"] = np.array([np.nan if event is None else event.size for event in last])
-    batch["scatter"] = np.array([result.scatter[0] for result in found])
-    batch["smallest_step"] = np.array([result.smallest_step for result in found])
-    columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
+    fields: list[tuple[str, str, Sequence[object]]] = [
+        ("gearbox", "", [result.gearbox for result in found]),
+        ("readings", "", [result.readings for result in found]),
+        ("missing", "", [result.missing[0] for result in found]),
+        ("first_missing", "s", [result.missing[1] for result in found]),
+        *(
+            (f"{name}{part}", UNITS[name], [result.estimates[name][n] for result in found])
+            for name in found[0].estimates
+            for n, part in enumerate(("", "_low", "_high"))
+        ),
+        ("fits", "", [int(result.fits) for result in found]),
+        ("fault", "", [result.fault for result in found]),
+        ("events", "", [len(result.events) for result in found]),
+        ("last_event", "s", [np.nan if event is None else event.found for event in last]),
+        ("last_size", "N m", [np.nan if event is None else event.size for event in last]),
+        ("scatter", "N m", [result.scatter[0] for result in found]),
+        ("smallest_step", "", [result.smallest_step for result in found]),
+    ]
+    batch = {name: np.array(values) for name, _, values in fields}
+    columns = [Column(name, unit, batch[name].dtype) for name, unit, _ in fields]
     table = FORMATS[kind](path, columns)
     table.write(batch)
     table.close()

@@ -315,11 +315,6 @@ class BalanceFollower:
         """Standard deviation of innovations over that of the sensors' noise, at least 1."""
         return math.sqrt(float(self._interval_filter.excess[0]))
 
-    @property
-    def friction_level(self) -> float:
-        """Friction level, identifiable or not."""
-        return float(self._interval_filter.x[0, F])
-
     def torque_between(self, begin: float, end: float) -> float:
         """Mean input torque of the bins that end within an interval.
 
