@@ -22,14 +22,15 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from following.plants import LAWS, paper, played
+from numpy.typing import NDArray
 
 from planetary_twin_py.following.balance import BalanceFollower
-from planetary_twin_py.following.cusum import KAPPA, LIMIT, TERM
+from planetary_twin_py.following.cusum import KAPPA, LIMIT, OVERSHOOT, TERM
 
+Array = NDArray[np.float64]
 DUTIES = "steady", "varied", "reversing", "four_quadrant"
 FIRST_SEED = 5000
 DAY = 86_400.0  # [s]
-EXCESS = 1.166  # of a discrete sum over its limit, Siegmund (1985), Sequential Analysis, ch. 10
 
 
 class Quiet(NamedTuple):
@@ -54,15 +55,16 @@ class Recorder:
     def __getattr__(self, name: str) -> object:
         return getattr(self._cusum, name)
 
-    def add(self, now: float, value: float, sd: float) -> object:
+    def add(self, now: float, value: Array, sd: Array, loss: Array, step: float) -> object:
         """Pass an innovation on."""
-        found = self._cusum.add(now, value, sd)
-        self.largest = max(self.largest, *(one.value for one in self._cusum._sums))
+        found = self._cusum.add(now, value, sd, loss, step)
+        self.largest = max(self.largest, float(self._cusum.value.max()))
         if self._begin is None or now >= self._begin + TERM:
             if self._scores:
                 self.terms.append(sum(self._scores) / math.sqrt(len(self._scores)))
             self._scores, self._begin = [], now
-        self._scores.append(value / sd)
+        if math.isfinite(value[0]):
+            self._scores.append(float(value[0] / sd[0]))
         return found
 
 
@@ -70,11 +72,11 @@ def follow(duty: str, law: str, duration: float, seed: int) -> Quiet:
     """Follow a healthy plant."""
     _, stamps, columns = played(duty, LAWS[law], duration, seed)
     follower = BalanceFollower(paper())
-    follower._cusum = Recorder(follower._cusum)
+    cusum = follower._monitor.cusum = Recorder(follower._monitor.cusum)
     follower.add(stamps, columns)
     follower.finish()
     events = [f"{one.what} at {one.found:.0f} s: {one.evidence}" for one in follower.events]
-    return Quiet(events, follower._cusum.largest, np.array(follower._cusum.terms))
+    return Quiet(events, cusum.largest, np.array(cusum.terms))
 
 
 def run_length(sd: float) -> float:
@@ -82,7 +84,7 @@ def run_length(sd: float) -> float:
 
     Siegmund (1985), Sequential Analysis, eq. 2.59, with the drift and the limit over `sd`.
     """
-    drift, limit = KAPPA / sd, LIMIT / sd + EXCESS
+    drift, limit = KAPPA / sd, LIMIT / sd + OVERSHOOT
     one = (math.exp(2.0 * drift * limit) - 2.0 * drift * limit - 1.0) / (2.0 * drift**2)
     return 0.5 * TERM * one
 

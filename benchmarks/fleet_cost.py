@@ -27,7 +27,8 @@ def main() -> None:
     given = parser.parse_args()
     began = time.process_time()
     fleet = Fleet(paper(), given.gearboxes)
-    print(f"table of the type: {time.process_time() - began:.2f} s, error {fleet.table.error:.2%}")
+    error = fleet.table.error  # of all points, which it computes
+    print(f"table of the type: {time.process_time() - began:.2f} s, error {error:.2%}")
     played = Played(given.gearboxes, 1)
     rows = [played.row(float(second)) for second in range(1, given.rows + 1)]
     began = time.process_time()

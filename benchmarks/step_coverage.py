@@ -58,8 +58,8 @@ def outcome(duty: str, law: str, seed: int) -> Outcome | None:
         return None
     when = np.arange(at, event.found, 0.1)
     losses, oil = loss_map(plant.true_scene), plant.true_scene.operating_point.oil_temperature
-    points = zip(plant.course.torque_at(when), plant.course.speed_at(when), strict=True)
-    true = step * float(np.mean([losses(*point, oil).teeth for point in points]))
+    points = plant.course.torque_at(when), plant.course.speed_at(when)
+    true = step * float(np.mean(losses(*points, oil).teeth))
     size = event.size
     return Outcome(
         event.found - at, size.value / true, (size.value - true) / size.sd, event.since <= at,

@@ -11,26 +11,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.balance import IDENTIFIABLE
-from ..following.balance_filter import alarm_memory, interval_memory
+from ..following.balance_filter import PARAMETERS, B, D, F, Measured
+from ..following.cusum import YEAR, Steps, limit
 from ..following.estimate import CONFIDENT
 from ..following.friction_remark import friction_remarks
+from ..following.monitor import DIFFERENCE, Monitor
 from ..following.sensors import Sensors
-from ..following.train import followed_train
 from ..scene import Scene
 from ..scene.given import check_scene
 from ..text.object_repr import brief
-from .balances import PARAMETERS, Balances, F, Row
-from .cusums import TERM, Cusums, Steps, limit
 from .fleet_check import FleetCheck
-from .loss_table import loss_table
 from .scatter import Scatter
 
 Array = NDArray[np.float64]
 
 CHANNELS = ("input_torque", "output_torque", "input_speed", "oil_temperature")
+TERM = 60.0  # [s] over which innovations are averaged: single readings are too noisy for 5 %
 SLOWEST, FASTEST = 60.0, 0.1  # [s] limits of the time between two readings
 MOST_STEPS = 3  # in close succession, after which the readings of a gearbox do not fit the scene
 CLEAR = 3.0  # standard deviations of a minute's mean from which on a step is found within minutes
+UNSEEN = 10.0  # variance of inertia torques between rows at most, over that of the differences
 CLOSE = 3.0 * TERM  # [s] between two steps in close succession
 
 
@@ -114,11 +114,11 @@ class Fleet:
             raise ValueError(
                 f"period = {self.period!r} s: must be within {FASTEST:g} and {SLOWEST:g}"
             )
-        self.train, self.table = followed_train(self.scene), loss_table(self.scene)
-        common = self.train, self.table, self.sensors
-        self._interval_filters = Balances(*common, interval_memory(), self.count)
-        self._alarm_filters = Balances(*common, alarm_memory(self.train), self.count)
-        self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
+        interval = (self.fleet_size or self.count) * YEAR
+        alarm = limit(interval, max(self.period, TERM)), TERM
+        self._monitor = Monitor(self.scene, self.sensors, self.period, self.count, *alarm)
+        self.train, self.table = self._monitor.train, self._monitor.losses
+        self._scene_filter = self._monitor.alarms.kept()  # as the scene has it
         self._scatter = Scatter(self.count)
         self._check = FleetCheck(self.scene, self.table, self.sensors, self.period, self.count)
         self._time, self._speed = math.nan, np.full(self.count, math.nan)
@@ -170,17 +170,19 @@ class Fleet:
         oil = row["oil_temperature"]
         self._oil = np.where(np.isfinite(oil), oil, self._oil)
         self._note_missing(time, row)
-        reading = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
-        self._interval_filters.update(reading, step)
-        innovations = self._alarm_filters.update(reading, step)
-        value, sd, loss, scene = innovations
-        has_balance = np.isfinite(value)
+        reading = Measured(
+            time, row["input_torque"], row["output_torque"], np.ones((2, 1)), speed, acceleration,
+            DIFFERENCE * np.abs(acceleration), self._oil,
+        )  # fmt: skip
+        self._monitor.cusum.waiting = ~self._scatter.known
+        found = self._monitor.add(reading)
+        has_balance = np.isfinite(found.balances.value)
         self.readings += has_balance
-        self._losses += np.where(has_balance, loss, 0.0)
+        self._losses += np.where(has_balance, found.balances.loss, 0.0)
         self._balances += has_balance
-        self._cusums.waiting = ~self._scatter.known
-        self._alarm(time, self._cusums.add(time, value, sd, loss, self.period))
-        self._widen(self._scatter.add(time, scene))
+        self._alarm(time, found.steps)
+        if not self._scatter.known.all():
+            self._widen(self._scatter.add(time, self._scene_filter.balances(reading)))
 
     def _acceleration(self, speed: Array, step: float) -> Array:
         """Accelerations of the inputs since the last row [rad/s^2], (n,); 0 where unknown."""
@@ -236,11 +238,20 @@ class Fleet:
         """Start some gearboxes from their priors, with their measured scatter as noise."""
         if not which.any():
             return
-        measured, stated = self._scatter.sd**2, self._scatter.stated**2
-        for filters in (self._interval_filters, self._alarm_filters):
-            filters.widen(which, measured, stated)
-        self._cusums.restart(which, self._time)
+        self._monitor.widen(which, self._measured_noise(), self._time)
         self.readings[which] = 0
+
+    def _measured_noise(self) -> Array:
+        """Variances of both torques that explain the measured scatter [N^2 m^2], (2, n).
+
+        What accelerations can explain is an error of the input torque less the inertia torque. The
+        rest is noise of both sensors in the ratio as stated.
+        """
+        measured, stated = self._scatter.sd**2, self._scatter.stated**2
+        noise = self._scene_filter.noise
+        added = measured - stated
+        inertial = np.minimum(added, UNSEEN * (stated - noise.sum(axis=0)) / DIFFERENCE**2)
+        return noise * (1.0 + (added - inertial) / noise.sum(axis=0)) + [inertial, 0.0 * inertial]
 
     def _note_missing(self, time: float, row: Mapping[str, Array]) -> None:
         """Count the rows without a balance, and keep the last torques and speeds."""
@@ -264,8 +275,8 @@ class Fleet:
             self.events.append(FleetEvent(int(index), float(begin), time, *map(float, sizes)))
         mask = np.zeros(self.count, dtype=bool)
         mask[gearbox] = True
-        self._alarm_filters.restart(mask)
-        self._interval_filters.reopen(mask)
+        causes = np.isin(np.arange(len(PARAMETERS)), [F, B, D])
+        self._monitor.reopen(mask, np.where(causes, self._monitor.intervals.sd, 0.0))
 
     def _note_misfits(self, time: float, gearbox: NDArray[np.int64]) -> None:
         """Count the steps of each gearbox in close succession."""
@@ -290,7 +301,7 @@ class Fleet:
         """
         if name not in PARAMETERS[:4]:
             raise ValueError(f"{name!r}: must be one of {', '.join(PARAMETERS[:4])}")
-        state, filters = PARAMETERS.index(name), self._interval_filters
+        state, filters = PARAMETERS.index(name), self._monitor.intervals
         sd = np.sqrt(np.maximum(filters.p[:, state, state], 0.0))
         known = (sd < IDENTIFIABLE * filters.sd[state]) & self.fits
         if state == F:

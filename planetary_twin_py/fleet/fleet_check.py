@@ -12,13 +12,12 @@ from ..following.channels.all import OIL, TORQUES
 from ..following.checks import Checks
 from ..following.contradictions import Contradictions
 from ..following.load_remarks import LoadRemarks
-from ..following.loss_map import loss_map
+from ..following.loss_map import LossMap
 from ..following.power_check import IMPOSSIBLE, balance, wrong_torques
 from ..following.reading_check import ReadingCheck
 from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..scene import Scene
-from .loss_table import LossTable
 
 Array = NDArray[np.float64]
 
@@ -37,7 +36,7 @@ class FleetCheck:
     """
 
     def __init__(
-        self, scene: Scene, table: LossTable, sensors: Sensors, period: float, count: int
+        self, scene: Scene, table: LossMap, sensors: Sensors, period: float, count: int
     ) -> None:
         self.faults: dict[int, str] = {}
         """Channel, value and correction by index of a gearbox whose readings contradict the scene,
@@ -45,7 +44,7 @@ class FleetCheck:
         self._train, self._table = followed_train(scene), table
         self._inertia = self._train.inertia if sensors.inertia is None else sensors.inertia
         self._readings = ReadingCheck(self._train, sensors, count, math.inf)
-        contradictions = Contradictions(self._train, loss_map(scene), sensors, period)
+        contradictions = Contradictions(self._train, table, sensors, period)
         self._checks = Checks(contradictions, count, TOGETHER)
         self._load = LoadRemarks(scene.operating_point, self._train, period, count)
         self._torques = np.full((2, count), np.nan)  # the last ones that belonged together
@@ -86,7 +85,7 @@ class FleetCheck:
         loss = np.full(len(speed), np.nan)
         if (doubtful := found.doubtful).any():
             oil = np.where(np.isfinite(row[OIL]), row[OIL], oil)
-            loss[doubtful] = sum(self._table(torques[0][doubtful], speed[doubtful], oil[doubtful]))
+            loss[doubtful] = self._table(torques[0][doubtful], speed[doubtful], oil[doubtful]).total
         impossible = found.impossible(loss)
         sound = np.isfinite(found.lost) & ~impossible
         wrong = wrong_torques(self._train, torques, (self._torques[0], self._torques[1]))

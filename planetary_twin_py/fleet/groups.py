@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ..following.balance_filter import PARAMETERS
 from ..following.sensors import Sensors
 from ..scene import Scene
 from ..studies.work import Executor, Failure
-from .balances import PARAMETERS
 from .fleet import Fleet, FleetEvent
 from .tables import read_fleet
 

@@ -23,29 +23,24 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
         ValueError: the format is unknown.
         OSError: the file cannot be written.
     """
-    units = {"first_missing": "s", "last_event": "s", "last_size": "N m", "scatter": "N m"}
-    columns: dict[str, list[object]] = {}
-    for result in found:
-        last = result.events[-1] if result.events else None
-        row: dict[str, object] = {
-            "gearbox": result.gearbox,
-            "readings": result.readings,
-            "missing": result.missing[0],
-            "first_missing": result.missing[1],
-        }
-        for name, estimate in result.estimates.items():
-            for heading, value in zip((name, f"{name}_low", f"{name}_high"), estimate, strict=True):
-                row[heading], units[heading] = value, UNITS[name]
-        row |= {
-            "fits": int(result.fits),
-            "fault": result.fault,
-            "events": len(result.events),
-            "last_event": np.nan if last is None else last.found,
-            "last_size": np.nan if last is None else last.size,
-            "scatter": result.scatter[0],
-            "smallest_step": result.smallest_step,
-        }
-        for heading, entry in row.items():
-            columns.setdefault(heading, []).append(entry)
-    batch = {heading: np.array(values) for heading, values in columns.items()}
-    write_batches(path, {heading: units.get(heading, "") for heading in batch}, [batch])
+    last = [result.events[-1] if result.events else None for result in found]
+    fields: list[tuple[str, str, Sequence[object]]] = [
+        ("gearbox", "", [result.gearbox for result in found]),
+        ("readings", "", [result.readings for result in found]),
+        ("missing", "", [result.missing[0] for result in found]),
+        ("first_missing", "s", [result.missing[1] for result in found]),
+        *(
+            (f"{name}{part}", UNITS[name], [result.estimates[name][n] for result in found])
+            for name in found[0].estimates
+            for n, part in enumerate(("", "_low", "_high"))
+        ),
+        ("fits", "", [int(result.fits) for result in found]),
+        ("fault", "", [result.fault for result in found]),
+        ("events", "", [len(result.events) for result in found]),
+        ("last_event", "s", [np.nan if event is None else event.found for event in last]),
+        ("last_size", "N m", [np.nan if event is None else event.size for event in last]),
+        ("scatter", "N m", [result.scatter[0] for result in found]),
+        ("smallest_step", "", [result.smallest_step for result in found]),
+    ]
+    batch = {name: np.array(values) for name, _, values in fields}
+    write_batches(path, {name: unit for name, unit, _ in fields}, [batch])

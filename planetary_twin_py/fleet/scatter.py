@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri
 
-from ..following.balance_filter import GATE
-from .balances import SceneBalances
+from ..following.balance_filter import GATE, Balances
 
 Array = NDArray[np.float64]
 
@@ -40,7 +39,8 @@ class Scatter:
         """The same as the noise of the sensors explains it [N m], (n,)."""
         self.excessive = np.zeros(count, dtype=bool)
         """Whether the noise of the sensors does not explain the scatter, (n,)."""
-        self._balances = SceneBalances(*np.full((3, BALANCES, count), math.nan))
+        self._kept = np.full((3, BALANCES, count), math.nan)
+        """Residuals with the scene, torques [N m], and variances as the sensors explain them."""
         self._number = np.zeros(count, dtype=np.int64)
         self._next = np.full(count, -math.inf)  # [s]
 
@@ -49,20 +49,20 @@ class Scatter:
         """Whether the scatter of a gearbox has been measured, (n,)."""
         return np.isfinite(self.sd)
 
-    def add(self, time: float, balances: SceneBalances) -> NDArray[np.bool_]:
+    def add(self, time: float, balances: Balances) -> NDArray[np.bool_]:
         """Add a balance of every gearbox.
 
         Args:
             time: time of the balances [s].
-            balances: the balances, (n,) each.
+            balances: the balances with the parameters of the scene, (n,) each.
 
         Returns:
             Mask of the gearboxes whose scatter is found excessive now, (n,).
         """
-        taken = np.isfinite(balances.residual) & (time >= self._next) & (self._number < BALANCES)
+        taken = np.isfinite(balances.value) & (time >= self._next) & (self._number < BALANCES)
         (gearbox,) = np.nonzero(taken)
-        for kept, values in zip(self._balances, balances, strict=True):
-            kept[self._number[gearbox], gearbox] = values[gearbox]
+        values = np.array([balances.value, balances.torque, balances.sd**2])
+        self._kept[:, self._number[gearbox], gearbox] = values[:, gearbox]
         self._number[gearbox] += 1
         self._next[gearbox] = time + APART
         return self._measure(taken & (self._number == BALANCES))
@@ -78,26 +78,25 @@ class Scatter:
     def _measure(self, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
         found = np.zeros_like(which)
         for n in np.flatnonzero(which):
-            own = SceneBalances(*(values[: self._number[n], n] for values in self._balances))
-            variance, freedom = _variance(own)
-            stated = float(np.mean(own.noise))
+            residual, torque, noise = self._kept[:, : self._number[n], n]
+            stated = float(np.mean(noise))
+            variance, freedom = _variance(residual, torque, stated)
             self.sd[n], self.stated[n] = math.sqrt(variance), math.sqrt(stated)
             found[n] = variance > stated * float(chdtri(freedom, RARE)) / freedom
         self.excessive |= found
         return found
 
 
-def _variance(own: SceneBalances) -> tuple[float, int]:
+def _variance(residual: Array, torque: Array, stated: float) -> tuple[float, int]:
     """Variance of the residuals of one gearbox, and its degrees of freedom.
 
     A constant and a gain are fitted. As the noise of a balance is also in its torque, the gain is
     limited: with a steady torque, a larger one would explain all scatter. Single wild residuals, as
     the filter rejects them, do not count.
     """
-    far = np.abs(own.residual - np.median(own.residual))
-    usual = max(MAD * float(np.median(far)), math.sqrt(float(np.mean(own.noise))))
-    kept = far <= GATE * usual
-    residual, torque = (v[kept] - np.mean(v[kept]) for v in (own.residual, own.torque))
+    far = np.abs(residual - np.median(residual))
+    kept = far <= GATE * max(MAD * float(np.median(far)), math.sqrt(stated))
+    residual, torque = (v[kept] - np.mean(v[kept]) for v in (residual, torque))
     square = float(torque @ torque)
     gain = np.clip(residual @ torque / square, -GAIN, GAIN) if square > 0.0 else 0.0
     left = residual - gain * torque

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -16,30 +16,27 @@ from ..units.engineering import percent
 from .balance_filter import (
     CAUSES,
     FRICTION,
+    LEAST,
     PARAMETERS,
     STANDSTILL,
-    STATES,
     B,
-    Balance,
     BalanceFilter,
+    Balances,
     D,
     F,
     G,
     Innovation,
     J,
     Measured,
-    T,
-    alarm_memory,
-    interval_memory,
+    joined,
 )
 from .bins import Bin, Counters
 from .checked_bins import PERIOD, CheckedBins
-from .cusum import Cusum, Step
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .friction_remark import friction_remarks
 from .history import History
-from .loss_map import loss_map
 from .loss_step import LONGEST, StepCause, size_of
+from .monitor import DIFFERENCE, Monitor
 from .sensors import Sensors
 from .slow_change import SlowChange
 from .train import followed_train
@@ -119,14 +116,9 @@ class BalanceFollower:
 
     def __post_init__(self) -> None:
         self.train = followed_train(self.scene)
-        losses = loss_map(self.scene)
-        self._losses = losses
-        self._interval_filter = BalanceFilter(self.train, losses, self.sensors, interval_memory())
-        self._alarm_filter = BalanceFilter(
-            self.train, losses, self.sensors, alarm_memory(self.train)
-        )
+        self._monitor = Monitor(self.scene, self.sensors, self.period)
         self._bins = CheckedBins(self.scene, self.train, self.sensors, self.period)
-        self._cusum, self._refusals = Cusum(), _Refusals()
+        self._refusals = _Refusals()
         self._slow_change = SlowChange()
         self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
         """Last bins, and the filter for intervals as it was before each of them."""
@@ -175,32 +167,36 @@ class BalanceFollower:
     def _process(self, time_bin: Bin) -> None:
         self.time = (time_bin.number + 1) * self.period
         read = self._measured(time_bin)
-        if math.isfinite(read.input_torque):
-            self._torques.add(self.time, read.input_torque)
-        if math.isfinite(read.speed):
-            self._turning.add(read.time, read.speed, read.input_torque)
-            self.operating = read.speed, read.oil_temperature
+        torque, speed = float(read.input_torque[0]), float(read.speed[0])
+        if math.isfinite(torque):
+            self._torques.add(self.time, torque)
+        if math.isfinite(speed):
+            self._turning.add(read.time, speed, torque)
+            self.operating = speed, self._oil
         filter_before = self._interval_filter.kept()
-        innovation = self._interval_filter.update(read)
-        alarm_innovation = self._alarm_filter.update(read)
-        if innovation is None or alarm_innovation is None:
+        found = self._monitor.add(read)
+        innovation = Innovation(*(values[0].item() for values in found.innovations))
+        if math.isnan(innovation.value):
             return
         self._recent.append((read, filter_before))
         self.innovation = innovation
         self.gated += innovation.gated
         if not innovation.gated:
             self._variety.add(read)
-        if self._identified(F):
-            sd = _uncertainty(self._interval_filter, F)
-            self._slow_change.add(read.time, self.friction_level, sd)
+        if self._slow_change.due(read.time) and self._identified(F):
+            level, sd = self._interval_filter.apparent_level()
+            self._slow_change.add(read.time, float(level[0]), float(sd[0]))
         refused_since = self._refusals.add(read.time, innovation)
-        step = self._cusum.add(read.time, alarm_innovation.value, alarm_innovation.sd)
-        if step is None and refused_since is not None:
-            self._cusum.restart(read.time)
-            step = Step(refused_since, read.time)
-        if step is not None:
-            self._alarm(step)
+        if len(found.steps.since):
+            self._alarm(float(found.steps.since[0]), read.time)
+        elif refused_since is not None:
+            self._monitor.cusum.restart(np.array([True]), read.time)
+            self._alarm(refused_since, read.time)
         self._compare_causes(read)
+
+    @property
+    def _interval_filter(self) -> BalanceFilter:
+        return self._monitor.intervals
 
     def _measured(self, time_bin: Bin) -> Measured:
         means, nan = time_bin.means, math.nan
@@ -214,20 +210,11 @@ class BalanceFollower:
             acceleration, noise = self._acceleration(time, speed, time_bin, (shaft, factor))
         if "oil_temperature" in means:
             self._oil = means["oil_temperature"].value
-        input_mean, output_mean = means.get("input_torque"), means.get("output_torque")
-        return Measured(
-            time=time,
-            input_torque=nan if input_mean is None else input_mean.value,
-            output_torque=nan if output_mean is None else output_mean.value,
-            counts=(
-                input_mean.readings if input_mean else 1,
-                output_mean.readings if output_mean else 1,
-            ),
-            speed=speed,
-            acceleration=acceleration,
-            acceleration_noise=noise,
-            oil_temperature=self._oil,
-        )
+        torques = means.get("input_torque"), means.get("output_torque")
+        values = [nan if mean is None else mean.value for mean in torques]
+        counts = [1 if mean is None else mean.readings for mean in torques]
+        columns = np.array([*values, speed, acceleration, noise, self._oil])[:, np.newaxis]
+        return Measured(time, columns[0], columns[1], np.array(counts)[:, np.newaxis], *columns[2:])
 
     def _acceleration(
         self, time: float, speed: float, time_bin: Bin, shaft: tuple[str, float]
@@ -250,43 +237,50 @@ class BalanceFollower:
         if previous is None or time - previous[0] > 10.0 * self.period:
             return 0.0, 0.0
         slope = (speed - previous[1]) / (time - previous[0])
-        return slope, 0.3 * abs(slope)  # the slope is that of half a bin earlier
+        return slope, DIFFERENCE * abs(slope)
 
-    def _alarm(self, step: Step) -> None:
+    def _alarm(self, since: float, found: float) -> None:
         reads, filters = zip(*self._recent, strict=True)
         times = np.array([read.time for read in reads])
-        offset = min(int(np.searchsorted(times, step.since - MARGIN)), len(times) - 1)
-        reference_filter, reads, times = filters[offset], reads[offset:], times[offset:]
-        balances = [reference_filter.balance(read) for read in reads]
-        covariance = reference_filter.p[PARAMETERS, PARAMETERS]
+        offset = min(int(np.searchsorted(times, since - MARGIN)), len(times) - 1)
+        reference_filter, read, times = filters[offset], joined(reads[offset:]), times[offset:]
+        balances, covariance = reference_filter.balances(read), reference_filter.p[0]
         step_size = size_of(balances, covariance)
         direction = math.copysign(1.0, self.operating[0])
-        since_step = balances[step_size.likely :]
+        since_step = balances.since(step_size.likely)
         possible = _possible_causes(reference_filter, direction * step_size.size, since_step)
-        cause = StepCause(step.found, covariance, possible)
-        for balance in since_step:
-            cause.add(balance)
+        cause = StepCause(found, covariance, possible)
+        cause.add(since_step)
         size = estimated("loss_torque_step", direction * step_size.size, step_size.sd, "N m")
-        torque = float(np.mean([read.input_torque for read in reads[step_size.likely :]]))
-        loss = self._losses(torque, *self.operating).teeth
+        torque = float(np.mean(read.input_torque[step_size.likely :]))
+        loss = float(self._monitor.losses(torque, *self.operating).teeth)
         evidence = f"{plus_minus(size.value, CONFIDENT * size.sd, '+')} N m"
         for reference, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
             if abs(size.value) < MANY * reference:
                 evidence += f", {percent(size.value / reference, 3)} of {name}"
-        since = float(times[step_size.first]) - 0.5 * self.period
+        first = float(times[step_size.first]) - 0.5 * self.period
         from_start = offset + step_size.first == 0 and len(self._recent) < RECENT
         description = "readings do not fit the scene" if from_start else "loss torque stepped"
         self._report(
             reference_filter,
             cause,
-            Event(description, since, step.found, size, cause.causes, evidence),
+            Event(description, first, found, size, cause.causes, evidence),
         )
-        slope = np.sqrt(np.mean([after.slope**2 for after in since_step], axis=0))
-        self._alarm_filter.restart()
-        for balance_filter in (self._alarm_filter, self._interval_filter):
-            balance_filter.reopen(step_size.size, slope)
+        slope = np.sqrt(np.mean(since_step.slope**2, axis=0))
+        self._monitor.reopen(np.array([True]), self._explaining(step_size.size, slope))
         self._variety.restart()
         self._slow_change = SlowChange()
+
+    def _explaining(self, size: float, slope: Array) -> Array:
+        """Standard deviations with which friction, zero, drag or gain alone explain a step, (7,).
+
+        Each is at least as uncertain as it was before any reading.
+        """
+        prior, opened = self._interval_filter.sd, np.zeros(len(PARAMETERS))
+        needed = abs(size) / np.maximum(np.abs(slope), LEAST * prior)
+        causes = [F, B, D, G]
+        opened[causes] = np.maximum(needed, prior)[causes]
+        return opened
 
     def _report(self, reference_filter: BalanceFilter, cause: StepCause, event: Event) -> None:
         """Add an event, unless steps follow each other: then no single cause explains them."""
@@ -312,19 +306,14 @@ class BalanceFollower:
         reference_filter, cause, event_index = self._last_step
         if not cause.begin < read.time <= cause.begin + LONGEST:
             return
-        cause.add(reference_filter.balance(read))
+        cause.add(reference_filter.balances(read))
         if (causes := cause.causes) != self.events[event_index].causes:
             self.events[event_index] = replace(self.events[event_index], causes=causes)
 
     @property
     def scatter(self) -> float:
         """Standard deviation of innovations over that of the sensors' noise, at least 1."""
-        return math.sqrt(self._interval_filter.excess)
-
-    @property
-    def friction_level(self) -> float:
-        """Friction level, identifiable or not."""
-        return float(self._interval_filter.x[F])
+        return math.sqrt(float(self._interval_filter.excess[0]))
 
     def torque_between(self, begin: float, end: float) -> float:
         """Mean input torque of the bins that end within an interval.
@@ -362,18 +351,18 @@ class BalanceFollower:
 
     def _present_estimates(self) -> Iterator[Estimate]:
         interval_filter = self._interval_filter
-        sd = math.sqrt(max(float(interval_filter.p[T, T]), 0.0))
+        sd = float(interval_filter.torque_sd[0])
         if not sd < self.train.torque:
             yield not_identifiable("input_torque", sd, "N m", "readings of input_torque")
             yield not_identifiable("loss_torque", sd, "N m", "readings of both torques")
             return
-        yield estimated("input_torque", float(interval_filter.x[T]), sd, "N m")
+        yield estimated("input_torque", float(interval_filter.torque[0]), sd, "N m")
         speed, oil = self.operating
         if self.innovation is None or abs(speed) <= STANDSTILL * self.train.speed:
             yield not_identifiable("loss_torque", math.nan, "N m", BALANCE)
             return
-        value, sd = interval_filter.loss_torque(speed, oil)
-        yield estimated("loss_torque", value, sd, "N m")
+        value, value_sd = interval_filter.loss_torque(np.array([speed]), np.array([oil]))
+        yield estimated("loss_torque", float(value[0]), float(value_sd[0]), "N m")
 
     def remarks(self) -> Iterator[str]:
         """Reasons why the estimates are less certain, one line each."""
@@ -382,14 +371,16 @@ class BalanceFollower:
                 f"the balance scatters {self.scatter:.1f} times as much as the noise of the torque "
                 "sensors; intervals are widened accordingly"
             )
-        if self._cusum.held:
+        cusum = self._monitor.cusum
+        if cusum.held[0]:
             yield (
-                f"successive innovations correlate by {self._cusum.correlation:.2f}: further "
+                f"successive innovations correlate by {cusum.correlation[0]:.2f}: further "
                 "steps of the loss are not reported"
             )
         level = self._parameter(F)
         if level.status == "ESTIMATED" and math.isfinite(self.operating[0]):
-            teeth = self._losses(float(self._interval_filter.x[T]), *self.operating).teeth
+            torque = self._interval_filter.torque[0]
+            teeth = float(self._monitor.losses(torque, *self.operating).teeth)
             yield from friction_remarks(level.low, level.value, level.high, teeth)
         yield from self._slow_change.remarks()
         yield from self.counters.remarks()
@@ -399,32 +390,30 @@ class BalanceFollower:
 
     def _identified(self, state: int) -> bool:
         """Whether the readings determine a parameter much better than its prior."""
-        prior = float(self._interval_filter.prior[1][state - F])
+        prior = float(self._interval_filter.sd[state])
         return _uncertainty(self._interval_filter, state) < IDENTIFIABLE * prior
 
     def _parameter(self, state: int) -> Estimate:
-        interval_filter, name = self._interval_filter, STATES[state]
+        interval_filter, name = self._interval_filter, PARAMETERS[state]
         sd = _uncertainty(interval_filter, state)
         identified = self._identified(state)
         remedy = BALANCE
         if self.innovation is not None:
-            remedy = self._variety.remedy(state, interval_filter.p, identified)
+            remedy = self._variety.remedy(state, interval_filter.p[0], identified)
         if not identified:
             return not_identifiable(name, sd, UNITS[name], remedy)
-        return estimated(name, float(interval_filter.x[state]), sd, UNITS[name], remedy)
+        return estimated(name, float(interval_filter.x[0, state]), sd, UNITS[name], remedy)
 
 
 def _uncertainty(balance_filter: BalanceFilter, state: int) -> float:
     """Standard deviation of a parameter."""
-    sd = math.sqrt(max(float(balance_filter.p[state, state]), 0.0))
+    sd = math.sqrt(max(float(balance_filter.p[0, state, state]), 0.0))
     if state == F:  # the loss of the scene is as uncertain as the torque
-        sd = math.hypot(sd, float(balance_filter.x[F] * balance_filter.x[G]))
+        sd = math.hypot(sd, float(balance_filter.x[0, F] * balance_filter.x[0, G]))
     return sd
 
 
-def _possible_causes(
-    before: BalanceFilter, size: float, balances: Sequence[Balance]
-) -> tuple[str, ...]:
+def _possible_causes(before: BalanceFilter, size: float, balances: Balances) -> tuple[str, ...]:
     """Causes of a step; a decrease by more than all friction of the teeth is not one of friction.
 
     Args:
@@ -432,8 +421,8 @@ def _possible_causes(
         size: size of the step [N m], negative if the loss decreases.
         balances: balances since the step.
     """
-    scene_friction = float(np.mean([abs(balance.slope[0]) for balance in balances]))
-    least_level = float(before.x[F]) - CONFIDENT * _uncertainty(before, F)
+    scene_friction = float(np.mean(np.abs(balances.slope[:, F])))
+    least_level = float(before.x[0, F]) - CONFIDENT * _uncertainty(before, F)
     if size < -max(least_level, 1.0) * scene_friction:
         return tuple(cause for cause in CAUSES if cause != FRICTION)
     return CAUSES

@@ -1,25 +1,29 @@
-"""Extended Kalman filter of the torque balance between both ends of a gear train.
+"""Kalman filters of the torque balances of gearboxes of one type, in arrays over the gearboxes.
 
 Measured are the torques at the input, T_m, and at the output, T_l, with the speed ratio i:
 
-    T_m     = T + J a + n1
-    i T_l   = -T + s (phi L(T, w, oil) + R(w, oil) + d) + b + g T + n2
-    phi     = f + f_T ln(|T|/T0) + f_w ln(|w|/w0),   s = sign(w)
+    T_m + i T_l = J a + s (phi L(T, w, oil) + R(w, oil) + d) + b + g T + n
+    phi         = f + f_T ln(|T|/T0) + f_w ln(|w|/w0),   s = sign(w)
 
 L and R are the loss torques of tooth friction and of all other losses in the scene, f is the
 friction level, d a drag that is not in the scene, b the zero of both torque sensors, g the
-difference of their gains, J the inertia, and a the acceleration. T is a state with process noise,
-not a regressor, because its noise would bias the other states. f_T and f_w represent the deviation
-of the actual friction law from that of the scene.
+difference of their gains, J the inertia, and a the acceleration. f_T and f_w represent the
+deviation of the actual friction law from that of the scene.
+
+T is the mean of both ends, weighted by the inverse variances of their readings. Its error then does
+not correlate with the noise n of the balance; a correlation would bias the parameters (errors in
+variables, Fuller 1987, Measurement Error Models).
 
 The update is in Joseph's form (Bucy and Joseph 1968, Filtering for Stochastic Processes, ch. 16).
-The parameters are Gauss-Markov processes, which decay to their priors, or random walks.
+The parameters are Gauss-Markov processes, which decay to their priors, or random walks. All sums
+are element by element, so that the bits of a gearbox do not depend on the others.
 """
 
 from __future__ import annotations
 
 import copy
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -31,17 +35,14 @@ from .sensors import Sensors, torque_gain, torque_noise, torque_zero
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
-STATES = (
-    "input_torque", "torque_rate", "friction_level", "torque_zero", "drag", "torque_gain",
-    "inertia", "friction_over_torque", "friction_over_speed",
+PARAMETERS = (
+    "friction_level", "torque_zero", "drag", "torque_gain", "inertia", "friction_over_torque",
+    "friction_over_speed",
 )  # fmt: skip
-T, RATE, F, B, D, G, J, F_T, F_W = range(len(STATES))
-PARAMETERS = slice(F, None)
-OF_PARAMETERS = np.arange(F, len(STATES))
-IDENTITY = np.eye(len(STATES))
-WANDER = 0.025  # random walk of the torque per sqrt(s), over the torque of the scene
-RATE_WANDER = 0.24  # [1/s] random walk of its rate per sqrt(s), over the torque of the scene
+F, B, D, G, J, F_T, F_W = range(len(PARAMETERS))
+DIAGONAL = np.arange(len(PARAMETERS))
 INERTIA = 0.1  # standard deviation over the inertia of the scene
 DRAG = 5e-4  # standard deviation over the torque of the scene
 LAW = 0.2, 0.3  # standard deviations of f_T and f_w
@@ -49,33 +50,47 @@ STANDSTILL = 0.01  # share of the speed of the scene below which the sign of the
 LEAST = 0.02  # lower limit of torque and speed in the logarithms, over those of the scene
 GATE = 5.0  # standard deviations above which an innovation is rejected
 NOISE_MEMORY = 60.0  # [s] time constant of the estimated noise
-GAP = 2.0  # [s] without a bin after which the torque is unknown
-FAR = 10.0  # standard deviation of an unknown torque over the torque of the scene
-FALL = 600.0  # [s] time constant with which the friction law decays to its prior
-SLOW_FALL = 21_600.0  # [s] the same of the other parameters, see interval_coverage.py
+WANDER = 0.025  # random walk of an unmeasured torque per sqrt(s), over the torque of the scene
+GAP = 2.0  # [s] without a measured torque after which it is unknown
+LAW_FALL = 600.0  # [s] time constant with which the friction law decays to its prior
+ZERO_FALL = 1200.0  # [s] the same of zero and drag
+SLOW_FALL = 3600.0  # [s] the same of friction level, gain and inertia; see hours_coverage.py
 USUAL = 2.0  # standard deviations from its prior beyond which a parameter shows the prior as narrow
 CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
 
 
 class Measured(NamedTuple):
-    """Means of one bin for the filter; NaN if a quantity was not measured."""
+    """Means of one time for the filter, (n,) each; NaN where a quantity was not measured."""
 
     time: float
-    """Middle of the bin [s]."""
-    input_torque: float
+    """Middle of the mean [s]."""
+    input_torque: Array
     """[N m]."""
-    output_torque: float
+    output_torque: Array
     """[N m]."""
-    counts: tuple[int, int]
-    """Number of readings in the means of both torques."""
-    speed: float
+    counts: Array
+    """Numbers of readings in the means of both torques, (2, n) or (2, 1)."""
+    speed: Array
     """Speed of the input [rad/s]."""
-    acceleration: float
+    acceleration: Array
     """Acceleration of the input [rad/s^2]."""
-    acceleration_noise: float
+    acceleration_noise: Array
     """Standard deviation of the acceleration [rad/s^2]."""
-    oil_temperature: float
+    oil_temperature: Array
     """[K]."""
+
+
+def joined(reads: Sequence[Measured]) -> Measured:
+    """Readings of one gearbox at many times, as arrays over the times.
+
+    Args:
+        reads: the readings of each time, (1,) each.
+
+    Returns:
+        The readings, (m,) each, with the last time.
+    """
+    _, *fields = zip(*reads, strict=True)
+    return Measured(reads[-1].time, *(np.concatenate(parts, axis=-1) for parts in fields))
 
 
 class Innovation(NamedTuple):
@@ -89,24 +104,54 @@ class Innovation(NamedTuple):
     """Whether the gate rejects it."""
 
 
+class Innovations(NamedTuple):
+    """Measured minus expected sums of both torques, referred to the input, (n,) each."""
+
+    value: Array
+    """[N m]; NaN where a torque or the speed was not measured, or the train was at rest."""
+    sd: Array
+    """Expected standard deviations [N m]."""
+    gated: Mask
+    """Whether the gate rejects them."""
+
+
 FRICTION, DRAGGING, ZERO, GAIN = (
     "friction", "drag", "zero of a torque sensor", "gain of a torque sensor",
 )  # fmt: skip
 CAUSES = FRICTION, DRAGGING, ZERO, GAIN  # of a step of the balance
 
 
-class Balance(NamedTuple):
-    """Measured minus expected sum of both torques of one bin, without an estimate of the torque."""
+class Balances(NamedTuple):
+    """Measured minus expected sums of both torques, without the uncertainty of the parameters."""
 
-    value: float
-    """[N m]."""
-    sd: float
-    """Standard deviation of the readings in it [N m]."""
+    value: Array
+    """[N m], (n,); NaN where there is no balance."""
+    sd: Array
+    """Standard deviation of the readings in it [N m], (n,)."""
     slope: Array
-    """Derivatives of the expected balance over the parameters, (7,)."""
-    added: Array
-    """What each of `CAUSES` adds to the balance [N m], (4,): all friction of the teeth, a drag of
-    1 N m, a zero of 1 N m, and a gain of 100 %."""
+    """Derivatives of the expected sum over the parameters, (n, 7)."""
+    friction: Array
+    """Part of tooth friction in the expected sum [N m], (n,)."""
+    torque: Array
+    """Mean of the torques of both ends, weighted by the inverse variances [N m], (n,)."""
+    torque_sd: Array
+    """Its standard deviation [N m], (n,)."""
+    loss: Array
+    """Loss torque of the scene [N m], (n,)."""
+
+    @property
+    def added(self) -> Array:
+        """What each of `CAUSES` adds to the balance [N m], (n, 4): all friction of the teeth, a
+        drag of 1 N m, a zero of 1 N m, and a gain of 100 %."""
+        return np.column_stack([self.friction, self.slope[:, [D, B, G]]])
+
+    def since(self, first: int) -> Balances:
+        """The balances from an index on.
+
+        Args:
+            first: the index.
+        """
+        return Balances(*(values[first:] for values in self))
 
 
 @dataclass(frozen=True)
@@ -120,8 +165,13 @@ class Memory:
 
 
 def interval_memory() -> Memory:
-    """Parameters decay to their priors: a model error must not be averaged to certainty."""
-    fall = np.array([SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, FALL, FALL])
+    """Parameters decay to their priors: a model error must not be averaged to certainty.
+
+    Nor must a zero that drifts, or a friction law that is another one: with 6 h of memory, the
+    level of a plant with bearings on its planets was outside its interval in one run of five.
+    """
+    fall = np.full(len(PARAMETERS), SLOW_FALL)
+    fall[[B, D]], fall[[F_T, F_W]] = ZERO_FALL, LAW_FALL
     return Memory(fall, np.zeros(7))
 
 
@@ -137,204 +187,224 @@ def alarm_memory(train: FollowedTrain) -> Memory:
 
 @dataclass
 class BalanceFilter:
-    """Extended Kalman filter of the torque balance.
+    """Kalman filters of the torque balances of n gearboxes of one type.
 
     Args:
         train: gear train between the torque sensors.
         losses: loss torques of its scene.
         sensors: accuracy of the sensors.
         memory: how fast parameters may change.
+        count: number of gearboxes.
     """
 
     train: FollowedTrain
     losses: LossMap
     sensors: Sensors
     memory: Memory
+    count: int = 1
     x: Array = field(init=False)
-    """Expected state, (9,)."""
+    """Expected parameters, (n, 7)."""
     p: Array = field(init=False)
-    """Its covariance, (9, 9)."""
-    prior: tuple[Array, Array] = field(init=False)
-    """Mean and standard deviation of the parameters before any reading, (7,) each."""
+    """Their covariances, (n, 7, 7)."""
+    mean: Array = field(init=False)
+    """Means of the parameters before any reading, (7,)."""
+    sd: Array = field(init=False)
+    """Their standard deviations, (7,)."""
+    noise: Array = field(init=False)
+    """Variances of one reading of both torques, referred to the input [N^2 m^2], (2, n)."""
 
     def __post_init__(self) -> None:
         sensors, train = self.sensors, self.train
         inertia = train.inertia if sensors.inertia is None else sensors.inertia
-        mean = np.array([1.0, 0.0, 0.0, 0.0, inertia, 0.0, 0.0])
-        sd = np.array(
+        self.mean = np.array([1.0, 0.0, 0.0, 0.0, inertia, 0.0, 0.0])
+        self.sd = np.array(
             [
                 sensors.friction, torque_zero(sensors, train), sensors.drag or DRAG * train.torque,
                 torque_gain(sensors), INERTIA * (inertia or train.inertia), *LAW,
             ]
         )  # fmt: skip
-        self.prior = mean, sd
-        noise = torque_noise(sensors, train)
-        self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
-        self.restart()
+        noise = np.array(torque_noise(sensors, train)) * [1.0, train.ratio]
+        self.noise = np.tile(noise[:, None] ** 2, self.count)
+        self.x = np.tile(self.mean, (self.count, 1))
+        self.p = np.tile(np.diag(self.sd**2), (self.count, 1, 1))
+        self.excess = np.ones(self.count)
+        """Variances of the innovations over those of the sensors' noise, at least 1, (n,)."""
+        self.torque = np.zeros(self.count)
+        """Torques at the input without that of the inertia [N m], (n,)."""
+        self.torque_sd = np.full(self.count, math.inf)
+        """Their standard deviations [N m], (n,); infinite where the torque is not known."""
+        self._measured_at = np.full(self.count, -math.inf)
+        self._time = math.nan
 
-    def restart(self) -> None:
-        """Reset state and covariance to the priors."""
-        mean, sd = self.prior
-        self.x = np.concatenate([[0.0, 0.0], mean])
-        self.p = np.diag(np.concatenate([[1.0, 1.0], sd]) ** 2)
-        self._reset_torque()
-        self._time: float | None = None
-        self.excess = 1.0
-        """Variance of the innovations over that of the sensors' noise, at least 1."""
-
-    def reopen(self, size: float, slope: Array) -> None:
-        """Let friction, zero, drag or gain alone explain a step of the balance.
-
-        Each of them becomes as uncertain as the step requires, and at least as it was before any
-        reading.
+    def restart(self, which: Mask) -> None:
+        """Reset parameters and covariances of some gearboxes to the priors.
 
         Args:
-            size: size of the step [N m].
-            slope: derivatives of the balance over the parameters, (7,).
+            which: mask of the gearboxes, (n,).
         """
-        sd = self.prior[1]
-        for state in (F, B, D, G):
-            needed = abs(size) / max(abs(float(slope[state - F])), LEAST * float(sd[state - F]))
-            self.p[state, state] += max(needed, float(sd[state - F])) ** 2
+        self.x = np.where(which[:, None], self.mean, self.x)
+        self.p = np.where(which[:, None, None], np.diag(self.sd**2), self.p)
+        self.excess = np.where(which, 1.0, self.excess)
 
-    def update(self, read: Measured) -> Innovation | None:
-        """Update the state with one bin.
+    def widen(self, which: Mask, noise: Array) -> None:
+        """Restart some gearboxes with another noise of their torques.
 
         Args:
-            read: means of the bin.
-
-        Returns:
-            The innovation of the balance; None if one of the torques or the speed was not measured,
-            or if the train was at rest.
+            which: mask of the gearboxes, (n,).
+            noise: variances of one reading of both torques, referred to the input [N^2 m^2],
+                (2, n).
         """
-        step = 0.0 if self._time is None else max(read.time - self._time, 0.0)
-        self._time = read.time
-        self._predict(step)
-        turning = abs(read.speed) > STANDSTILL * self.train.speed  # false if it is NaN
-        if math.isfinite(read.input_torque) and turning:
-            noise = self._noise[0] / read.counts[0]
-            slope = np.zeros(len(STATES))
-            slope[T] = 1.0
-            if abs(read.acceleration) > CLEAR * read.acceleration_noise:
-                slope[J] = read.acceleration  # a regressor whose noise would bias J otherwise
-            expected = float(self.x[T] + self.x[J] * read.acceleration)
-            noise += (float(self.x[J]) * read.acceleration_noise) ** 2
-            self._update(slope, read.input_torque - expected, noise)
-        if not (math.isfinite(read.input_torque) and math.isfinite(read.output_torque) and turning):
-            return None
-        return self._balance(read, step)
+        self.noise = np.where(which, noise, self.noise)
+        self.restart(which)
+
+    def reopen(self, which: Mask, sd: Array) -> None:
+        """Make parameters of some gearboxes as uncertain as a step of the balance requires.
+
+        Args:
+            which: mask of the gearboxes, (n,).
+            sd: standard deviations that are added to those of the parameters, (7,).
+        """
+        self.p = self.p + which[:, None, None] * np.diag(sd**2)
 
     def kept(self) -> BalanceFilter:
         """A copy with the present state, which later updates do not change."""
-        copied = copy.copy(self)
-        copied.x, copied.p = self.x.copy(), self.p.copy()
-        return copied
+        return copy.copy(self)  # all arrays are replaced, and none is changed
 
-    def balance(self, read: Measured) -> Balance:
-        """Balance of the readings of one bin alone with the present parameters.
+    def update(self, read: Measured) -> tuple[Innovations, Balances]:
+        """Update the parameters with the readings of one time.
 
         Args:
-            read: means of a bin with both torques and the speed.
+            read: the readings.
 
         Returns:
-            The balance. Its noise is independent of that of other bins.
+            The innovations, and the balances of the readings alone with the parameters before.
         """
-        inertia = float(self.x[J])
-        torque = read.input_torque - inertia * read.acceleration
-        expected, slope = self._expected(torque, read.speed, read.oil_temperature)
-        slope[J] = read.acceleration
-        noise = self._noise[1] / read.counts[1] + self._noise[0] / read.counts[0]
-        noise = self.excess * noise + (inertia * read.acceleration_noise) ** 2
-        parameters = slope[PARAMETERS]
-        law = np.array([F, F_T, F_W])
-        friction = float(slope[law] @ self.x[law])
-        return Balance(
-            self.train.ratio * read.output_torque - expected,
-            math.sqrt(noise),
-            parameters,
-            np.array([friction, math.copysign(1.0, read.speed), 1.0, slope[G]]),
+        step = max(read.time - self._time, 0.0) if math.isfinite(self._time) else 0.0
+        self._time = read.time
+        self._predict(step)
+        balances = self.balances(read)
+        self._note_torque(read, balances)
+        value, slope = balances.value, balances.slope
+        cross_covariance = (self.p * slope[:, None, :]).sum(-1)
+        variance = (slope * cross_covariance).sum(-1) + balances.sd**2
+        sd = np.sqrt(variance)
+        score = value / sd
+        accepted = np.abs(score) <= GATE  # false without a reading
+        gain = np.where(accepted[:, None], cross_covariance / variance[:, None], 0.0)
+        self.x = self.x + gain * np.where(accepted, value, 0.0)[:, None]
+        # (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h
+        cross = gain[:, :, None] * cross_covariance[:, None, :]
+        square = variance[:, None, None] * (gain[:, :, None] * gain[:, None, :])
+        self.p = self.p - (cross + np.swapaxes(cross, 1, 2)) + square
+        weight = min(step / NOISE_MEMORY, 0.1)
+        has_reading = np.isfinite(score)
+        normalised_square = np.where(has_reading, np.minimum(score**2, GATE**2), 1.0)
+        self.excess = np.maximum(1.0, self.excess * (1.0 + weight * (normalised_square - 1.0)))
+        return Innovations(value, sd, has_reading & ~accepted), balances
+
+    def balances(self, read: Measured) -> Balances:
+        """Balances of readings alone with the present parameters.
+
+        Args:
+            read: readings of every gearbox, (n,) each, or many of the only one, (m,) each.
+
+        Returns:
+            The balances. Their noises are independent.
+        """
+        train, x = self.train, self.x
+        acceleration, acceleration_sd = read.acceleration, read.acceleration_noise
+        noise = self.excess * self.noise / read.counts
+        noise[0] += (x[:, J] * acceleration_sd) ** 2
+        driving = read.input_torque - x[:, J] * acceleration
+        driven = train.ratio * read.output_torque
+        turning = np.abs(read.speed) > STANDSTILL * train.speed  # false if it is NaN
+        usable = np.isfinite(driving + driven) & turning
+        speed = np.where(usable, read.speed, train.speed)
+        at_input = np.where(usable, driving, train.torque)
+        expected = self._expected(at_input, speed, read.oil_temperature)[0]
+        at_output = expected - np.where(usable, driven, expected - at_input)
+        weight = noise[1] / (noise[0] + noise[1])
+        torque = weight * at_input + (1.0 - weight) * at_output
+        expected, slope, loss = self._expected(torque, speed, read.oil_temperature)
+        # An acceleration is a regressor, whose noise would bias the inertia otherwise.
+        slope[:, J] = np.where(np.abs(acceleration) > CLEAR * acceleration_sd, acceleration, 0.0)
+        friction = (slope[:, [F, F_T, F_W]] * x[:, [F, F_T, F_W]]).sum(-1)
+        return Balances(
+            np.where(usable, driving + driven - expected, math.nan),
+            np.sqrt(noise[0] + noise[1]),
+            slope,
+            friction,
+            torque,
+            np.sqrt(noise[0] * weight),
+            loss,
         )
 
-    def loss_torque(self, speed: float, temperature: float) -> tuple[float, float]:
-        """Estimate the loss torque at the input.
+    def loss_torque(self, speed: Array, temperature: Array) -> tuple[Array, Array]:
+        """Estimate the loss torques at the input, at the present torques.
 
         Args:
-            speed: speed of the input [rad/s].
-            temperature: temperature of the oil [K].
+            speed: speeds of the inputs [rad/s], (n,).
+            temperature: temperatures of the oil [K], (n,).
 
         Returns:
-            Loss torque and its standard deviation [N m].
+            Loss torques and their standard deviations [N m], (n,) each.
         """
-        expected, slope = self._expected(float(self.x[T]), speed, temperature)
-        slope[T] += 1.0
-        slope[[B, G]] = 0.0
-        value = expected + float(self.x[T] - self.x[B] - self.x[G] * self.x[T])
-        return value * math.copysign(1.0, speed), math.sqrt(max(float(slope @ self.p @ slope), 0.0))
+        expected, slope, _ = self._expected(self.torque, speed, temperature)
+        own = (slope[:, [B, G]] * self.x[:, [B, G]]).sum(-1)
+        slope[:, [B, G]] = 0.0
+        over_torque = slope[:, F] * self.x[:, F] / np.maximum(np.abs(self.torque), 1e-9)
+        sd = np.hypot(self._sd_along(slope), over_torque * self.torque_sd)
+        return (expected - own) * np.sign(speed), sd
+
+    def apparent_level(self) -> tuple[Array, Array]:
+        """Friction levels at the scene's operating point, if they alone explained the balances.
+
+        Zero, drag and gain are hardly distinguished from friction, but their sum is well known.
+
+        Returns:
+            Levels and their standard deviations, (n,) each.
+        """
+        train = self.train
+        points = np.outer([train.torque, train.speed, train.oil_temperature], np.ones(self.count))
+        expected, slope, loss = self._expected(points[0], points[1], points[2])
+        teeth = slope[:, F]
+        return (expected - loss) / teeth + 1.0, self._sd_along(slope) / teeth
+
+    def _sd_along(self, slope: Array) -> Array:
+        """Standard deviations of linear functions of the parameters, (n,)."""
+        variance = (slope * (self.p * slope[:, None, :]).sum(-1)).sum(-1)
+        return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 
     def _predict(self, step: float) -> None:
-        if step == 0.0:
-            return
-        scale = self.train.torque
-        if step > GAP:
-            self._reset_torque()
-        self.x[T] += step * self.x[RATE]
-        self.p[T] += step * self.p[RATE]
-        self.p[:, T] += step * self.p[:, RATE]
-        self.p[T, T] += (WANDER * scale) ** 2 * step
-        self.p[RATE, RATE] += (RATE_WANDER * scale) ** 2 * step
-        mean, sd = self.prior
         decay = np.exp(-step / self.memory.fall)
-        self.x[PARAMETERS] = mean + decay * (self.x[PARAMETERS] - mean)
-        state_decay = np.ones(len(STATES))
-        state_decay[PARAMETERS] = decay
-        self.p *= state_decay[:, np.newaxis] * state_decay
-        stationary_sd = np.maximum(sd, np.abs(self.x[PARAMETERS] - mean) / USUAL)
-        added_variance = (1.0 - decay**2) * stationary_sd**2 + self.memory.walk**2 * step
-        self.p[OF_PARAMETERS, OF_PARAMETERS] += added_variance
+        self.x = self.mean + decay * (self.x - self.mean)
+        stationary_sd = np.maximum(self.sd, np.abs(self.x - self.mean) / USUAL)
+        self.p = self.p * (decay[:, None] * decay)
+        self.p[:, DIAGONAL, DIAGONAL] += (1.0 - decay**2) * stationary_sd**2
+        self.p[:, DIAGONAL, DIAGONAL] += self.memory.walk**2 * step
 
-    def _reset_torque(self) -> None:
-        self.x[RATE] = 0.0
-        self.p[: RATE + 1], self.p[:, : RATE + 1] = 0.0, 0.0
-        self.p[T, T] = self.p[RATE, RATE] = (FAR * self.train.torque) ** 2
+    def _expected(self, torque: Array, speed: Array, temperature: Array) -> tuple[Array, ...]:
+        """Expected sums of both torques without inertia, their derivatives, and losses [N m]."""
+        x, sign = self.x, np.sign(speed)
+        losses = self.losses(torque, speed, temperature)
+        log_torque = np.log(np.maximum(np.abs(torque) / self.train.torque, LEAST))
+        log_speed = np.log(np.maximum(np.abs(speed) / self.train.speed, LEAST))
+        phi = x[:, F] + x[:, F_T] * log_torque + x[:, F_W] * log_speed
+        expected = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * torque
+        friction, one = sign * losses.teeth, np.ones(len(torque))
+        parts = friction, one, sign, torque, 0.0 * one, friction * log_torque, friction * log_speed
+        return expected, np.stack(parts, axis=1), losses.total
 
-    def _expected(self, torque: float, speed: float, temperature: float) -> tuple[float, Array]:
-        """Expected i T_l at T = `torque`, and its derivatives over the states, (9,)."""
-        train, x = self.train, self.x
-        sign = math.copysign(1.0, speed)
-        loss = self.losses(torque, speed, temperature)
-        log_torque = math.log(max(abs(torque) / train.torque, LEAST))
-        log_speed = math.log(max(abs(speed) / train.speed, LEAST))
-        phi = float(x[F] + x[F_T] * log_torque + x[F_W] * log_speed)
-        slope = np.zeros(len(STATES))
-        slope[T] = -1.0 + x[G] + sign * phi * loss.slope * math.copysign(1.0, torque)
-        slope[F], slope[F_T], slope[F_W] = (
-            sign * loss.teeth, sign * loss.teeth * log_torque, sign * loss.teeth * log_speed,
-        )  # fmt: skip
-        slope[B], slope[D], slope[G] = 1.0, sign, torque
-        expected = -torque + sign * (phi * loss.teeth + loss.rest + float(x[D]))
-        return expected + float(x[B] + x[G] * torque), slope
-
-    def _balance(self, read: Measured, step: float) -> Innovation:
-        expected, slope = self._expected(float(self.x[T]), read.speed, read.oil_temperature)
-        noise = self.excess * self._noise[1] / read.counts[1]
-        noise += (self.excess - 1.0) * self._noise[0] / read.counts[0]
-        innovation = self.train.ratio * read.output_torque - expected
-        variance = float(slope @ self.p @ slope) + noise
-        sd = math.sqrt(variance)
-        gated = abs(innovation) > GATE * sd
-        if not gated:
-            self._update(slope, innovation, noise)
-        weight = min(step / NOISE_MEMORY, 0.1)
-        normalised_square = min(innovation**2 / variance, GATE**2)
-        self.excess = max(1.0, self.excess * (1.0 + weight * (normalised_square - 1.0)))
-        return Innovation(innovation, sd, gated)
-
-    def _update(self, slope: Array, innovation: float, noise: float) -> None:
-        """Scalar update in Joseph's form."""
-        cross_covariance = self.p @ slope
-        gain = cross_covariance / (float(slope @ cross_covariance) + noise)
-        self.x = self.x + gain * innovation
-        column = gain[:, np.newaxis]
-        reduction = IDENTITY - column * slope
-        self.p = reduction @ self.p @ reduction.T + noise * (column * gain)
-        self.p = 0.5 * (self.p + self.p.T)
+    def _note_torque(self, read: Measured, balances: Balances) -> None:
+        """Keep the torque of both ends or of the input; without one, it is ever less certain."""
+        turning = np.abs(read.speed) > STANDSTILL * self.train.speed
+        both, input_ = np.isfinite(balances.value), turning & np.isfinite(read.input_torque)
+        at_input = read.input_torque - self.x[:, J] * read.acceleration
+        input_sd = np.sqrt(self.noise[0] / read.counts[0])
+        self._measured_at = np.where(input_, read.time, self._measured_at)
+        since = read.time - self._measured_at
+        wander = np.where(since > GAP, math.inf, WANDER * self.train.torque * np.sqrt(since))
+        self.torque = np.select([both, input_], [balances.torque, at_input], self.torque)
+        self.torque_sd = np.select(
+            [both, input_], [balances.torque_sd, input_sd], np.hypot(input_sd, wander)
+        )

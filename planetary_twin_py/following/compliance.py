@@ -1,90 +1,103 @@
 """Compliance and backlash: regression of the mean transmission error on torque and speed.
 
-A delay between the two encoders shifts the error in proportion to the speed, so the speed is a
-regressor, too.
+    TE = z + c T + B s + d w,   s = sign(T)
+
+z is the zero of both encoders, c the compliance, and d the delay between both channels; a backlash
+of all meshes shifts the error by the same amount, to the side of the torque. Compliance and
+backlash may change after the baseline, z and d do not. So a change of the backlash is one of the
+error at no torque, which is as certain as the load has varied widely.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .estimate import Estimate, Status, estimated, not_identifiable
+from .variety import TORQUES
+
+Array = NDArray[np.float64]
 
 FEWEST = 8  # hunting periods of a regression
 RECENT = 32  # hunting periods of the present regression
 LARGEST_SD = 0.05  # relative standard deviation of a slope that is reported
+RANK = 1e-9  # singular values below, over the largest, are round-off
+DETERMINED = 1e-6  # share of a coefficient that rows may leave undetermined
+OUTLYING = 6.0  # robust standard deviations of a hunting period in which something has changed
+NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
 REMEDY = "a load that varies by some percent"
 CHANGES = ("compliance_change", ""), ("backlash_change", "m")  # since the baseline
 
 
 class Line(NamedTuple):
-    """Regression plane of the transmission error over torque and speed."""
+    """Slope of the transmission error over the torque."""
 
     slope: float
-    """Slope over the torque [m/(N m)]."""
+    """[m/(N m)]."""
     sd: float
     """Its standard deviation [m/(N m)]."""
-    coefficients: np.ndarray
-    """Mean error [m], slope [m/(N m)], and slope over the speed [m s/rad]."""
-    covariance: np.ndarray
-    """Covariance of the coefficients, (3, 3)."""
-    centre: tuple[float, float]
-    """Mean torque [N m] and speed [rad/s]."""
 
     @property
     def significant(self) -> bool:
         """Whether the torque has varied enough to determine the slope."""
         return self.sd < LARGEST_SD * abs(self.slope)
 
-    def at(self, torque: float, speed: float) -> tuple[float, float]:
-        """Transmission error at an operating point.
+
+class Fit(NamedTuple):
+    """Coefficients of a linear regression."""
+
+    value: Array
+    """Coefficients, (k,)."""
+    covariance: Array
+    """Their covariance, (k, k); infinite variances where the rows do not determine them."""
+
+    def line(self, place: int) -> Line:
+        """A coefficient as a slope.
 
         Args:
-            torque: input torque [N m].
-            speed: input speed [rad/s].
-
-        Returns:
-            Transmission error and its standard deviation [m].
+            place: its index.
         """
-        row = np.array([1.0, torque - self.centre[0], speed - self.centre[1]])
-        return float(row @ self.coefficients), math.sqrt(float(row @ self.covariance @ row))
+        return Line(float(self.value[place]), math.sqrt(float(self.covariance[place, place])))
 
 
-def fit_line(torque: np.ndarray, speed: np.ndarray, error: np.ndarray) -> Line | None:
-    """Fit a plane by least squares.
+def fit(columns: Sequence[Array], error: Array) -> Fit | None:
+    """Fit coefficients by least squares, without rows in which something has changed.
 
     Args:
-        torque: mean input torques of the blocks [N m], (n,).
-        speed: mean input speeds of the blocks [rad/s], (n,).
-        error: mean transmission errors of the blocks [m], (n,).
+        columns: regressors, (n,) each.
+        error: transmission errors [m], (n,).
 
     Returns:
-        The plane; None if there are too few blocks, or if the torque is constant or a function of
-        the speed.
+        The coefficients; None if there are too few rows.
     """
-    n = len(torque)
-    if n < FEWEST:
-        return None
-    centre = float(torque.mean()), float(speed.mean())
-    rows = np.column_stack([np.ones(n), torque - centre[0], speed - centre[1]])
-    scales = np.maximum(np.sqrt(np.mean(rows**2, axis=0)), 1e-300)
-    scaled = rows / scales
-    normal_matrix = scaled.T @ scaled
-    if np.linalg.cond(normal_matrix[:2, :2]) > 1e12:
-        return None
-    inverse = np.linalg.pinv(normal_matrix, rcond=1e-9, hermitian=True)
-    solution = inverse @ (scaled.T @ error)
-    residuals = error - scaled @ solution
-    variance = float(residuals @ residuals) / (n - 3)
-    covariance = variance * inverse / np.outer(scales, scales)
-    coefficients = solution / scales
-    return Line(
-        float(coefficients[1]), math.sqrt(float(covariance[1, 1])), coefficients, covariance, centre
-    )
+    rows = np.column_stack(columns)
+    scales = np.sqrt(np.mean(rows**2, axis=0))
+    scales[scales == 0.0] = 1.0
+    rows = rows / scales
+    kept = np.ones(len(error), dtype=bool)
+    for _ in range(3):
+        if kept.sum() < FEWEST:
+            return None
+        left, sizes, right = np.linalg.svd(rows[kept], full_matrices=False)
+        rank = int(np.sum(sizes > RANK * sizes[0]))
+        right = right[:rank] / sizes[:rank, np.newaxis]
+        solution = right.T @ (left[:, :rank].T @ error[kept])
+        residual = error - rows @ solution
+        usual = NORMAL * float(np.median(np.abs(residual[kept])))
+        kept_before, kept = kept, np.abs(residual) <= OUTLYING * usual
+        if np.array_equal(kept, kept_before) or usual == 0.0:
+            break
+    variance = float(residual[kept_before] @ residual[kept_before])
+    variance /= max(int(kept_before.sum()) - rank, 1)
+    covariance = variance * (right.T @ right) / np.outer(scales, scales)
+    free = np.sum((right * sizes[:rank, np.newaxis]) ** 2, axis=0) < 1.0 - DETERMINED
+    covariance[free, free] = math.inf
+    return Fit(solution / scales, covariance)
 
 
 @dataclass
@@ -118,28 +131,17 @@ class Compliance:
             del self._blocks[self.learning]
 
     @property
-    def first(self) -> np.ndarray:
+    def first(self) -> Array:
         """Torque, speed and error of the first blocks, (n, 3)."""
         return np.array(self._blocks[: self.learning], dtype=float).reshape(-1, 3)
 
     @property
-    def baseline(self) -> Line | None:
-        """Regression over the first blocks."""
-        return self._line(0, self.learning) if len(self._blocks) >= self.learning else None
-
-    @property
     def present(self) -> Line | None:
-        """Regression over the last blocks, or over all while there are few."""
-        later = len(self._blocks) - self.learning
-        return self._line(self.learning if later >= FEWEST else 0, None)
-
-    @property
-    def both(self) -> tuple[Line, Line] | None:
-        """Baseline and present regression, if they have no block in common."""
-        first, last = self.baseline, self.present
-        if first is None or last is None or len(self._blocks) - self.learning < FEWEST:
-            return None
-        return first, last
+        """Slope over the last blocks, or over all while there are few."""
+        later = self._has_later
+        torque, speed, error = self._columns(self.learning if later else 0)
+        found = fit([np.ones_like(torque), torque, np.sign(torque), speed], error)
+        return None if found is None else found.line(1)
 
     def estimates(self, per_input: float) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and backlash since the baseline.
@@ -147,7 +149,7 @@ class Compliance:
         Args:
             per_input: turn of the input per transmission error [rad/m].
         """
-        present, both = self.present, self.both
+        present = self.present
         if present is None:
             remedy = "hunting periods with the torque measured"
             return tuple(
@@ -160,31 +162,45 @@ class Compliance:
             if present.significant
             else not_identifiable("compliance", sd, "rad/(N m)", REMEDY)
         )
-        if both is None or not (both[0].significant and both[1].significant):
-            status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
-            unknown = (
-                not_identifiable(name, math.nan, unit, REMEDY, status) for name, unit in CHANGES
-            )
-            return compliance, *unknown
-        return compliance, *_changes(*both)
+        return compliance, *self._changes()
 
-    def _line(self, begin: int, end: int | None) -> Line | None:
-        blocks = np.array(self._blocks[begin:end]).reshape(-1, 3)
-        return fit_line(*blocks.T)
+    def _changes(self) -> tuple[Estimate, ...]:
+        """Changes of compliance and backlash since the baseline."""
+        torque, speed, error = self._columns(0)
+        later, one = np.arange(len(torque)) >= self.learning, np.ones_like(torque)
+        side = np.sign(torque)
+        both = [one, torque * ~later, torque * later, side, side * later, speed]
+        found = fit(both, error) if self._has_later else None
+        first, last = (None, None) if found is None else (found.line(1), found.line(2))
+        if found is None or first is None or last is None:
+            return _unknown("LEARNING")
+        if not (first.significant and last.significant):
+            return _unknown("NOT_IDENTIFIABLE")
+        ratio, slopes = last.slope / first.slope, found.covariance[1:3, 1:3]
+        weight = np.array([-ratio, 1.0]) / first.slope
+        change_sd = math.sqrt(float(weight @ slopes @ weight))
+        play = found.line(4)
+        return (
+            estimated("compliance_change", ratio - 1.0, change_sd, ""),
+            estimated(
+                "backlash_change", math.copysign(play.slope, play.slope * last.slope), play.sd,
+                "m", TORQUES,
+            ),
+        )  # fmt: skip
+
+    @property
+    def _has_later(self) -> bool:
+        """Whether there are enough blocks after those of the baseline."""
+        return len(self._blocks) - self.learning >= FEWEST
+
+    def _columns(self, begin: int) -> Array:
+        """Torque, speed about its mean, and error of the blocks from an index on, (3, n)."""
+        columns = np.array(self._blocks[begin:], dtype=float).reshape(-1, 3).T
+        if columns.size:
+            columns[1] -= columns[1].mean()
+        return columns
 
 
-def _changes(first: Line, last: Line) -> tuple[Estimate, Estimate]:
-    """Changes of compliance and backlash between two regressions."""
-    change = last.slope / first.slope - 1.0
-    change_sd = math.hypot(last.sd, first.sd) / abs(first.slope)
-    last_error, last_sd = last.at(*last.centre)
-    first_error, first_sd = first.at(*last.centre)
-    return (
-        estimated("compliance_change", change, change_sd, ""),
-        estimated(
-            "backlash_change",
-            2.0 * (last_error - first_error),
-            2.0 * math.hypot(last_sd, first_sd),
-            "m",
-        ),
-    )
+def _unknown(status: Status) -> tuple[Estimate, ...]:
+    """Changes that the blocks do not determine."""
+    return tuple(not_identifiable(name, math.nan, unit, REMEDY, status) for name, unit in CHANGES)

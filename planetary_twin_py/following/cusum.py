@@ -1,143 +1,183 @@
-"""Cumulative sums of standardised innovations, for steps of either sign (Page 1954, Biometrika 41,
-100-115)."""
+"""Cumulative sums of standardised innovations of gearboxes, for steps of either sign (Page 1954,
+Biometrika 41, 100-115)."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
 KAPPA = 0.5  # half of the step that is detected fastest, in standard deviations of one term
-LIMIT = 15.4  # of a sum; one false alarm in half a year of independent normal terms of 1 s
+YEAR = 365.25 * 86_400.0  # [s]
+OVERSHOOT = 1.166  # mean excess of a sum over its limit (Siegmund 1985, ch. 10)
 TERM = 1.0  # [s] over which innovations are averaged
 CLIP = 5.0  # largest magnitude with which a single innovation counts
 CORRELATED = (
     0.2  # mean product of successive standardised innovations above which there is no alarm
 )
-MEMORY = 60.0  # [s] time constant of that correlation
-TRUSTED = 30.0  # [s] after which the correlation is known
+MEMORY = 60.0  # [s] time constant of that correlation, or 50 innovations
+TRUSTED = 30.0  # [s] after which the correlation is known, or 30 innovations
+SIGNS = np.array([1.0, -1.0])[:, None]
 
 
-class Step(NamedTuple):
-    """A detected step."""
+def limit(interval: float, term: float = TERM) -> float:
+    """Limit of a sum for one false alarm in an interval of white normal innovations.
 
-    since: float
-    """Time at which the sum left zero [s]."""
-    found: float
-    """[s]."""
+    The average run length of one sum is 2 exp(h + 1.166) terms for kappa = 1/2 (Siegmund 1985);
+    each gearbox has two.
 
+    Args:
+        interval: mean time between false alarms of one gearbox [s].
+        term: time over which innovations are averaged [s].
 
-class _Moments(NamedTuple):
-    """Of innovations over their expected standard deviations, over the last minute."""
-
-    covariance: float
-    """Mean product of successive ones."""
-    variance: float
-    """Mean square."""
+    Returns:
+        The limit h.
+    """
+    return math.log(interval / term) - OVERSHOOT
 
 
-UNKNOWN = _Moments(0.0, 1.0)
+LIMIT = limit(0.5 * YEAR)  # 15.4
 
 
-@dataclass
-class _Sum:
-    sign: float
-    value: float = 0.0
-    since: float = math.nan
-    moments: _Moments = UNKNOWN  # of innovations at that time
-    held: bool = False
+class Steps(NamedTuple):
+    """Steps that are detected at one time, (m,) each."""
 
-    def add(self, term: float, time: float, moments: _Moments, held: bool) -> None:
-        self.value += self.sign * term - KAPPA
-        if self.value <= 0.0:
-            self.value, self.since = 0.0, time
-            self.moments, self.held = moments, held
+    gearbox: NDArray[np.int64]
+    """Indices of the gearboxes."""
+    since: Array
+    """Times at which the sums left zero [s]."""
+    size: Array
+    """Means of the innovations since then [N m]."""
+    share: Array
+    """Sizes over the means of the scene's loss since then, with the same weights."""
+
+
+NONE = Steps(np.zeros(0, dtype=np.int64), *np.zeros((3, 0)))
 
 
 @dataclass
 class Cusum:
-    """Two sums, one for each sign."""
+    """Two sums, one for each sign, of each gearbox.
 
-    moments: _Moments = UNKNOWN
-    """Of the innovations over the last minute."""
-    _sums: tuple[_Sum, _Sum] = field(default_factory=lambda: (_Sum(1.0), _Sum(-1.0)))
-    _term: list[float] = field(default_factory=list)  # scores
-    _begin: float | None = None
-    _last: tuple[float, float] | None = None  # time and score
-    _observed: float = 0.0  # [s] of innovations in the correlation
+    Args:
+        count: number of gearboxes.
+        limit: limit of a sum above which a step is detected.
+        term: time over which innovations are averaged [s].
+    """
 
-    def add(self, time: float, value: float, sd: float) -> Step | None:
-        """Add an innovation.
+    count: int = 1
+    limit: float = LIMIT
+    term: float = TERM
 
-        Args:
-            time: time of the innovation [s].
-            value: innovation [N m].
-            sd: its expected standard deviation [N m].
-
-        Returns:
-            The step, if one is detected now; the sums then start from zero.
-        """
-        score = max(-CLIP, min(CLIP, value / sd))
-        self._update_moments(time, score)
-        if self._begin is None:
-            self._begin = time
-            for one_sided in self._sums:
-                one_sided.since = time
-        step = None
-        if self._term and time >= self._begin + TERM:
-            step = self._end_term(time)
-            self._begin = time
-        self._term.append(score)
-        return step
+    def __post_init__(self) -> None:
+        shape = 2, self.count
+        self.value = np.zeros(shape)
+        """The sums, (2, n)."""
+        self._since = np.full(shape, math.nan)
+        self._totals = np.zeros((3, *shape))  # weighted values and losses, weights; since then
+        self._held = np.zeros(shape, dtype=bool)
+        self.waiting = np.zeros(self.count, dtype=bool)
+        """Mask of the gearboxes whose alarms wait, (n,)."""
+        self._moments = np.array([np.zeros(self.count), np.ones(self.count)])
+        """Mean products of successive standardised innovations, and mean squares."""
+        self._moments_before = np.tile(self._moments[:, None], (1, 2, 1))  # when a sum left zero
+        self._last, self._known = np.full(self.count, math.nan), np.zeros(self.count)
+        self._sums = np.zeros((5, self.count))  # scores, readings, and terms of `_totals`
+        self._begin = math.nan
 
     @property
-    def correlation(self) -> float:
-        """Correlation of successive innovations over the last minute, within -1 and 1."""
-        covariance, variance = self.moments
-        return max(-1.0, min(1.0, covariance / variance)) if variance > 0.0 else 0.0
+    def correlation(self) -> Array:
+        """Correlations of successive innovations over the last minute, within -1 and 1, (n,)."""
+        covariance, variance = self._moments
+        return np.clip(covariance / np.where(variance > 0.0, variance, math.inf), -1.0, 1.0)
 
     @property
-    def held(self) -> bool:
-        """Whether correlated innovations suppress the alarm of a sum that leaves zero now.
+    def held(self) -> Mask:
+        """Whether correlated innovations suppress the alarm of a sum that leaves zero now, (n,).
 
         A step makes innovations correlate, too, so the correlation before the step decides.
         Innovations that scatter more than expected count as more correlated than they are.
         """
-        return self._observed >= TRUSTED and self.moments.covariance > CORRELATED
+        return (self._known >= TRUSTED) & (self._moments[0] > CORRELATED)
 
-    def _end_term(self, time: float) -> Step | None:
-        term = sum(self._term) / math.sqrt(len(self._term))
-        self._term.clear()
-        for one_sided in self._sums:
-            one_sided.add(term, time, self.moments, self.held)
-        for one_sided in self._sums:
-            if one_sided.value > LIMIT and not one_sided.held:
-                step = Step(one_sided.since, time)
-                self.restart(time)
-                return step
-        return None
-
-    def restart(self, time: float) -> None:
-        """Start both sums from zero after a step, which has made innovations correlate.
+    def restart(self, which: Mask, time: float, forget: bool = False) -> None:
+        """Start the sums of some gearboxes from zero, after a step that made innovations correlate.
 
         Args:
+            which: mask of the gearboxes, (n,).
             time: present time [s].
+            forget: whether the correlation is forgotten; else it is that of before the step.
         """
-        self.moments = max(self._sums, key=lambda one_sided: one_sided.value).moments
-        self._term.clear()
-        self._begin = time
-        self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
-        for one_sided in self._sums:
-            one_sided.moments = self.moments
+        larger = np.argmax(self.value, axis=0)
+        before = np.take_along_axis(self._moments_before, larger[None, None], axis=1)[:, 0]
+        self._moments = np.where(which, before, self._moments)
+        if forget:
+            self._moments[:, which] = [[0.0], [1.0]]
+            self._known[which], self._last[which] = 0.0, math.nan
+        self._moments_before[:, :, which] = self._moments[:, None, which]
+        for sums in (self.value, self._totals, self._sums):
+            sums[..., which] = 0.0
+        self._since[:, which] = time
+        self._held[:, which] = self.held[which]
 
-    def _update_moments(self, time: float, score: float) -> None:
-        if self._last is not None:
-            step = time - self._last[0]
-            share = min(step / MEMORY, 0.1)
-            covariance, variance = self.moments
-            self.moments = _Moments(
-                covariance + share * (score * self._last[1] - covariance),
-                variance + share * (score**2 - variance),
-            )
-            self._observed += step
-        self._last = time, score
+    def add(self, time: float, value: Array, sd: Array, loss: Array, step: float) -> Steps:
+        """Add an innovation of each gearbox.
+
+        Args:
+            time: time of the innovations [s].
+            value: innovations [N m], (n,); NaN without a reading.
+            sd: expected standard deviations [N m], (n,).
+            loss: loss torques of the scene [N m], (n,).
+            step: time between two readings [s].
+
+        Returns:
+            Steps that are detected now; their sums then start from zero.
+        """
+        score = np.clip(value / sd, -CLIP, CLIP)
+        has_reading = np.isfinite(score)
+        self._update_moments(score, has_reading, step)
+        weight = 1.0 / sd**2
+        terms = np.stack([score, np.ones(self.count), weight * value, weight * loss, weight])
+        self._sums += np.where(has_reading, terms, 0.0)
+        if math.isnan(self._begin):
+            self._begin, self._since[:] = time - step, time - step
+        if time < self._begin + self.term - 0.5 * step:
+            return NONE
+        self._begin = time
+        return self._end_term(time)
+
+    def _end_term(self, time: float) -> Steps:
+        score, readings, *terms = self._sums
+        has_reading = readings > 0.0
+        term = score / np.sqrt(np.maximum(readings, 1.0))
+        self.value = np.where(has_reading, self.value + SIGNS * term - KAPPA, self.value)
+        self._totals += np.where(has_reading, np.array(terms), 0.0)[:, None]
+        zero = self.value <= 0.0
+        self.value[zero] = 0.0
+        self._totals[:, zero] = 0.0
+        self._since[zero] = time
+        self._held = np.where(zero, self.held, self._held)
+        self._moments_before = np.where(zero, self._moments[:, None], self._moments_before)
+        self._sums[:] = 0.0
+        alarms = (self.value > self.limit) & ~self._held & ~self.waiting
+        if not alarms.any():
+            return NONE
+        side, gearbox = np.nonzero(alarms)
+        value, loss, weight = self._totals[:, side, gearbox]
+        steps = Steps(gearbox, self._since[side, gearbox], value / weight, value / loss)
+        self.restart(alarms[0] | alarms[1], time)
+        return steps
+
+    def _update_moments(self, score: Array, has_reading: Mask, step: float) -> None:
+        successive = has_reading & np.isfinite(self._last)
+        share = np.where(successive, min(step / MEMORY, 0.02), 0.0)
+        moments = np.where(successive, [score * self._last, score**2], 0.0)
+        self._moments = self._moments + share * (moments - self._moments)
+        self._known += np.where(successive, min(step, 1.0), 0.0)
+        self._last = np.where(has_reading, score, self._last)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
-from collections.abc import Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..scene import Scene
 from ..scene.errors import Errors
@@ -18,6 +16,7 @@ from ..simulation.simulate import simulate
 from .train import followed_train
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 TORQUES = 0.02, 0.08, 0.25, 0.5, 1.0, 1.6  # of the torque of the scene
 SPEEDS = 0.03, 0.12, 0.35, 0.7, 1.0, 1.5  # of the speed of the scene
@@ -25,24 +24,31 @@ HEATING = -20.0, 0.0, 20.0  # [K] from the temperature of the scene
 CYCLES = 2  # mesh cycles of a run; all are equal
 TOLERANCE = 1e-4
 COLDEST, HOTTEST = 233.15, 433.15  # [K] of a scene
+LEAST = 1e-9  # [N m], [rad/s] below which a logarithm is that of this value
+CHECKED = 12  # points between those of the table at which its error is measured
+SAFETY = 1.5  # ratio of the bound to the largest error at these points
 
 
 class Loss(NamedTuple):
-    """Loss torques at the input [N m], against the rotation."""
+    """Loss torques at the input [N m], against the rotation, (n,) each."""
 
-    teeth: float
+    teeth: Array
     """Loss torque of tooth friction."""
-    slope: float
-    """Its derivative over the magnitude of the torque [-]."""
-    rest: float
+    rest: Array
     """Loss torque of bearings, drag and churning in the scene."""
+
+    @property
+    def total(self) -> Array:
+        """Sum of both [N m], (n,)."""
+        return self.teeth + self.rest
 
 
 class LossMap:
     """Loss torque, interpolated in a table whose points are computed when they are needed.
 
-    Tooth friction over torque is interpolated in the logarithms of torque and speed, the rest in
-    torque and speed. Beyond the table, the coefficient of friction is that at its edge.
+    A reading of one gearbox needs a few points, which take milliseconds, where the whole table
+    takes seconds. Tooth friction over torque is interpolated in the logarithms of torque and speed,
+    the rest in torque and speed. Beyond the table, the coefficient of friction is that at its edge.
 
     Args:
         scene: scene of the gearbox, with one input.
@@ -57,20 +63,20 @@ class LossMap:
         torques = np.minimum(train.torque * np.array(TORQUES), scene.drive.torque_limit)
         speeds = np.minimum(train.speed * np.array(SPEEDS), train.speed_limit)
         heat = np.clip(train.oil_temperature + np.array(HEATING), COLDEST, HOTTEST)
-        self._torques, self._speeds, self._heat = map(np.unique, (torques, speeds, heat))
-        self._tables: dict[tuple[bool, int], tuple[Array, Array]] = {}
-        # Plain numbers: a reading needs one point, for which arrays take ten times as long.
-        self._lists = [knots.tolist() for knots in self.knots]
-        self._logarithms = [np.log(knots).tolist() for knots in (self._torques, self._speeds)]
-        self._cells: dict[tuple[bool, int, int, int], list[float]] = {}
+        self._heat, self._speeds, self._torques = map(np.unique, (heat, speeds, torques))
+        self._logarithms = np.log(self._speeds), np.log(self._torques)
+        shape = 2, 2, len(self._heat), len(self._speeds), len(self._torques)
+        self._table = np.full(shape, math.nan)
+        """Loss torque of the teeth over the torque [-], and of the rest [N m], each for a driven
+        and a driving input, by temperature, speed and torque; NaN where it is not computed yet."""
 
-    def __call__(self, torque: float, speed: float, temperature: float) -> Loss:
-        """Loss torques at an operating point.
+    def __call__(self, torque: ArrayLike, speed: ArrayLike, temperature: ArrayLike) -> Loss:
+        """Loss torques at operating points.
 
         Args:
-            torque: input torque [N m].
-            speed: input speed [rad/s].
-            temperature: oil temperature [K].
+            torque: input torques [N m], (n,) or a number.
+            speed: input speeds [rad/s], (n,) or a number.
+            temperature: oil temperatures [K], (n,) or a number.
 
         Returns:
             The loss torques.
@@ -78,96 +84,65 @@ class LossMap:
         Raises:
             RunawayError: a point of the table that is needed has no equilibrium.
         """
-        heat_index, heat_fraction = _interval_of(self._lists[2], temperature)
-        drives = torque * speed >= 0.0
-        cold = self._loss_at(drives, heat_index, torque, speed)
-        if heat_fraction == 0.0:
-            return cold
-        warm = self._loss_at(drives, heat_index + 1, torque, speed)
-        return Loss(
-            cold.teeth + heat_fraction * (warm.teeth - cold.teeth),
-            cold.slope + heat_fraction * (warm.slope - cold.slope),
-            cold.rest + heat_fraction * (warm.rest - cold.rest),
+        torque, speed, temperature = np.broadcast_arrays(torque, speed, temperature)
+        torque_size, speed_size = (
+            np.maximum(np.abs(torque), LEAST),
+            np.maximum(np.abs(speed), LEAST),
         )
+        drives = (torque * speed >= 0.0).astype(np.int64)
+        k, heated = _interval_of(self._heat, temperature)
+        m, log_speed = _interval_of(self._logarithms[0], np.log(speed_size))
+        n, log_torque = _interval_of(self._logarithms[1], np.log(torque_size))
+        first = np.ravel_multi_index((drives, k, m, n), self._table.shape[1:])
+        corners = self._corners(first, heated > 0.0)
+        speeds = np.array([log_speed, _fraction(self._speeds, m, speed_size)])
+        torques = np.array([log_torque, _fraction(self._torques, n, torque_size)])
+        heat = _between(corners[:, :, :, 0], corners[:, :, :, 1], heated)
+        at_speed = _between(heat[:, 0], heat[:, 1], speeds[:, np.newaxis])
+        teeth, rest = _between(at_speed[:, 0], at_speed[:, 1], torques)
+        return Loss(teeth * torque_size, rest)
 
-    @property
-    def knots(self) -> tuple[Array, Array, Array]:
-        """Torques [N m], speeds [rad/s] and temperatures [K] of the table, in rising order."""
-        return self._torques, self._speeds, self._heat
-
-    def tables(self, drives: bool) -> tuple[Array, Array]:
-        """The whole table for one direction of power.
-
-        Args:
-            drives: whether the input drives.
-
-        Returns:
-            Loss torque of tooth friction over the torque [-], and the other loss torque [N m],
-            (temperatures, speeds, torques) each.
+    @cached_property
+    def error(self) -> float:
+        """Bound of the relative error of the loss torque within the table, which it completes.
 
         Raises:
-            RunawayError: a point has no equilibrium.
+            RunawayError: a point of the table has no equilibrium.
         """
-        every_knot = slice(None)
-        parts = [
-            self._table_part(drives, k, every_knot, every_knot) for k in range(len(self._heat))
-        ]
-        return np.stack([teeth for teeth, _ in parts]), np.stack([rest for _, rest in parts])
-
-    def _loss_at(self, drives: bool, heat_index: int, torque: float, speed: float) -> Loss:
-        """Loss at the temperature `heat_index` of the table."""
-        torque_size, speed_size = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
-        speed_index, speed_fraction = _interval_of(self._logarithms[1], math.log(speed_size))
-        torque_index, torque_fraction = _interval_of(self._logarithms[0], math.log(torque_size))
-        a, b, c, d, *rest = self._cell(drives, heat_index, speed_index, torque_index)
-        low, high = a + speed_fraction * (c - a), b + speed_fraction * (d - b)
-        coefficient = low + torque_fraction * (high - low)
-        log_slope = (high - low) / (
-            self._logarithms[0][torque_index + 1] - self._logarithms[0][torque_index]
+        self._compute(np.arange(self._table[0].size))
+        fractions = np.random.default_rng(0).random((3, CHECKED))
+        knots = self._logarithms[1], self._logarithms[0], self._heat
+        log_torque, log_speed, temperature = (
+            ends[0] + share * (ends[-1] - ends[0])
+            for ends, share in zip(knots, fractions, strict=True)
         )
-        a, b, c, d = rest
-        speed_fraction = _fraction(self._lists[1], speed_index, speed_size)
-        low, high = a + speed_fraction * (c - a), b + speed_fraction * (d - b)
-        other_loss = low + _fraction(self._lists[0], torque_index, torque_size) * (high - low)
-        return Loss(
-            coefficient * torque_size,
-            coefficient + (log_slope if 0.0 < torque_fraction < 1.0 else 0.0),
-            other_loss,
-        )
+        points = np.exp(log_torque), np.exp(log_speed), temperature
+        exact = np.array([sum(self.run(*map(float, point))) for point in zip(*points, strict=True)])
+        return SAFETY * float(np.max(np.abs(self(*points).total / exact - 1.0)))
 
-    def _cell(
-        self, drives: bool, heat_index: int, speed_index: int, torque_index: int
-    ) -> list[float]:
-        """Corners of a cell, first of tooth friction, then of the rest; torque varies fastest."""
-        place = drives, heat_index, speed_index, torque_index
-        if place not in self._cells:
-            speeds, torques = (
-                slice(speed_index, speed_index + 2),
-                slice(torque_index, torque_index + 2),
+    def _corners(self, first: Indices, warmer: NDArray[np.bool_]) -> Array:
+        """Corners of cells by the places of their first ones, (2, 2, 2, 2, n): of teeth and rest,
+        by speed, torque and heat; the table at a higher temperature only where it is needed."""
+        speeds, torques = self._table.shape[-2:]
+        in_heat = first + np.multiply.outer([0, speeds * torques], warmer)
+        cell = np.array([[0, 1], [torques, torques + 1]])
+        places = np.add.outer(cell, in_heat)
+        corners = self._table.reshape(2, -1)[:, places]
+        if np.isnan(corners).any():
+            self._compute(places)
+            corners = self._table.reshape(2, -1)[:, places]
+        return corners
+
+    def _compute(self, places: Indices) -> None:
+        """Compute the points of the table that are unknown among some, by their places in it."""
+        table = self._table.reshape(2, -1)
+        for place in np.unique(places[np.isnan(table[0, places])]):
+            drives, k, m, n = np.unravel_index(place, self._table.shape[1:])
+            torque = float(self._torques[n])
+            teeth, rest = self.run(
+                torque if drives else -torque, float(self._speeds[m]), float(self._heat[k])
             )
-            teeth, rest = self._table_part(drives, heat_index, speeds, torques)
-            self._cells[place] = [*teeth.ravel().tolist(), *rest.ravel().tolist()]
-        return self._cells[place]
-
-    def _table_part(
-        self, drives: bool, heat_index: int, speeds: slice, torques: slice
-    ) -> tuple[Array, Array]:
-        """Part of the table: loss torque of tooth friction over torque, and of the rest,
-        (speeds, torques) each."""
-        shape = len(self._speeds), len(self._torques)
-        teeth, rest = self._tables.setdefault(
-            (drives, heat_index), (np.full(shape, np.nan), np.full(shape, np.nan))
-        )
-        unknown = np.argwhere(np.isnan(teeth[speeds, torques]))
-        for speed_index, torque_index in np.add(unknown, [speeds.start or 0, torques.start or 0]):
-            torque = float(self._torques[torque_index])
-            point = float(self._speeds[speed_index]), float(self._heat[heat_index])
-            losses = self.run(torque if drives else -torque, *point)
-            teeth[speed_index, torque_index], rest[speed_index, torque_index] = (
-                losses[0] / torque,
-                losses[1],
-            )
-        return teeth[speeds, torques], rest[speeds, torques]
+            table[:, place] = teeth / torque, rest
 
     def run(self, torque: float, speed: float, temperature: float) -> tuple[float, float]:
         """Simulate an operating point.
@@ -193,14 +168,18 @@ class LossMap:
         return energy.friction / angle, (energy.bearing + energy.churning) / angle
 
 
-def _interval_of(knots: Sequence[float], value: float) -> tuple[int, float]:
-    """Index of the interval of a value, and the fraction of that interval from 0 to 1."""
-    n = min(max(bisect_right(knots, value) - 1, 0), len(knots) - 2)
-    return n, min(max(_fraction(knots, n, value), 0.0), 1.0)
+def _interval_of(knots: Array, value: Array) -> tuple[Indices, Array]:
+    """Index of the interval of each value, and its position within it from 0 to 1."""
+    n = np.minimum(np.maximum(np.searchsorted(knots, value, "right") - 1, 0), len(knots) - 2)
+    return n, np.minimum(np.maximum(_fraction(knots, n, value), 0.0), 1.0)
 
 
-def _fraction(knots: Sequence[float], n: int, value: float) -> float:
-    return (value - knots[n]) / (knots[n + 1] - knots[n])
+def _fraction(knots: Array, n: Indices, value: Array) -> Array:
+    return np.asarray((value - knots[n]) / (knots[n + 1] - knots[n]))
+
+
+def _between(low: Array, high: Array, fraction: Array) -> Array:
+    return np.asarray(low + fraction * (high - low))
 
 
 def loss_map(scene: Scene) -> LossMap:

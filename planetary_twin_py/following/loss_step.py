@@ -13,13 +13,12 @@ Each unknown is scaled by its standard deviation, because zeros in N m and gains
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .balance_filter import CAUSES, Balance
+from .balance_filter import CAUSES, Balances
 
 Array = NDArray[np.float64]
 
@@ -43,7 +42,7 @@ class StepSize(NamedTuple):
     """Index of the balance from which it most likely started."""
 
 
-def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
+def size_of(balances: Balances, covariance: Array) -> StepSize:
     """Size and start of a step that has lasted until the last of some balances.
 
     Every start and every cause have a likelihood, for an amount that is unknown, and for errors of
@@ -57,10 +56,8 @@ def size_of(balances: Sequence[Balance], covariance: Array) -> StepSize:
     Returns:
         The step.
     """
-    sd = np.array([balance.sd for balance in balances])
-    value = np.array([balance.value for balance in balances]) / sd
-    slopes = np.array([balance.slope for balance in balances]) / sd[:, None]
-    added = np.array([balance.added for balance in balances])
+    sd, added = balances.sd, balances.added
+    value, slopes = balances.value / sd, balances.slope / sd[:, None]
     added = added / np.maximum(np.sqrt(np.mean(added**2, axis=0)), 1e-300)
     shapes = added / sd[:, None]
     # Whitened readings have the covariance 1 + S P S'; its inverse is 1 - S inner S' (Woodbury).
@@ -125,16 +122,16 @@ class StepCause:
         triangle: the normal equations would lose the priors beside large torques."""
         self._known = parameters
 
-    def add(self, found: Balance) -> None:
-        """Add a balance since the step.
+    def add(self, found: Balances) -> None:
+        """Add balances since the step.
 
         Args:
-            found: balance with the parameters from before the step.
+            found: balances with the parameters from before the step.
         """
-        row = np.concatenate([found.slope, found.added]) / found.sd
-        row = np.append(row @ self._scale, found.value / found.sd)
-        self._rows = _triangle(np.vstack([self._rows, row]))
-        self._count += 1
+        rows = np.column_stack([found.slope, found.added]) @ self._scale
+        rows = np.column_stack([rows, found.value]) / found.sd[:, None]
+        self._rows = _triangle(np.vstack([self._rows, rows]))
+        self._count += len(rows)
 
     @property
     def causes(self) -> tuple[str, ...]:

@@ -186,7 +186,7 @@ class PowerCheck:
             return math.nan, False, False
         loss = math.nan
         if found.doubtful[0]:
-            loss = sum(self._losses(torques[0].value, speed, self._oil)[::2])
+            loss = float(self._losses(torques[0].value, speed, self._oil).total)
         impossible = bool(found.impossible(np.array([loss]))[0])
         sd = math.sqrt(self._noise[0] / torques[0].readings + self._noise[1] / torques[1].readings)
         limit = CHANGE * max(size, self._train.torque) + NOISY * sd

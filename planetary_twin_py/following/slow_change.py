@@ -1,4 +1,8 @@
-"""Names a friction level that has drifted, too slowly for any step to be found."""
+"""Names a friction level that has drifted, too slowly for any step to be found.
+
+It is the level that alone explains the balances: whether friction, drag or a sensor has changed is
+not known.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +14,8 @@ from ..text.intervals import plus_minus
 from .estimate import CONFIDENT
 
 SETTLED = 120.0  # [s] after which the first estimates no longer depend on the prior
+EVERY = 10.0  # [s] between two estimates
+SMALLEST = 0.05  # change of the level that is named
 
 
 class _Level(NamedTuple):
@@ -29,6 +35,14 @@ class SlowChange:
     _first: _Level | None = field(default=None, init=False)
     _last: _Level | None = field(default=None, init=False)
 
+    def due(self, time: float) -> bool:
+        """Whether an estimate is due.
+
+        Args:
+            time: present time [s].
+        """
+        return self._last is None or time >= self._last.time + EVERY
+
     def add(self, time: float, value: float, sd: float) -> None:
         """Add an estimate.
 
@@ -47,7 +61,7 @@ class SlowChange:
         first, last = self._first, self._last
         if first is None or last is None:
             return
-        if abs(last.value - first.value) > first.half + last.half:
+        if abs(last.value - first.value) > max(first.half + last.half, SMALLEST):
             yield (
                 f"friction_level has drifted from {first} to {last}, without a step: friction or a "
                 "torque sensor has changed slowly"

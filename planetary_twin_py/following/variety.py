@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .balance_filter import F_T, F_W, RATE, SLOW_FALL, B, D, F, G, J, Measured, T
+from .balance_filter import F_T, F_W, SLOW_FALL, B, D, F, G, J, Measured
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ class _Extremes:
 class Variety:
     """Which torques and speeds the readings contain, since the start or the last step.
 
-    Readings older than 6 to 12 h are forgotten, as the parameters are.
+    Readings older than 1 to 2 h are forgotten, as the parameters are.
 
     Args:
         train: gear train with the torque and the speed of the scene.
@@ -66,7 +66,7 @@ class Variety:
         Args:
             read: means of a bin with torque and speed at the input.
         """
-        torque, speed = read.input_torque, read.speed
+        torque, speed = float(read.input_torque[0]), float(read.speed[0])
         values = np.array([torque, speed, abs(torque), abs(speed)])
         if not self._spans or read.time - self._spans[-1].begin > SLOW_FALL:
             self._spans = [*self._spans[-1:], _Extremes(read.time, values, values)]
@@ -97,8 +97,8 @@ class Variety:
         """Readings that would determine a parameter, or determine it better.
 
         Args:
-            state: index of the parameter among the states of the filter.
-            covariance: covariance of the states, (9, 9).
+            state: index of the parameter.
+            covariance: covariance of the parameters, (7, 7).
             identified: whether the readings determine it.
 
         Returns:
@@ -122,7 +122,7 @@ def _remedies(state: int, covariance: Array) -> Iterator[str]:
         return
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     correlation = np.abs(covariance[state] / (sd * sd[state]))
-    correlation[[T, RATE, state]] = 0.0
+    correlation[state] = 0.0
     for other in np.argsort(-correlation, kind="stable"):
         if correlation[other] >= RELATED:
             yield SEPARATED[int(other)]

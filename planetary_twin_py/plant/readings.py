@@ -136,6 +136,6 @@ def _loss(plant: Plant, time: Array, torque: Array, speed: Array) -> Array:
     """Loss torque at the input, with the sign of the speed [N m], (n,)."""
     losses = loss_map(plant.true_scene)
     oil = plant.true_scene.operating_point.oil_temperature
-    parts = np.array([losses(t, w, oil)[::2] for t, w in zip(torque, speed, strict=True)])
+    teeth, rest = losses(torque, speed, oil)
     friction, drag = plant.at("friction", time, 1.0), plant.at("drag", time, 0.0)
-    return np.asarray(np.sign(speed) * (friction * parts[:, 0] + parts[:, 1] + drag))
+    return np.asarray(np.sign(speed) * (friction * teeth + rest + drag))

@@ -4,7 +4,7 @@ import numpy as np
 
 import planetary_twin_py as pt
 from planetary_twin_py.fleet.fleet import Fleet
-from planetary_twin_py.fleet.loss_table import loss_table
+from planetary_twin_py.following.loss_map import loss_map
 
 NOISE = 0.1, 0.25  # [N m] of a row
 FULL = 100.0, 250.0  # [N m]
@@ -23,7 +23,7 @@ class Played:
         self.chance = np.random.default_rng(seed)
         normal = self.chance.standard_normal
         self.scene, self.count, self.period = paper(), count, period
-        self.table = loss_table(true_scene or self.scene)
+        self.table = loss_map(true_scene or self.scene)
         self.zero = 5e-4 * np.array(FULL)[:, None] * normal((2, count))
         self.gain = 1e-3 * normal((2, count))
         self.friction = 1.0 + 0.1 * normal(count)
@@ -57,7 +57,7 @@ class Played:
     def level(self):
         """True friction levels at the operating point of the scene."""
         at = [np.full(self.count, value) for value in (63.0, 104.72, 343.15)]
-        true, nominal = self.table(*at), loss_table(self.scene)(*at)
+        true, nominal = self.table(*at), loss_map(self.scene)(*at)
         return (self.friction * true.teeth + true.rest - nominal.rest) / nominal.teeth
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 import planetary_twin_py as pt
 from planetary_twin_py.fleet.fleet import Fleet
-from planetary_twin_py.fleet.loss_table import loss_table
+from planetary_twin_py.following.loss_map import loss_map
 
 STEP = 0.1  # [s] of the simulated speed
 GUST, LAG = 5.0, 1.0  # [s] time constants of the wander, and with which the drive follows
@@ -20,7 +20,7 @@ class Wandering:
         self.chance, self.wander = np.random.default_rng(seed), wander
         normal = self.chance.standard_normal
         self.scene, self.count = pt.load_scene("wind_turbine_stage"), count
-        self.train, self.table = Fleet(self.scene, 1).train, loss_table(self.scene)
+        self.train, self.table = Fleet(self.scene, 1).train, loss_map(self.scene)
         full = 1.6 * self.train.torque * np.array([1.0, 1.0 / self.train.ratio])[:, None]
         self.noise, self.zero = 1e-3 * full, 5e-4 * full * normal((2, count))
         self.gain = 1e-3 * normal((2, count))

@@ -5,7 +5,6 @@ import pytest
 from fleet.fleets import Played, paper
 from tiers import first
 
-from planetary_twin_py.fleet.cusums import Cusums, limit
 from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
 
 OTHER = {"losses.planet_bearing": {"mean_diameter": 0.012}}
@@ -84,18 +83,6 @@ def test_a_group_gives_the_same_bits_as_the_whole_fleet():
         part.add(float(time), {name: values[:10] for name, values in row.items()})
     one, other = whole.estimate("friction_level"), part.estimate("friction_level")
     assert np.array_equal(one.value[:10], other.value)
-
-
-def test_white_innovations_reach_the_limit_as_rarely_as_stated():
-    """With one gearbox and a limit for a false alarm in 200 terms, of two sums."""
-    terms, chance = 200, np.random.default_rng(7)
-    low = np.log(terms) - 1.166  # see `limit`, which has a year in place of 200 terms
-    assert limit(1, 60.0) == pytest.approx(np.log(365.25 * 1440.0) - 1.166)
-    sums, count, found = Cusums(400, low), 1000, 0
-    for number in range(1, count + 1):
-        steps = sums.add(60.0 * number, chance.standard_normal(400), *np.ones((2, 400)), 60.0)
-        found += len(steps.gearbox)
-    assert found == pytest.approx(400 * count / terms, rel=0.15)
 
 
 @pytest.mark.parametrize(

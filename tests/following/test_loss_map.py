@@ -1,5 +1,6 @@
 """The table of losses against runs between its points."""
 
+import numpy as np
 import pytest
 from following.plants import LAWS, paper
 
@@ -23,13 +24,19 @@ def test_it_is_the_loss_of_a_quasi_static_run_to_a_percent(torque, speed, oil):
     assert found.rest == pytest.approx(run.energy.bearing / turned, rel=0.015)
 
 
-def test_its_slope_is_its_derivative():
-    losses = loss_map(paper())
-    for torque in (20.0, 50.0):
-        step = 1e-4 * torque
-        above, below = (losses(torque + sign * step, 100.0, 343.15).teeth for sign in (1, -1))
-        slope = (above - below) / (2.0 * step)
-        assert losses(torque, 100.0, 343.15).slope == pytest.approx(slope, rel=1e-5)
+def test_points_together_are_the_points_alone():
+    losses, chance = loss_map(paper()), np.random.default_rng(1)
+    points = [chance.uniform(*ends, 40) for ends in ((-110, 110), (-160, 160), (310, 380))]
+    alone = [losses(*point) for point in zip(*points, strict=True)]
+    assert np.array_equal(losses(*points), np.transpose(alone))
+
+
+def test_its_error_bound_holds_at_other_points():
+    losses, chance = loss_map(paper()), np.random.default_rng(99)
+    for _ in range(10):
+        at = chance.uniform(2.0, 90.0), chance.uniform(5.0, 150.0), chance.uniform(325.0, 360.0)
+        assert losses(*at).total == pytest.approx(sum(losses.run(*at)), rel=losses.error)
+    assert losses.error < 0.03
 
 
 def test_faults_and_runouts_of_the_scene_are_left_out():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.balance_filter import Balance
+from planetary_twin_py.following.balance_filter import Balances
 from planetary_twin_py.following.loss_step import CAUSES, StepCause, size_of
 
 NOISE, STEP, AT = 0.05, 0.04, 150
@@ -11,18 +11,16 @@ NOISE, STEP, AT = 0.05, 0.04, 150
 
 def balances(cause, count=300, seed=0, varied=True):
     """Balances of a train that reverses; a step of one cause from `AT` on."""
-    place = CAUSES.index(cause)
-    chance = np.random.default_rng(seed)
-    found = []
-    for n in range(count):
-        sign = -1.0 if varied and n % 40 < 20 else 1.0
-        friction = sign * (1.0 if not varied or n % 60 < 30 else 0.4)
-        torque = -1.0 if varied and n % 100 < 50 else 1.0
-        added = np.array([friction, sign, 1.0, torque])
-        value = NOISE * chance.standard_normal() + (STEP * added[place] if n >= AT else 0.0)
-        slope = np.array([friction, 1.0, sign, torque, 0.0, 0.0, 0.0])
-        found.append(Balance(value, NOISE, slope, added))
-    return found
+    n, one = np.arange(count), np.ones(count)
+    sign = np.where(varied & (n % 40 < 20), -one, one)
+    friction = sign * np.where(varied & (n % 60 >= 30), 0.4, 1.0)
+    torque = np.where(varied & (n % 100 < 50), -one, one)
+    added = np.array([friction, sign, one, torque])[CAUSES.index(cause)]
+    value = NOISE * np.random.default_rng(seed).standard_normal(count)
+    slope = np.column_stack([friction, one, sign, torque, *np.zeros((3, count))])
+    return Balances(
+        value + STEP * added * (n >= AT), NOISE * one, slope, friction, torque, one, one
+    )
 
 
 def test_the_size_and_the_start_hold_the_truth_in_19_of_20_runs():
@@ -51,14 +49,12 @@ def test_start_of_change_of_friction_is_sought_where_friction_is():
 @pytest.mark.parametrize("cause", CAUSES)
 def test_reversals_and_loads_show_the_cause(cause):
     found = StepCause(0.0, 1e-10 * np.eye(7))
-    for row in balances(cause, 1500)[AT:]:
-        found.add(row)
+    found.add(balances(cause, 1500).since(AT))
     assert found.causes == (cause,)
 
 
 def test_an_impossible_cause_is_never_named():
     found = StepCause(0.0, 1e-10 * np.eye(7), CAUSES[1:])
     assert found.causes == CAUSES[1:]
-    for row in balances(CAUSES[0], 1500)[AT:]:
-        found.add(row)
+    found.add(balances(CAUSES[0], 1500).since(AT))
     assert found.causes and CAUSES[0] not in found.causes

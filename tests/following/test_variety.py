@@ -15,7 +15,8 @@ from planetary_twin_py.following.variety import (
     Variety,
 )
 
-UNRELATED = np.eye(9)
+UNRELATED = np.eye(7)
+NOTHING = np.zeros((3, 1))  # acceleration, its noise, oil temperature
 
 
 def seen(*points, step=0.1):
@@ -23,8 +24,8 @@ def seen(*points, step=0.1):
     train = followed_train(paper())
     found = Variety(train)
     for number, (torque, speed) in enumerate(points):
-        torque, speed = torque * train.torque, speed * train.speed
-        found.add(Measured(step * number, torque, -torque, (1, 1), speed, 0.0, 0.0, 343.0))
+        torque, speed = np.array([torque * train.torque]), np.array([speed * train.speed])
+        found.add(Measured(step * number, torque, -torque, np.ones((2, 1)), speed, *NOTHING))
     return found
 
 

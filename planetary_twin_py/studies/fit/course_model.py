@@ -102,11 +102,5 @@ def _input_torque(course: Course, losses: LossMap, inertia: float, ratio: float)
     sign = np.sign(course.speed)
     torque = lossless
     for _ in range(PASSES):
-        loss_torques = [
-            sum(losses(*point)[::2])
-            for point in zip(
-                torque.tolist(), course.speed.tolist(), course.oil_temperature.tolist(), strict=True
-            )
-        ]
-        torque = lossless + sign * np.array(loss_torques)
+        torque = lossless + sign * losses(torque, course.speed, course.oil_temperature).total
     return np.asarray(torque + inertia * course.acceleration)

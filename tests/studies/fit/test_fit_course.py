@@ -30,8 +30,7 @@ def manoeuvre(path, kind, slow_error=0.0, seed=0):
     else:  # run-up
         speed, torque = 2.0 + 1.5 * time, 0.5 + 0.05 * time
     acceleration = np.gradient(speed, time)
-    lost = np.sign(speed) * [sum(losses(*at, train.oil_temperature)[::2])
-                             for at in zip(torque, speed, strict=True)]  # fmt: skip
+    lost = np.sign(speed) * losses(torque, speed, train.oil_temperature).total
     noise = np.random.default_rng(seed)
     savemat(
         path,
@@ -93,7 +92,7 @@ def test_a_parameter_without_effect_is_reported_with_the_reason(tmp_path):
     scene = pt.load_scene("paper")
     train, losses = followed_train(scene), LossMap(scene)
     time, one = np.arange(1, 301) / RATE, np.ones(300)
-    lost = sum(losses(63.0, pt.rpm(1000), train.oil_temperature)[::2])
+    lost = losses(63.0, pt.rpm(1000), train.oil_temperature).total
     torque = 63.0 + NOISE * np.random.default_rng(1).standard_normal(len(time))
     table = {"time": time, "input_speed": pt.rpm(1000) * one, "input_torque": torque}
     savemat(tmp_path / "rig.mat", table | {"output_torque": (lost - 63.0) / train.ratio * one})
