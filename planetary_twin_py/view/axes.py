@@ -18,11 +18,11 @@ from ..recording.runs.reader import Recording, Series
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
 from ..units.catalogue import COMPONENTS, MEMBERS
+from ..units.engineering import figure
 from . import timeline
 from .gears import MILLIMETRES, Moved
 from .layer import Layer
 from .motion import Motion
-from .newtons import newtons
 from .round_numbers import round_down, round_up
 
 Array = NDArray[np.float64]
@@ -172,7 +172,7 @@ def _log_scale(layer: Layer, gearset: Gearset, drawn: Scales, thick: float) -> N
     )
     layer.log("gears/bearing_force/scale", arrow, static=True)
     texts = {
-        f"Bearing force {newtons(drawn.force)}": y + 3.0 * module,
+        f"Bearing force {figure(drawn.force, 'N')}": y + 3.0 * module,
         f"Axes displaced x {drawn.magnification:g}": y - 3.0 * module,
     }
     points = rr.Points3D(

@@ -15,7 +15,7 @@ from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.robot.parts import carrier_radius, gear_of
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.view.contacts import contacts, forces, log_contacts, newtons
+from planetary_twin_py.view.contacts import contacts, forces, log_contacts
 from planetary_twin_py.view.motion import motion
 from planetary_twin_py.view.timeline import columns
 
@@ -188,7 +188,3 @@ def test_contacts_are_sent_in_blocks_that_miss_no_time(tmp_path, monkeypatch):
         columns(moved.time, moved.stamp)[0].as_arrow_array().to_numpy(zero_copy_only=False).tolist()
     )
     assert len(expected) > 3 * block and all(times == expected for times in sent.values())
-
-
-def test_loads_have_readable_labels():
-    assert [newtons(f) for f in (900.0, 2e3, 3e4, 1e6)] == ["900 N", "2 kN", "30 kN", "1 MN"]
