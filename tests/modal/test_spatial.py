@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-import planetary_twin_py as pt
-from planetary_twin_py.modal.modes import modes_of
-from planetary_twin_py.modal.planar import PlanarBody, PlanarSet, planar_model
-from planetary_twin_py.modal.printed_spatial import (
+from planetary_twin_paper.printed_spatial import (
     PinStiffness,
     carrier_block,
     coupling_block,
     mesh_block,
     planet_block,
 )
+
+import planetary_twin_py as pt
+from planetary_twin_py.modal.modes import modes_of
+from planetary_twin_py.modal.planar import PlanarBody, PlanarSet, planar_model
 from planetary_twin_py.modal.spatial import SpatialBody, SpatialSet, spatial_model
 
 ANGLE = math.radians(24.6)
