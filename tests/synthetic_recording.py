@@ -13,6 +13,8 @@ from pathlib import Path
 import numpy as np
 from mcap_ros2.writer import Writer
 
+from planetary_twin_py.units.catalogue import WAVEFORM
+
 MSG_DIR = Path(__file__).parents[1] / "msgs_spec" / "msg"
 NAMESPACE = "/planetary_twin"
 START_NS = 1_790_000_000_000_000_000
@@ -159,7 +161,8 @@ def block(begin: float, number: int) -> dict:
     """The waveform of the interval from `begin` [s] on."""
     grid = begin + SAMPLE_PERIOD * np.arange(1, BLOCK + 1)
     dte, force, friction = waveform(grid)
-    return {
+    quantities = {name: [0.0] * dte.size for name in WAVEFORM}
+    return quantities | {
         "header": header(grid[0]),
         "sequence": number,
         "start_time": grid[0],

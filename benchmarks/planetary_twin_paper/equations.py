@@ -135,16 +135,16 @@ EQUATIONS = (
         "not applicable: stiffness times acceleration",
     ),
     Equation(
-        ("25", "26"), "stiffness of a mesh", "modal/printed_spatial.py",
-        "outer product of the row of the mesh (`modal/spatial.py`)",
+        ("25", "26"), "stiffness of a mesh", "modal/spatial.py",
+        "outer product of the row of the mesh",
         "entry (1,5) has the wrong sign, which matters for helical gears only; (26) has the "
-        "stiffness of the sun mesh; included as matrices for comparison",
+        "stiffness of the sun mesh; matrices for comparison: planetary_twin_paper",
     ),
     Equation(
-        ("27", "28"), "stiffness of a planet's bearing", "modal/printed_spatial.py",
-        "a row for every spring (`modal/spatial.py`)",
+        ("27", "28"), "stiffness of a planet's bearing", "modal/spatial.py",
+        "a row for every spring",
         "the last row of (27) has k_zz in place of k_xx: a common motion of carrier and planet is "
-        "resisted; included as matrices for comparison",
+        "resisted; matrices for comparison: planetary_twin_paper",
     ),
     Equation(
         ("29", "30", "31"), "torsional equations of the three pairs", "modal/torsional.py",

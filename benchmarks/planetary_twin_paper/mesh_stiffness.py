@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from planetary_twin_core_parts import find_segment, mesh_stiffness
 
-from planetary_twin_py.gearset.geometry import planet_ring_path, sun_planet_path
 from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.plots.style import panels
 from planetary_twin_py.scene import Scene
@@ -33,14 +32,7 @@ def meshing_cycle(evidence: Evidence) -> Entry:
     curves = {name: _curves(scene.replace(**changes)) for name, changes in LAWS.items()}
     cycle = curves["rectangular"]
     shares = [float((k > 1.01 * k.min()).mean()) for k in cycle]
-    gearset = scene.gearset
-    paths = (sun_planet_path, planet_ring_path)
-    ratios = [
-        path(
-            gearset.tooth_numbers, gearset.transverse.pressure_angle, gearset.addendum
-        ).contact_ratio
-        for path in paths
-    ]
+    ratios = [mesh.path.contact_ratio for mesh in scene.gearset.geometry.meshes]
     levels = [len(np.unique(np.round(k, -3))) for k in cycle]
     teeth = curves["from the teeth"]
     return Entry(

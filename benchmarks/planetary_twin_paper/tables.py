@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from planetary_twin_py.gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.scene import Scene
 
 from .entry import Claim, Entry
@@ -28,10 +28,7 @@ def geometry(evidence: Evidence) -> Entry:
     gearset = evidence.scene.gearset
     teeth, angle = gearset.tooth_numbers, math.degrees(gearset.transverse.pressure_angle)
     radii = [1e3 * pitch_radius(z, gearset.transverse.module) for z in teeth]
-    ratios = [
-        path(teeth, gearset.transverse.pressure_angle, gearset.addendum).contact_ratio
-        for path in (sun_planet_path, planet_ring_path)
-    ]
+    ratios = [mesh.path.contact_ratio for mesh in gearset.geometry.meshes]
     stated = (30, 20, 70, 0.8e-3, 21.34)
     ours = (*teeth, gearset.transverse.module, angle)
     radii_text = "/".join(f"{r:g}" for r in radii)

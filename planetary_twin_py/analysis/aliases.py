@@ -76,17 +76,6 @@ def aliased_harmonic(place: float, mesh: float, sample_rate: float, near: float)
     return None
 
 
-def recommended_rate(sample_rate: float, highest_mode: float | None) -> float:
-    """Sample rate [Hz] to try if `sample_rate` is too low.
-
-    Args:
-        sample_rate: [Hz].
-        highest_mode: highest natural frequency of the train [Hz], above which spectra decrease;
-            None if it is unknown.
-    """
-    return max(2.0 * sample_rate, PER_MODE * (highest_mode or 0.0))
-
-
 def alias_remark(
     sample_rate: float, share: float, highest_mode: float | None, mesh: float | None
 ) -> str:
@@ -95,16 +84,17 @@ def alias_remark(
     Args:
         sample_rate: [Hz].
         share: from `alias_share`.
-        highest_mode: see `recommended_rate`.
+        highest_mode: highest natural frequency of the train [Hz], above which spectra decrease;
+            None if it is unknown.
         mesh: mesh frequency [Hz]; None if it is unknown.
 
     Returns:
         A sentence with the recommended sample rate.
     """
+    better = max(2.0 * sample_rate, PER_MODE * (highest_mode or 0.0))
     first = "" if not mesh else f" (mesh harmonics from {0.5 * sample_rate / mesh:.3g} on)"
     return (
         f"the sample rate of {sample_rate:g} Hz is too low for this signal: components above "
         f"{0.5 * sample_rate:g} Hz{first} appear as aliases, and lines of up to about "
-        f"{percent(share)} of the highest may be aliases; record at "
-        f"{recommended_rate(sample_rate, highest_mode):.3g} Hz or more"
+        f"{percent(share)} of the highest may be aliases; record at {better:.3g} Hz or more"
     )

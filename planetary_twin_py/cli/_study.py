@@ -212,9 +212,9 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
     """
     from ..checks.fixed_axes import held_axes_warning
     from ..explanation.backlash import backlash_of_scene
-    from ..explanation.deflection import deflection_of_scene
+    from ..explanation.deflection import deflection_warning
     from ..explanation.oil import oil_of_scenes
-    from ..explanation.pressure import pressure_of_scene
+    from ..explanation.pressure import pressure_warning
     from ..studies.clipping import clipping_of_study
     from ..studies.energy_balance import unbalanced_runs
     from ..studies.inaccurate import inaccuracies
@@ -223,8 +223,8 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
     lines = (
         next(filter(None, map(held_axes_warning, scenes)), None),
         next(filter(None, map(backlash_of_scene, scenes)), None),
-        next(filter(None, map(deflection_of_scene, scenes)), None),
-        next(filter(None, map(pressure_of_scene, scenes)), None),
+        next(filter(None, map(deflection_warning, scenes)), None),
+        next(filter(None, map(pressure_warning, scenes)), None),
         oil_of_scenes(scenes),
         clipping_of_study(table),
         unbalanced_runs(table),

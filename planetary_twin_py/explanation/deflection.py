@@ -8,7 +8,7 @@ from ..run.result import Result
 from ..scene import Scene
 from ..units.catalogue import SIDES, side_title
 from ..units.engineering import figure
-from .mesh_loads import loads_of_run, loads_of_scene
+from .mesh_loads import mesh_loads
 
 LARGEST = 0.1
 """Largest deflection of a mesh, in modules. A tooth is about 2.25 modules high, so two teeth that
@@ -16,37 +16,23 @@ yield by 0.1 module each turn by about 1/45, and their flanks meet far off the n
 action. The tips of loaded steel teeth yield by about 0.01 module."""
 
 
-def deflection_of_run(scene: Scene, run: Result) -> str | None:
-    """Warn if the mean force of any mesh in a run bends teeth beyond linear elasticity.
+def deflection_warning(scene: Scene, run: Result | None = None) -> str | None:
+    """Warn if the force of the meshes over their mean stiffness is beyond linear elasticity.
 
-    Args:
-        scene: the scene.
-        run: its result.
-
-    Returns:
-        A sentence, or None.
-    """
-    return _warning(scene, loads_of_run(run))
-
-
-def deflection_of_scene(scene: Scene) -> str | None:
-    """Warn if the static force of the meshes bends teeth beyond linear elasticity.
+    So the motion within the backlash is left out.
 
     Args:
         scene: the scene; teeth that are impossible are reported by its run.
+        run: its result, whose mean forces count; None: the static forces count.
 
     Returns:
         A sentence, or None.
     """
     try:
-        return _warning(scene, loads_of_scene(scene))
+        stiffness = mean_stiffness(build_teeth(scene)).tolist()
     except ValueError:
         return None
-
-
-def _warning(scene: Scene, forces: list[float]) -> str | None:
-    """Warn of force over mean stiffness, which leaves out the motion within the backlash."""
-    stiffness = mean_stiffness(build_teeth(scene)).tolist()
+    forces = mesh_loads(scene, run)
     deflections = [force / k if k else 0.0 for force, k in zip(forces, stiffness, strict=True)]
     largest, module = max(deflections), scene.gearset.transverse.module
     if not largest > LARGEST * module:

@@ -8,20 +8,14 @@ from ..scene import Scene
 from ..units.catalogue import SIDES
 
 
-def loads_of_run(run: Result) -> list[float]:
-    """Largest magnitude of the mean forces of the sun-planet and planet-ring meshes [N].
-
-    Args:
-        run: result of a run.
-    """
-    loads = abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1).max(axis=1)
-    return [float(load) for load in loads]
-
-
-def loads_of_scene(scene: Scene) -> list[float]:
-    """Magnitude of the static force of the sun-planet and planet-ring meshes [N].
+def mesh_loads(scene: Scene, run: Result | None) -> list[float]:
+    """Magnitude of the force of the sun-planet and planet-ring meshes [N].
 
     Args:
         scene: the scene.
+        run: its result, whose largest mean force of each kind counts; None: the static force.
     """
-    return [abs(Layout(scene).mesh_force(scene.operating_point.input_torque))] * len(SIDES)
+    if run is None:
+        return [abs(Layout(scene).mesh_force(scene.operating_point.input_torque))] * len(SIDES)
+    loads = abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1).max(axis=1)
+    return [float(load) for load in loads]

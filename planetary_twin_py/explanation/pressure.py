@@ -9,7 +9,7 @@ from ..lubrication.hertz import contact_modulus
 from ..run.result import Result
 from ..scene import Scene
 from ..units.catalogue import SIDES, side_title
-from .mesh_loads import loads_of_run, loads_of_scene
+from .mesh_loads import mesh_loads
 
 LARGEST = 2e9
 """Largest pressure of the friction laws [Pa]: that up to which docs/lubrication.md compares them. A
@@ -41,35 +41,20 @@ def pitch_pressure(scene: Scene, force: float, kind: int) -> float:
     return 0.5 * modulus * half_width(force, radius, width, modulus) / radius
 
 
-def pressure_of_run(scene: Scene, run: Result) -> str | None:
-    """Warn if the mean force of any mesh in a run presses teeth beyond the laws of friction.
+def pressure_warning(scene: Scene, run: Result | None = None) -> str | None:
+    """Warn if the force of the meshes presses teeth beyond the laws of friction.
 
     Args:
         scene: the scene.
-        run: its result.
+        run: its result, whose mean forces count; None: the static forces count.
 
     Returns:
         A sentence, or None.
     """
-    return _warning(scene, loads_of_run(run))
-
-
-def pressure_of_scene(scene: Scene) -> str | None:
-    """Warn if the static force of the meshes presses teeth beyond the laws of friction.
-
-    Args:
-        scene: the scene.
-
-    Returns:
-        A sentence, or None.
-    """
-    return _warning(scene, loads_of_scene(scene))
-
-
-def _warning(scene: Scene, forces: list[float]) -> str | None:
     if not scene.lubrication.friction:
         return None
-    pressures = [pitch_pressure(scene, force, kind) for kind, force in enumerate(forces)]
+    forces = enumerate(mesh_loads(scene, run))
+    pressures = [pitch_pressure(scene, force, kind) for kind, force in forces]
     largest = max(pressures)
     if not largest > LARGEST:
         return None

@@ -11,8 +11,8 @@ from ..scene import Scene
 from ..studies.clipping import clipping_of_run
 from ..studies.measures import clipped_friction
 from .backlash import backlash_of_scene
-from .deflection import deflection_of_run
-from .pressure import pressure_of_run
+from .deflection import deflection_warning
+from .pressure import pressure_warning
 from .turning import turning_warnings
 
 
@@ -36,7 +36,7 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
             "wrong sign, and count the loss twice: friction drives the gears, and power loss and "
             "efficiency are those of no gearbox"
         )
-    for look in (deflection_of_run, pressure_of_run):
+    for look in (deflection_warning, pressure_warning):
         if line := look(scene, run):
             yield line
     if line := clipping_of_run(clipped_friction(scene, run)):

@@ -62,23 +62,10 @@ def model_description_3(about: Description) -> bytes:
     Returns:
         The XML file.
     """
-    root = Xml.Element(
-        "fmiModelDescription",
-        fmiVersion="3.0",
-        modelName=about.name,
-        instantiationToken=about.token,
-        description=about.text,
-        generationTool=about.tool,
-        license="Apache-2.0",
-        variableNamingConvention="structured",
-    )
-    Xml.SubElement(root, "CoSimulation", {"modelIdentifier": about.identifier} | CAPABILITIES_3)
-    _put_units(root, about.variables)
-    _put_experiment(root, about.tolerance)
+    root = _root(about, CAPABILITIES_3, fmiVersion="3.0", instantiationToken=about.token)
     model_variables = Xml.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(about.variables):
-        values = {"name": variable.name, "valueReference": str(reference)}
-        values |= _attributes(variable) | _values(variable)
+        values = _attributes(reference, variable) | _values(variable)
         Xml.SubElement(model_variables, "Float64", values)
     structure = Xml.SubElement(root, "ModelStructure")
     for element in ("Output", "InitialUnknown"):
@@ -97,26 +84,11 @@ def model_description_2(about: Description) -> bytes:
     Returns:
         The XML file.
     """
-    root = Xml.Element(
-        "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=about.name,
-        guid=about.token,
-        description=about.text,
-        generationTool=about.tool,
-        license="Apache-2.0",
-        variableNamingConvention="structured",
-    )
-    Xml.SubElement(root, "CoSimulation", {"modelIdentifier": about.identifier} | CAPABILITIES_2)
-    _put_units(root, about.variables)
-    _put_experiment(root, about.tolerance)
+    root = _root(about, CAPABILITIES_2, fmiVersion="2.0", guid=about.token)
     model_variables = Xml.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(about.variables):
-        scalar = Xml.SubElement(
-            model_variables,
-            "ScalarVariable",
-            {"name": variable.name, "valueReference": str(reference)} | _attributes(variable),
-        )
+        attributes = _attributes(reference, variable)
+        scalar = Xml.SubElement(model_variables, "ScalarVariable", attributes)
         Xml.SubElement(scalar, "Real", _values(variable))
     structure = Xml.SubElement(root, "ModelStructure")
     for element in ("Outputs", "InitialUnknowns"):
@@ -127,8 +99,27 @@ def model_description_2(about: Description) -> bytes:
     return _file(root)
 
 
-def _attributes(variable: Variable) -> dict[str, str]:
+def _root(about: Description, capabilities: dict[str, str], **of_version: str) -> Xml.Element:
+    """What both versions have in common, up to the variables."""
+    root = Xml.Element(
+        "fmiModelDescription",
+        of_version,
+        modelName=about.name,
+        description=about.text,
+        generationTool=about.tool,
+        license="Apache-2.0",
+        variableNamingConvention="structured",
+    )
+    Xml.SubElement(root, "CoSimulation", {"modelIdentifier": about.identifier} | capabilities)
+    _put_units(root, about.variables)
+    _put_experiment(root, about.tolerance)
+    return root
+
+
+def _attributes(reference: int, variable: Variable) -> dict[str, str]:
     values: dict[str, str] = {
+        "name": variable.name,
+        "valueReference": str(reference),
         "causality": variable.causality,
         "variability": variable.variability,
     }

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .kinematics import Teeth
-
 
 class PathOfContact(NamedTuple):
     """Path of contact of a tooth pair on the line of action, relative to the pitch point.
@@ -50,9 +48,7 @@ def base_pitch(module: float, pressure_angle: float) -> float:
     return math.pi * module * math.cos(pressure_angle)
 
 
-def external_tip_reach(
-    teeth: float, angle: float, height: float, working: float | None = None
-) -> float:
+def external_tip_reach(teeth: float, angle: float, height: float, working: float) -> float:
     """Distance from the pitch point to the tip circle along the line of action [modules].
 
     ISO 21771:2007, sec. 6.5: sqrt(r_a^2 - r_b^2) - r_b tan(a_w).
@@ -61,36 +57,32 @@ def external_tip_reach(
         teeth: number of teeth.
         angle: pressure angle on the reference circle [rad].
         height: of the tip above the reference circle [modules].
-        working: working pressure angle [rad]; default: `angle`.
+        working: working pressure angle [rad].
     """
     pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 + height
     return math.sqrt(tip**2 - base**2) - _tangent(pitch, angle, working)
 
 
-def internal_tip_reach(
-    teeth: float, angle: float, height: float, working: float | None = None
-) -> float:
+def internal_tip_reach(teeth: float, angle: float, height: float, working: float) -> float:
     """Distance from the pitch point to the tip circle of an internal gear [modules].
 
     Args:
         teeth: number of teeth.
         angle: pressure angle on the reference circle [rad].
         height: of the tip inside the reference circle [modules].
-        working: working pressure angle [rad]; default: `angle`.
+        working: working pressure angle [rad].
     """
     pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 - height
     return _tangent(pitch, angle, working) - math.sqrt(tip**2 - base**2)
 
 
-def _tangent(pitch: float, angle: float, working: float | None) -> float:
+def _tangent(pitch: float, angle: float, working: float) -> float:
     """Distance from the pitch point to the base circle along the line of action, r_b tan(a_w)."""
-    if working is None:
-        working = angle
     return pitch * (math.cos(angle) / math.cos(working)) * math.sin(working)
 
 
 def on_involute(
-    reach: float, teeth: float, angle: float, tip: str, flank: str, working: float | None = None
+    reach: float, teeth: float, angle: float, tip: str, flank: str, working: float
 ) -> float:
     """Check that the tip of the mating gear does not pass the start of the involute.
 
@@ -103,7 +95,7 @@ def on_involute(
         angle: pressure angle on the reference circle [rad].
         tip: name of the mating gear, for the message.
         flank: name of the gear, for the message.
-        working: working pressure angle [rad]; default: `angle`.
+        working: working pressure angle [rad].
 
     Returns:
         `reach`.
@@ -121,53 +113,3 @@ def on_involute(
             "gearset.addendum"
         )
     return reach
-
-
-def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
-    """Path of contact of the external mesh.
-
-    Args:
-        teeth: tooth numbers.
-        pressure_angle: [rad].
-        addendum: [modules].
-
-    Returns:
-        Lengths of approach and recess [base pitches].
-
-    Raises:
-        ValueError: a tip reaches below the base circle of the mating gear.
-    """
-    pitch = math.pi * math.cos(pressure_angle)
-    sun = external_tip_reach(teeth.sun, pressure_angle, addendum)
-    planet = external_tip_reach(teeth.planet, pressure_angle, addendum)
-    return PathOfContact(
-        on_involute(planet, teeth.sun, pressure_angle, "planets", "sun") / pitch,
-        on_involute(sun, teeth.planet, pressure_angle, "sun", "planet") / pitch,
-    )
-
-
-def planet_ring_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
-    """Path of contact of the internal mesh.
-
-    Args:
-        teeth: tooth numbers.
-        pressure_angle: [rad].
-        addendum: [modules].
-
-    Returns:
-        Lengths of approach and recess [base pitches].
-
-    Raises:
-        ValueError: the tip circle of the ring is inside its base circle, where there is no flank,
-            or its tips reach below the base circle of the planets.
-    """
-    if teeth.ring / 2 - addendum <= teeth.ring / 2 * math.cos(pressure_angle):
-        raise ValueError(
-            f"addendum = {addendum:g} module: the tip circle of the ring is inside its base circle"
-        )
-    pitch = math.pi * math.cos(pressure_angle)
-    ring = internal_tip_reach(teeth.ring, pressure_angle, addendum)
-    return PathOfContact(
-        on_involute(ring, teeth.planet, pressure_angle, "ring", "planet") / pitch,
-        external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
-    )

@@ -124,19 +124,11 @@ class WorkingMesh:
         """Lengths of approach and recess [base pitches].
 
         Raises:
-            ValueError: a tip reaches below the base circle of the mating gear, or the tip circle
-                of the ring is inside its base circle.
+            ValueError: a tip reaches below the base circle of the mating gear.
         """
         first, second, working = self.first, self.second, self.pressure_angle
         angle, (driver, driven) = first.pressure_angle, self.names
         pitch = math.pi * math.cos(angle)
-        if self.internal and second.teeth / 2 - second.tip_height <= second.teeth / 2 * math.cos(
-            angle
-        ):
-            raise ValueError(
-                f"addendum = {second.tip_height / second.stated:g} module: the tip circle of the "
-                "ring is inside its base circle"
-            )
         reach = internal_tip_reach if self.internal else external_tip_reach
         late = external_tip_reach(first.teeth, angle, first.tip_height, working)
         early = reach(second.teeth, angle, second.tip_height, working)

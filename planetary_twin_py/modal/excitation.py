@@ -15,7 +15,7 @@ import numpy as np
 
 from ..model.layout import Layout
 from ..scene import Scene
-from .forcing import KINDS
+from ..units.catalogue import SIDES
 from .springs import SpringModel
 
 EXCITED = "excited"
@@ -60,7 +60,7 @@ def _mesh_work(
     divided by this fraction and the root of a stiffness.
     """
     work = largest = 0.0
-    for kind, phases in zip(KINDS, Layout(scene).phases, strict=True):
+    for kind, phases in zip(SIDES, Layout(scene).phases, strict=True):
         meshes = [spring for spring in springs.springs if spring.kind == kind]
         turns = [float(harmonic * phase % 1) for phase in phases]
         root = math.sqrt(max(spring.stiffness for spring in meshes))

@@ -16,9 +16,9 @@ from ..model.layout import Layout
 from ..model.mean_stiffness import mean_stiffness
 from ..model.teeth import build_teeth, stiffness_at
 from ..scene import Scene
+from ..units.catalogue import SIDES
 from .springs import Spring, SpringModel
 
-KINDS = ("sun_planet", "planet_ring")
 POINTS = 8192  # of a mesh cycle
 ROUNDING = 1e-9  # of the mean stiffness: less does not vary
 
@@ -69,7 +69,7 @@ def forcing(scene: Scene, springs: SpringModel, harmonics: int) -> Forcing:
     Returns:
         The pull.
     """
-    meshes = [[s for s in springs.springs if s.kind == kind] for kind in KINDS]
+    meshes = [[s for s in springs.springs if s.kind == kind] for kind in SIDES]
     order = np.arange(1, harmonics + 1)[:, None]
     pulls = []
     for kind, (found, phases) in enumerate(zip(meshes, Layout(scene).phases, strict=True)):

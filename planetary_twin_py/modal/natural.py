@@ -5,15 +5,16 @@ from __future__ import annotations
 from ..model.layout import Layout
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
-from ..scene.supports import Support, Supports
+from ..scene.supports import Support
 from ..statics.loaded_planets import carrying
 from ..statics.small_motion import radial_stiffness
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
 from .modes import NaturalModes, modes_of
-from .planar import PlanarBody, PlanarSet, planar_model
+from .planar import planar_model
 from .printed import PrintedSet, printed_model
-from .spatial import SpatialBody, SpatialSet, spatial_model
+from .spatial import spatial_model
 from .springs import SpringModel
+from .supported_set import Body, SupportedSet
 from .torsional import torsional_model
 from .turning import turning_modes, turning_terms
 
@@ -102,10 +103,8 @@ def spring_model(scene: Scene, model: str | None = None, stiffness: str = "singl
         return torsional_model(scene, mesh, _mesh_factors(scene, model), model == "machines")
     if model == "printed":
         return printed_model(_printed_set(scene, mesh))
-    if model == "planar":
-        built = planar_model(_planar_set(scene, mesh, _mesh_factors(scene, "planar")))
-    else:
-        built = spatial_model(_spatial_set(scene, mesh))
+    build = planar_model if model == "planar" else spatial_model
+    built = build(_supported_set(scene, mesh, _mesh_factors(scene, model)))
     return built.holding(f"{scene.gearset.held}.u")
 
 
@@ -149,12 +148,6 @@ def _printed_set(scene: Scene, mesh: MeshStiffness) -> PrintedSet:
     )
 
 
-def _supports(scene: Scene) -> Supports:
-    if scene.supports is None:
-        raise SceneError("supports: missing; planar and spatial models require masses and bearings")
-    return scene.supports
-
-
 def loaded_planar_model(scene: Scene) -> SpringModel:
     """Masses and springs in the plane at mean mesh stiffness, with load on every planet.
 
@@ -165,71 +158,43 @@ def loaded_planar_model(scene: Scene) -> SpringModel:
         The spring model; it does not depend on static equilibrium if bearings are linear.
     """
     every = tuple(scene.errors.of_planet(i).stiffness for i in range(scene.gearset.planets))
-    built = planar_model(_planar_set(scene, mesh_stiffness(scene, "mean"), every))
+    built = planar_model(_supported_set(scene, mesh_stiffness(scene, "mean"), every))
     return built.holding(f"{scene.gearset.held}.u")
 
 
-def _planar_set(scene: Scene, mesh: MeshStiffness, factors: tuple[float, ...]) -> PlanarSet:
-    supports, rim, gearset = _supports(scene), Layout(scene).polar_masses, scene.gearset
-    sun_planet, planet_ring = gearset.geometry.meshes
-
-    def body(name: str) -> PlanarBody:
-        support: Support = getattr(supports, name)
-        along, across = radial_stiffness(scene, name)
-        return PlanarBody(support.mass, rim[name], along, support.torsion, across)
-
-    return PlanarSet(
-        body("sun"),
-        body("ring"),
-        body("carrier"),
-        body("planet"),
-        gearset.planet_angles,
-        mesh.sun_planet,
-        mesh.planet_ring,
-        sun_planet.pressure_angle,
-        planet_ring.pressure_angle,
-        factors,
-        _pin_factors(scene),
-    )
-
-
-def _pin_factors(scene: Scene) -> tuple[float, ...]:
-    """Factors of the planets on the stiffness of their bearings."""
-    return tuple(scene.errors.of_planet(i).pin_stiffness for i in range(scene.gearset.planets))
-
-
-def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
-    layout, supports, gearset = Layout(scene), _supports(scene), scene.gearset
+def _supported_set(scene: Scene, mesh: MeshStiffness, factors: tuple[float, ...]) -> SupportedSet:
+    if scene.supports is None:
+        raise SceneError("supports: missing; planar and spatial models require masses and bearings")
+    layout, supports, gearset = Layout(scene), scene.supports, scene.gearset
     rim, radius = layout.polar_masses, layout.planar_radii
     sun_planet, planet_ring = gearset.geometry.meshes
 
-    def body(name: str) -> SpatialBody:
+    def body(name: str) -> Body:
         support: Support = getattr(supports, name)
         along, across = radial_stiffness(scene, name)
-        return SpatialBody(
+        return Body(
             support.mass,
             rim[name],
-            support.diametral(rim[name]),
-            radius[name],
             along,
-            support.axial or 0.0,
-            support.tilting or 0.0,
             support.torsion,
             across,
+            radius[name],
+            support.diametral(rim[name]),
+            support.axial or 0.0,
+            support.tilting or 0.0,
         )
 
-    return SpatialSet(
+    return SupportedSet(
         body("sun"),
         body("ring"),
         body("carrier"),
         body("planet"),
         gearset.planet_angles,
-        mesh.sun_planet,
-        mesh.planet_ring,
+        *mesh,
         sun_planet.pressure_angle,
-        gearset.base_helix,
         planet_ring.pressure_angle,
+        factors,
+        tuple(scene.errors.of_planet(i).pin_stiffness for i in range(gearset.planets)),
+        gearset.base_helix,
         gearset.face_width,
-        _mesh_factors(scene, "spatial"),
-        _pin_factors(scene),
     )

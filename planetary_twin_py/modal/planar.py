@@ -7,60 +7,14 @@ a planet are xi in the radial and eta in the tangential direction, and u. Gyrosc
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..model.planar_rows import CENTRAL, DRIVE, planar_rows
 from .springs import Spring, SpringModel
+from .supported_set import SupportedSet
 
 
-@dataclass(frozen=True)
-class PlanarBody:
-    """A body of the planar model."""
-
-    mass: float
-    """[kg]"""
-    rim_mass: float
-    """J/r^2 [kg]; r is the base radius, for the carrier the radius of the planet centres."""
-    bearing: float
-    """Radial stiffness of the bearing [N/m]; the bearing of a planet is on the carrier."""
-    torsion: float = 0.0
-    """Stiffness of a torsional support, divided by r^2 [N/m]."""
-    across: float | None = None
-    """Radial stiffness across the radius of a planet [N/m]; None: `bearing`."""
-
-
-@dataclass(frozen=True)
-class PlanarSet:
-    """A planetary gearset in the plane."""
-
-    sun: PlanarBody
-    ring: PlanarBody
-    carrier: PlanarBody
-    planet: PlanarBody
-    planet_angles: tuple[float, ...]
-    """Positions of the planets [rad]."""
-    sun_planet: float
-    """Stiffness of a sun-planet mesh along the line of action [N/m]."""
-    planet_ring: float
-    """Stiffness of a planet-ring mesh along the line of action [N/m]."""
-    sun_angle: float
-    """Transverse pressure angle of the sun-planet meshes [rad]."""
-    ring_angle: float
-    """Transverse pressure angle of the planet-ring meshes [rad]."""
-    mesh_factors: tuple[float, ...] = ()
-    """Factors on the stiffness of both meshes of each planet, 0 if open, (planets,); default: 1."""
-    pin_factors: tuple[float, ...] = ()
-    """Factors on the radial stiffness of each planet's bearing, (planets,); default: 1."""
-
-    @property
-    def planets(self) -> tuple[str, ...]:
-        """Names of the planets."""
-        return tuple(f"planet_{i + 1}" for i in range(len(self.planet_angles)))
-
-
-def planar_model(data: PlanarSet) -> SpringModel:
+def planar_model(data: SupportedSet) -> SpringModel:
     """Spring model with the matrices of Lin and Parker 1999.
 
     Args:
@@ -80,18 +34,13 @@ def planar_model(data: PlanarSet) -> SpringModel:
         for body in CENTRAL
         for kind, m in (("bearing", "x"), ("bearing", "y"), ("torsion", "u"))
     ]
-    planets = len(data.planets)
+    planets, (meshes, pins) = len(data.planets), data.factors
     kinds = ["sun_planet"] * planets + ["planet_ring"] * planets
-    factors = 2 * (data.mesh_factors or (1.0,) * planets)
-    for kind, row, factor in zip(kinds, rows.flanks(DRIVE), factors, strict=True):
+    for kind, row, factor in zip(kinds, rows.flanks(DRIVE), 2 * meshes, strict=True):
         springs.append(Spring(kind, factor * getattr(data, kind), row, factor))
-    across = data.planet.bearing if data.planet.across is None else data.planet.across
-    factors = data.pin_factors or (1.0,) * planets
-    for (outwards, sideways), factor in zip(rows.pin, factors, strict=True):
-        springs.append(Spring("planet_bearing", factor * data.planet.bearing, outwards, factor))
-        springs.append(Spring("planet_bearing", factor * across, sideways, factor))
-    masses = []
-    for body in (*CENTRAL, *data.planets):
-        values = getattr(data, body) if body in CENTRAL else data.planet
-        masses += [values.mass, values.mass, values.rim_mass]
+    for (outwards, sideways), factor in zip(rows.pin, pins, strict=True):
+        for stiffness, row in ((data.planet.bearing, outwards), (data.planet.sideways, sideways)):
+            springs.append(Spring("planet_bearing", factor * stiffness, row, factor))
+    bodies = [data.body(name) for name in (*CENTRAL, *data.planets)]
+    masses = [mass for body in bodies for mass in (body.mass, body.mass, body.rim_mass)]
     return SpringModel(rows.coordinates, np.array(masses), tuple(springs))

@@ -25,12 +25,11 @@ from ..model.moving_axes import linear_bearing
 from ..model.planar_rows import CENTRAL
 from ..scene import OperatingPoint
 from ..statics.small_motion import depends_on_load
+from ..units.catalogue import SIDES
 
 if TYPE_CHECKING:
     from .springs import SpringModel
     from .turning import Turning
-
-MESHES = ("sun_planet", "planet_ring")  # kinds of springs, in the order of the core
 
 
 def whirl_warning(gearbox: Gearbox, point: OperatingPoint) -> str:
@@ -81,7 +80,7 @@ def _damping(
     speeds = np.zeros(AXES)
     speeds[:] = point.input_speed, point.second_input_speed
     rate = abs(float(train.cycle.per_turn @ speeds)) / (2.0 * math.pi)
-    tau = {kind: damping_time(train, k, rate) for k, kind in enumerate(MESHES)}
+    tau = {kind: damping_time(train, k, rate) for k, kind in enumerate(SIDES)}
     torque = gearbox.scene.operating_point.input_torque
     dampers = {name: linear_bearing(gearbox, name, torque)[1] for name in gearbox.bearings}
     pins = iter([dampers[planet] for planet in gearbox.planets for _ in "xy"])

@@ -76,20 +76,6 @@ def spider(gearset: Gearset) -> TriangleMesh:
     return extrude(0.5 * hub, outline, *plate(gearset))
 
 
-def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
-    """The teeth of one gear; of sun and planets with equal teeth, those of the sun.
-
-    Args:
-        gearset: the gears.
-        teeth: number of teeth.
-        internal: whether the teeth point inwards.
-    """
-    gears = gearset.geometry
-    if internal:
-        return gears.ring
-    return gears.sun if teeth == gearset.teeth.sun else gears.planet
-
-
 def carrier_radius(gearset: Gearset) -> float:
     """Radius of the circle of the planet centres [m].
 

@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from ..units.conversion import UnitError
 from .names import nearest, no_such_field
 from .paths import field_paths
-from .quantity import Section, bounds, excluded_ends, limit_of, listed, sections_in, unit_of, within
+from .quantity import Section, bounds, limit_of, limits_of, listed, sections_in, unit_of, within
 
 _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
@@ -120,11 +120,9 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
 
 def _lengths(field: FieldInfo) -> str:
     """Description of the lengths that a list may have."""
-    least, most = (
-        [getattr(item, name) for item in field.metadata if hasattr(item, name)]
-        for name in ("min_length", "max_length")
-    )
-    return "must have " + " to ".join(str(length) for length in (*least, *most))
+    limits = limits_of(field)
+    lengths = (limits[name] for name in ("min_length", "max_length") if name in limits)
+    return f"must have {' to '.join(map(str, lengths))}"
 
 
 def _is_of_units(defect: ErrorDetails) -> bool:
@@ -138,6 +136,7 @@ def _allowed(field: FieldInfo | None, given: object) -> str | None:
     low, high = bounds(field)
     if low == -math.inf and high == math.inf:
         return f"must be a finite number in {unit or '1'}"
-    excluded = f", not {given:g}" if given in excluded_ends(field) else ""
+    ends = [end for name, end in limits_of(field).items() if name in ("gt", "lt")]
+    excluded = f", not {given:g}" if given in ends else ""
     further = limit_of(field)
     return within(low, high, unit) + excluded + (f", and within {further}" if further else "")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import inspect
-import math
 from collections.abc import Iterator
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from .quantity import Section, sections_in, unit_of
+from .quantity import Section, bounds, limits_of, sections_in, unit_of
 from .scene import Scene
 
 REQUIRED = "required"
@@ -107,9 +106,9 @@ def _range(field: FieldInfo) -> str:
 
 def _lengths(field: FieldInfo) -> tuple[int, int] | None:
     """Minimum and maximum length of a list; None for other fields."""
-    most = [item.max_length for item in field.metadata if hasattr(item, "max_length")]
-    fewest = [item.min_length for item in field.metadata if hasattr(item, "min_length")]
-    return (max(fewest, default=0), min(most)) if most else None
+    limits = limits_of(field)
+    most = limits.get("max_length")
+    return None if most is None else (int(limits.get("min_length", 0)), int(most))
 
 
 def _choices(kind: Any) -> tuple[str, ...]:
@@ -121,14 +120,7 @@ def _choices(kind: Any) -> tuple[str, ...]:
 
 
 def _interval(field: FieldInfo) -> str:
-    ends = {
-        end: getattr(item, end)
-        for item in field.metadata
-        for end in ("ge", "gt", "le", "lt")
-        if hasattr(item, end)
-    }
-    if not ends:
+    limits, (low, high) = limits_of(field), bounds(field)
+    if not limits:
         return ""
-    low = f"[{ends['ge']:g}" if "ge" in ends else f"({ends.get('gt', -math.inf):g}"
-    high = f"{ends['le']:g}]" if "le" in ends else f"{ends.get('lt', math.inf):g})"
-    return f"{low}, {high}"
+    return f"{'[' if 'ge' in limits else '('}{low:g}, {high:g}{']' if 'le' in limits else ')'}"

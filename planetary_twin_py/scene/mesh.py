@@ -7,6 +7,7 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
+from ..tooth.tooth import HUB, RIM
 from .quantity import Section, quantity
 
 LARGEST_ERROR = 1e-3  # [m], beyond plausible form errors of a tooth
@@ -124,10 +125,10 @@ class ToothCompliance(Section):
         "weber_banaschek", description="law of the contact compliance"
     )
     hub: float = quantity(
-        "", "radius at which sun and planets are clamped/root radius", 0.5, ge=0.1, le=0.95
+        "", "radius at which sun and planets are clamped/root radius", HUB, ge=0.1, le=0.95
     )
     rim: float = quantity(
-        "", "radius at which the ring is clamped/root radius", 1.2, ge=1.02, le=5.0
+        "", "radius at which the ring is clamped/root radius", RIM, ge=1.02, le=5.0
     )
 
 

@@ -105,19 +105,17 @@ def sections_in(kind: Any) -> list[type[Section]]:
     return [section for part in get_args(kind) for section in sections_in(part)]
 
 
+def limits_of(field: FieldInfo) -> dict[str, float]:
+    """Limits of a field by the names of pydantic: ge, gt, le, lt, min_length and max_length."""
+    names = ("ge", "gt", "le", "lt", "min_length", "max_length")
+    return {n: getattr(item, n) for item in field.metadata for n in names if hasattr(item, n)}
+
+
 def bounds(field: FieldInfo) -> tuple[float, float]:
     """Smallest and largest allowed value of a field."""
-    low, high = -math.inf, math.inf
-    for item in field.metadata:
-        low = max(low, getattr(item, "ge", -math.inf), getattr(item, "gt", -math.inf))
-        high = min(high, getattr(item, "le", math.inf), getattr(item, "lt", math.inf))
-    return low, high
-
-
-def excluded_ends(field: FieldInfo) -> list[float]:
-    """Ends of the range of a field that are not allowed themselves."""
-    ends = (getattr(item, name, None) for item in field.metadata for name in ("gt", "lt"))
-    return [float(end) for end in ends if end is not None]
+    limits = limits_of(field)
+    low = limits.get("ge", limits.get("gt", -math.inf))
+    return low, limits.get("le", limits.get("lt", math.inf))
 
 
 def within(low: float, high: float, unit: str) -> str:

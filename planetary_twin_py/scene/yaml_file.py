@@ -1,4 +1,4 @@
-"""Reads YAML files of users within the limits of `yaml_text`."""
+"""Reads YAML files of users."""
 
 from __future__ import annotations
 
@@ -9,21 +9,19 @@ from pydantic import ValidationError
 
 from .defect import explain
 from .quantity import SceneError, Section
-from .yaml_text import LONGEST, read_yaml
+from .yaml_text import read_yaml
 
-_MOST_BYTES = 4 * LONGEST + 4  # of more than LONGEST characters, which have at most 4 bytes
 _Model = TypeVar("_Model", bound=Section)
 
 
 def read_text(path: Path) -> str:
-    """Text of a regular file, of which a part beyond `yaml_text.LONGEST` characters is left out.
+    """Text of a regular file.
 
     Args:
         path: of the file.
 
     Returns:
-        The text; if the file is longer than `LONGEST` characters, so is the text, which `read_yaml`
-        refuses.
+        The text.
 
     Raises:
         SceneError: the path is a pipe, a device or a folder, or the text is not in UTF-8.
@@ -31,13 +29,9 @@ def read_text(path: Path) -> str:
     """
     if path.exists() and not path.is_file():
         raise SceneError("must be a file")  # opening a pipe would wait for a writer
-    with path.open("rb") as stream:
-        data = stream.read(_MOST_BYTES)
     try:
-        return data.decode()
+        return path.read_text("utf-8")
     except UnicodeDecodeError as error:
-        if len(data) == _MOST_BYTES and error.start > len(data) - 4:  # cut within a character
-            return data[: error.start].decode()
         raise SceneError(f"must be in UTF-8, byte {error.start + 1} is not") from None
 
 

@@ -18,11 +18,11 @@ from ..recording.runs.reader import Recording, Series
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
 from ..units.catalogue import COMPONENTS, MEMBERS
+from ..units.engineering import figure
 from . import timeline
 from .gears import MILLIMETRES, Moved
 from .layer import Layer
 from .motion import Motion
-from .newtons import newtons
 from .round_numbers import round_down, round_up
 
 Array = NDArray[np.float64]
@@ -89,23 +89,26 @@ def moved(axes: Series, motion: Motion, gearset: Gearset, drawn: Scales) -> Move
     return displacements
 
 
-def log_bearing_forces(
-    layer: Layer, axes: Series, gearset: Gearset, places: Motion, drawn: Scales
+def log_axes(
+    layer: Layer, recording: Recording, gearset: Gearset, motion: Motion, drawn: Scales
 ) -> None:
     """Log an arrow for the force of every body on its bearing, and the scale of the arrows.
 
     /gears/bearing_force/BODY is at rest in the housing; that of a planet moves with the carrier.
+    Arrows are at the times of the states of the recording.
 
     Args:
         layer: recording to draw into.
-        axes: states of the axes.
+        recording: recording to draw.
         gearset: the gears.
-        places: angles over time.
+        motion: angles over time.
         drawn: the scales.
     """
+    axes = recording.axes_state
+    carrier = np.interp(axes.time, motion.time, motion.angle["carrier"])
+    places = Motion(axes.time, axes.stamp, {"carrier": carrier})
     per_newton = MILLIMETRES * drawn.length / drawn.force
     index = timeline.columns(places.time, places.stamp)
-    carrier = places.angle["carrier"]
     at = moved(axes, places, gearset, drawn)
     front, thick = 0.75 * gearset.face_width, MILLIMETRES * _THICK * gearset.transverse.module
     for body in MEMBERS:
@@ -172,7 +175,7 @@ def _log_scale(layer: Layer, gearset: Gearset, drawn: Scales, thick: float) -> N
     )
     layer.log("gears/bearing_force/scale", arrow, static=True)
     texts = {
-        f"Bearing force {newtons(drawn.force)}": y + 3.0 * module,
+        f"Bearing force {figure(drawn.force, 'N')}": y + 3.0 * module,
         f"Axes displaced x {drawn.magnification:g}": y - 3.0 * module,
     }
     points = rr.Points3D(
@@ -183,20 +186,3 @@ def _log_scale(layer: Layer, gearset: Gearset, drawn: Scales, thick: float) -> N
         colors=(200, 205, 215),
     )
     layer.log("gears/bearing_force/texts", points, static=True)
-
-
-def log_axes(
-    layer: Layer, recording: Recording, gearset: Gearset, motion: Motion, drawn: Scales
-) -> None:
-    """Log the arrows of a recording at the times of its states.
-
-    Args:
-        layer: recording to draw into.
-        recording: recording to draw.
-        gearset: the gears.
-        motion: angles over time.
-        drawn: the scales.
-    """
-    axes = recording.axes_state
-    angle = {"carrier": np.interp(axes.time, motion.time, motion.angle["carrier"])}
-    log_bearing_forces(layer, axes, gearset, Motion(axes.time, axes.stamp, angle), drawn)

@@ -24,6 +24,7 @@ from ..units.catalogue import (
 from . import orbits as orbit
 from . import phase_portrait, spectra
 from .axes import Scales
+from .chart import BACKGROUND as CHART
 from .chart import bounds
 from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
@@ -33,7 +34,6 @@ from .timeline import SIMULATED_TIME
 
 PLAYBACK_SPEED = 0.02  # slow motion, because the eye cannot follow the teeth at full speed
 BACKGROUND = (24, 27, 33)
-CHART = (13, 16, 17)  # background of the viewer's plots
 _ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
 
 
@@ -175,12 +175,12 @@ def _contact(gearset: Gearset) -> rrb.Vertical:
 def _followed() -> rrb.Vertical:
     """A measured gearbox beside its twin, their residuals, and the changes found."""
     beside = [
-        _plot(f"{PLACE}/{name}", f"{pair.quantity.heading}: measured and twin", legend=True)
-        for name, pair in PAIRS.items()
+        _plot(f"{PLACE}/{name}", f"{quantity.heading}: measured and twin", legend=True)
+        for name, quantity in PAIRS.items()
     ]
     residuals = [
-        _plot(f"{PLACE}/{name}_residual", f"{pair.quantity.heading}: measured minus twin", False)
-        for name, pair in PAIRS.items()
+        _plot(f"{PLACE}/{name}_residual", f"{quantity.heading}: measured minus twin", False)
+        for name, quantity in PAIRS.items()
     ]
     alone = [_plot(f"{PLACE}/{name}", title, legend=True) for name, title in ALONE.items()]
     return rrb.Vertical(
@@ -199,12 +199,7 @@ def _followed() -> rrb.Vertical:
 def _axes() -> rrb.Vertical:
     """Load sharing, displacements and bearing forces, and orbits in the housing."""
     orbits = [
-        _chart(
-            f"orbit/{member}",
-            f"Orbit of the {member} [µm]",
-            bounds(orbit.SIZE, orbit.SIZE),
-        )
-        for member in MEMBERS
+        _chart(f"orbit/{member}", f"Orbit of the {member} [µm]", orbit.SIZE) for member in MEMBERS
     ]
     shares = _plot("axes/load_share", SHARING["load_share"].heading, legend=True)
     largest = [_plot(f"axes/{name}", BEARING[name].heading, True) for name in PLOTTED_OF_AXES]
@@ -221,18 +216,18 @@ def _spectra(gearset: Gearset | None) -> rrb.Vertical:
     spectrum = _chart(
         "spectrum",
         "Spectrum of the DTE, sun_planet_1, at the time cursor: amplitude [µm]; n×: mesh harmonics",
-        bounds(spectra.WIDTH, spectra.HEIGHT),
+        spectra.SIZE,
     )
     order_map = _chart(
         "order_map",
         "Order map of the DTE, sun_planet_1: cycles per turn of sun relative to carrier; "
         "n×: mesh harmonics",
-        bounds(spectra.WIDTH, spectra.HEIGHT),
+        spectra.SIZE,
     )
     portrait = _chart(
         "phase_portrait",
         "Phase portrait, sun_planet_1: rate [mm/s] over DTE [µm]",
-        bounds(phase_portrait.WIDTH, phase_portrait.HEIGHT),
+        phase_portrait.SIZE,
     )
     return rrb.Vertical(
         spectrum,
@@ -242,7 +237,8 @@ def _spectra(gearset: Gearset | None) -> rrb.Vertical:
     )
 
 
-def _chart(origin: str, title: str, shown: rrb.VisualBounds2D) -> rrb.Spatial2DView:
+def _chart(origin: str, title: str, size: tuple[int, int]) -> rrb.Spatial2DView:
+    shown = bounds(size)
     return rrb.Spatial2DView(origin=origin, name=title, visual_bounds=shown, background=CHART)
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import rerun as rr
+from matplotlib import colormaps
 from numpy.typing import NDArray
 
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
@@ -23,13 +24,13 @@ from ..model.pair_loads import pair_loads
 from ..recording.runs.reader import Recording
 from ..scene import Scene
 from ..scene.gearset import Gearset
+from ..units.engineering import figure
 from . import timeline
-from .colour_map import shade
+from .chart import SHADES
 from .gears import MILLIMETRES
 from .layer import Layer
 from .motion import Motion
-from .newtons import newtons
-from .round_numbers import one_digit
+from .round_numbers import round_up
 
 Array = NDArray[np.float64]
 _FULL = 0.99  # quantile of the loads at the end of the scale; rare impacts exceed it
@@ -80,7 +81,7 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
     loaded = np.concatenate(loads)
     if not len(loaded):
         return
-    full = one_digit(float(np.quantile(loaded, _FULL)))
+    full = round_up(float(np.quantile(loaded, _FULL)))
     for rows in blocks:
         index = timeline.columns(motion.time[rows], motion.stamp[rows])
         for mesh, name in enumerate(meshes):
@@ -164,9 +165,14 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
     strips[:, 2:, 2] = front
     return rr.LineStrips3D.columns(
         strips=MILLIMETRES * strips,
-        colors=shade(level),
+        colors=_shade(level),
         radii=MILLIMETRES * _THICKEST * gearset.transverse.module * (0.3 + 0.7 * level),
     ).partition(carries.sum(axis=1))
+
+
+def _shade(level: Array) -> NDArray[np.uint8]:
+    """Colours of loads over the full load, (n, 4)."""
+    return np.asarray(colormaps[SHADES](level, bytes=True))
 
 
 def _log_scale(layer: Layer, gearset: Gearset, full: float) -> None:
@@ -178,11 +184,11 @@ def _log_scale(layer: Layer, gearset: Gearset, full: float) -> None:
     edges = left + width * np.linspace(0.0, 1.0, _BARS + 1)
     bars = np.zeros((_BARS, 2, 3), dtype=np.float32)
     bars[:, 0, 0], bars[:, 1, 0], bars[:, :, 1] = edges[:-1], edges[1:], y
-    colours = shade((np.arange(_BARS) + 0.5) / _BARS)
+    colours = _shade((np.arange(_BARS) + 0.5) / _BARS)
     bar = rr.LineStrips3D(list(bars), colors=colours, radii=0.5 * module)
     layer.log("gears/tooth_load/scale", bar, static=True)
     places = [(left, below), (left + 0.5 * width, y + 3.0 * module), (left + width, below)]
-    labels = ["0", "Load of a tooth pair", newtons(full)]
+    labels = ["0", "Load of a tooth pair", figure(full, "N")]
     points = rr.Points3D(
         [(*place, 0.0) for place in places],
         labels=labels,

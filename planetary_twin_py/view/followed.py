@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
 from ..recording.runs.followed import Followed, MessageColumns, read_followed
 from ..recording.runs.reader import Recording, Series
-from ..units.catalogue import Quantity
+from ..units.catalogue import TRAIN
 from . import timeline
 from .layer import Layer
+from .plots import log_series
 
 Array = NDArray[np.float64]
 
@@ -22,20 +21,8 @@ _MEASURED, _TWIN, _BOUND = (236, 176, 64), (120, 170, 236), (150, 158, 170)
 _LEFT = (205, 104, 86)
 
 
-class Pair(NamedTuple):
-    """A quantity that is both measured and simulated."""
-
-    quantity: Quantity
-    field: str
-    """Field of GearboxState."""
-
-
-PAIRS = {
-    "input_torque": Pair(Quantity("Input torque", "N m"), "input_torque"),
-    "input_speed": Pair(Quantity("Input speed", "rad/s"), "input_speed"),
-    "power_loss": Pair(Quantity("Power loss", "W"), "power_loss"),
-}
-"""Plots of measured and simulated quantities, by name."""
+PAIRS = {name: TRAIN[name] for name in ("input_torque", "input_speed", "power_loss")}
+"""Quantities that are both measured and simulated, by name."""
 ALONE = {
     "friction_level": "Friction level: tooth friction over that of the scene, with 95 % interval",
     "innovation": "Balance of the torques: measured minus expected [N m]",
@@ -64,18 +51,19 @@ def log_followed(layer: Layer, recording: Recording, followed: Followed) -> None
         "power_loss": _with_bounds(estimate, "loss_torque")
         * np.abs(estimate["input_speed"])[:, None],
     }
-    for name, pair in PAIRS.items():
-        factor = pair.quantity.factor
-        values, twin = measured[name], _twin_values(state, pair.field, estimate.stamp)
+    for name, quantity in PAIRS.items():
+        values, twin = measured[name], _twin_values(state, name, estimate.stamp)
         bounds = ["low", "high"][: values.shape[1] - 1]
-        columns = factor * np.column_stack([values[:, 0], twin, values[:, 1:]])
+        columns = quantity.factor * np.column_stack([values[:, 0], twin, values[:, 1:]])
         names, colours = ["measured", "twin", *bounds], [_MEASURED, _TWIN, _BOUND, _BOUND]
-        _log(layer, f"{PLACE}/{name}", index, columns, names, colours)
-        residual = factor * (values[:, :1] - twin[:, None])
-        _log(layer, f"{PLACE}/{name}_residual", index, residual, ["measured minus twin"], [_LEFT])
+        log_series(layer, f"{PLACE}/{name}", index, columns, names, colours)
+        residual = quantity.factor * (values[:, :1] - twin[:, None])
+        log_series(
+            layer, f"{PLACE}/{name}_residual", index, residual, ["measured minus twin"], [_LEFT]
+        )
     level = _with_bounds(estimate, "friction_level")
     names = ["friction level", "low", "high"]
-    _log(layer, f"{PLACE}/friction_level", index, level, names, [_MEASURED, _BOUND, _BOUND])
+    log_series(layer, f"{PLACE}/friction_level", index, level, names, [_MEASURED, _BOUND, _BOUND])
     _log_balance(layer, state, followed.residuals)
     stamps = np.array([stamp for stamp, _ in followed.events], dtype=np.int64)
     text = [layer.label(words) for _, words in followed.events]
@@ -88,19 +76,9 @@ def _log_balance(layer: Layer, state: Series, residuals: MessageColumns) -> None
     columns = np.column_stack([residuals["innovation"], -sd, sd])
     names = ["measured minus expected", "-2 sd", "+2 sd"]
     colours = [_LEFT, _BOUND, _BOUND]
-    _log(layer, f"{PLACE}/innovation", _index(state, residuals.stamp), columns, names, colours)
-
-
-def _log(
-    layer: Layer,
-    path: str,
-    index: list[rr.TimeColumn],
-    values: Array,
-    names: list[str],
-    colours: list[tuple[int, int, int]],
-) -> None:
-    layer.log(path, layer.lines(names, colours), static=True)
-    layer.send_columns(path, index, rr.Scalars.columns(scalars=values))
+    log_series(
+        layer, f"{PLACE}/innovation", _index(state, residuals.stamp), columns, names, colours
+    )
 
 
 def _with_bounds(estimate: MessageColumns, name: str) -> Array:

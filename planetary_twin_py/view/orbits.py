@@ -7,13 +7,12 @@ from numpy.typing import NDArray
 
 from ..recording.runs.waveform import AxesSamples
 from ..units.catalogue import MEMBERS
-from .chart import Chart, Ticks, log_frame, send_strips
+from .chart import Chart, Strip, send_strips
 from .frames import Frames
 from .layer import Layer
 from .plots import TRAIN_COLOURS
-from .round_numbers import ticks
 
-SIZE = 215.0
+SIZE = (320, 300)  # of a chart
 WINDOW = 0.04  # [s] around the time cursor
 _MARGIN = 1.08  # of the range, around the orbit
 _LEAST = 1e-3  # [um] from the centre to the edge of a chart
@@ -30,24 +29,22 @@ def log_orbits(layer: Layer, frames: Frames, samples: AxesSamples) -> None:
     for body, name in enumerate(MEMBERS):
         orbit = 1e6 * samples.orbit[:, body].astype(np.float64)
         reach = max(_MARGIN * float(np.abs(orbit).max()), _LEAST)
-        chart = Chart(f"orbit/{name}", SIZE, SIZE, (-reach, reach), (-reach, reach))
-        values = ticks(-reach, reach, 5)
-        marks = Ticks(values, [f"{value:.6g}" for value in values])
-        log_frame(layer, chart, marks, marks, "x [um]")
-        colour = TRAIN_COLOURS[body]
-        send_strips(
-            layer, f"orbit/{name}/curve", frames.index, _strips(chart, frames, samples.time, orbit),
-            {"colors": [colour], "radii": [1.2]},
-        )  # fmt: skip
+        ends = -reach, reach
+        chart = Chart(
+            f"orbit/{name}", SIZE, xlim=ends, ylim=ends, aspect="equal", xlabel="x", ylabel="y"
+        )
+        chart.log(layer)
+        strips = _strips(chart, frames, samples.time, orbit)
+        send_strips(layer, f"orbit/{name}/curve", frames.index, strips, TRAIN_COLOURS[body], 2.4)
 
 
 def _strips(
     chart: Chart, frames: Frames, time: NDArray[np.float64], orbit: NDArray[np.float64]
-) -> list[list[NDArray[np.float32]]]:
+) -> list[list[Strip]]:
     """The part of an orbit around each frame."""
     strips = []
     for now in frames.time:
         begin, end = np.searchsorted(time, (now - 0.5 * WINDOW, now + 0.5 * WINDOW))
         part = orbit[begin:end]
-        strips.append([chart.place(part[:, 0], part[:, 1])] if len(part) > 1 else [])
+        strips.append([chart.place(*part.T)] if len(part) > 1 else [])
     return strips

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
-import rerun as rr
+from matplotlib.colors import LogNorm
 from numpy.typing import NDArray
 
 from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
@@ -15,26 +14,23 @@ from ..analysis.signals import relative_angle
 from ..analysis.spectrum import amplitude_spectrum
 from ..scene import Scene
 from ..simulation.natural_modes import natural_modes
-from .chart import Chart, Ticks, log_frame, send_labels, send_strips, texts_at
-from .colour_map import shade
+from .chart import SHADES, Chart, dark, send_labels, send_strips
 from .frames import Frames
 from .layer import Layer
 from .plots import mesh_colours
-from .round_numbers import ticks
 
 Array = NDArray[np.float64]
-WIDTH, HEIGHT = 940.0, 215.0
+SIZE = (1040, 300)
 WINDOW, CYCLES = 0.2, 64  # [s], with a resolution of 5 Hz, or mesh cycles if slower
 HARMONICS = 8  # mesh harmonics shown
 MARKS = 24  # mesh harmonics marked in a spectrum at most
 DECADES = 4  # of amplitudes shown
+ROWS = 240  # of the order map
 _MICRO = 1e6
 _FEWEST_TURNS = 2.0  # of the sun in a window of the order map
 _MESH_MARK = (104, 82, 40)
-_LABEL_WIDTH = 36.0
-_BARS = 48  # steps of the drawn scale
+_LABEL_WIDTH = 36.0  # [pixels of the screen]
 _CURSOR = (235, 235, 235)
-_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def log_spectra(layer: Layer, frames: Frames, scene: Scene | None) -> str | None:
@@ -52,10 +48,11 @@ def log_spectra(layer: Layer, frames: Frames, scene: Scene | None) -> str | None
     highest = max((a[1:].max() for _, a in spectra if len(a) > 1), default=0.0)
     if highest <= 0.0:
         return None
-    top = math.ceil(math.log10(highest))
-    _log_spectrum(layer, frames, spectra, top)
+    top = 10.0 ** math.ceil(math.log10(highest))
+    shown = top * 10.0**-DECADES, top
+    _log_spectrum(layer, frames, spectra, shown)
     if scene is not None:
-        _log_order_map(layer, frames, scene.gearset.teeth.sun, top)
+        _log_order_map(layer, frames, scene.gearset.teeth.sun, shown)
     return _alias_remark(frames, spectra, scene)
 
 
@@ -85,102 +82,79 @@ def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:
 
 
 def _log_spectrum(
-    layer: Layer, frames: Frames, spectra: list[tuple[Array, Array]], top: int
+    layer: Layer,
+    frames: Frames,
+    spectra: list[tuple[Array, Array]],
+    amplitudes: tuple[float, float],
 ) -> None:
     mesh = frames.state("mesh_frequency")
     nyquist = max(frequency[-1] for frequency, _ in spectra if len(frequency))
     reach = min(nyquist, HARMONICS * float(np.nanmax(mesh, initial=0.0)) * 1.02 or nyquist)
-    chart = Chart("spectrum", WIDTH, HEIGHT, (0.0, reach), (top - DECADES, top))
-    marks = ticks(0.0, reach, 8)
-    log_frame(
-        layer,
-        chart,
-        Ticks(marks, [f"{mark:g}" for mark in marks]),
-        _decades(top),
-        "Frequency [Hz]",
+    chart = Chart(
+        "spectrum", SIZE, yscale="log", xlim=(0.0, reach), ylim=amplitudes, xlabel="Frequency [Hz]"
     )
-    curves = []
-    for frequency, amplitude in spectra:
+    chart.log(layer)
+    curves, marked = [], []
+    for (frequency, amplitude), passing in zip(spectra, mesh, strict=True):
         shown = slice(1, int(np.searchsorted(frequency, reach, side="right")))
-        level = np.log10(np.maximum(amplitude[shown], 1e-30))
-        curves.append([chart.place(frequency[shown], level)] if len(level) else [])
-    colour = mesh_colours(frames.recording.planets)[0]
-    send_strips(layer, "spectrum/dte", frames.index, curves, {"colors": [colour], "radii": [0.6]})
-    style = {"colors": [_MESH_MARK], "radii": [0.4], "draw_order": -5.0}
-    marked = [_harmonics(chart, f) if curve else [] for f, curve in zip(mesh, curves, strict=True)]
+        curve = chart.place(frequency[shown], amplitude[shown])
+        curves.append([curve] if len(curve) else [])
+        marked.append(_harmonics(passing, reach) if len(curve) else [])
     lines = [[chart.upright(at) for at, _ in row] for row in marked]
-    send_strips(layer, "spectrum/mesh_harmonics", frames.index, lines, style)
-    texts = [
-        (np.array([chart.upright(at)[1] - (0.0, 24.0) for at, text in row if text], np.float32),
-         [text for _, text in row if text])
-        for row in marked
-    ]  # fmt: skip
+    texts = [[(chart.upright(at)[1], text) for at, text in row if text] for row in marked]
+    colour = mesh_colours(frames.recording.planets)[0]
+    send_strips(layer, "spectrum/mesh_harmonics", frames.index, lines, _MESH_MARK, 0.8)
+    send_strips(layer, "spectrum/dte", frames.index, curves, colour)
     send_labels(layer, "spectrum/mesh_orders", frames.index, texts)
 
 
-def _harmonics(chart: Chart, mesh: float) -> list[tuple[float, str]]:
+def _harmonics(mesh: float, reach: float) -> list[tuple[float, str]]:
     """Frequencies [Hz] of the mesh harmonics shown; only some have a text, to avoid overlap."""
     if not mesh > 0.0:
         return []
-    apart = chart.width * mesh / chart.x[1]
-    every = math.ceil(_LABEL_WIDTH / apart)
-    count = min(int(chart.x[1] / mesh), MARKS)
+    every = math.ceil(_LABEL_WIDTH * reach / (SIZE[0] * mesh))
+    count = min(int(reach / mesh), MARKS)
     return [(h * mesh, "" if h % every else f"{h}×") for h in range(1, count + 1)]
 
 
-def _log_order_map(layer: Layer, frames: Frames, teeth: int, top: int) -> None:
-    """Log an image with a column per window, and its colour bar."""
-    reach = (HARMONICS + 0.5) * teeth
-    chart = Chart("order_map", WIDTH, HEIGHT, (frames.time[0], frames.time[-1]), (0.0, reach))
+def _log_order_map(
+    layer: Layer, frames: Frames, teeth: int, amplitudes: tuple[float, float]
+) -> None:
+    """Log a map with a column per window, and a line at the time cursor."""
+    reach, (first, last) = (HARMONICS + 0.5) * teeth, frames.time[[0, -1]]
     levels = np.column_stack([_orders(frames, number, reach) for number in range(len(frames.time))])
-    colours = shade((np.log10(np.fmax(levels, 1e-30)) - top) / DECADES + 1.0)
-    colours[np.isnan(levels)] = 0
-    nearest = np.rint(np.linspace(0, len(frames.time) - 1, int(WIDTH))).astype(np.intp)
-    image = np.ascontiguousarray(colours[::-1, nearest])
-    layer.log("order_map/image", rr.Transform3D(translation=(0.0, -HEIGHT, 0.0)), static=True)
-    layer.log("order_map/image", rr.Image(image, draw_order=-20.0), static=True)
-    marks, orders = ticks(*chart.x, 12), [float(teeth * h) for h in range(1, HARMONICS + 1)]
-    x = Ticks(marks, [f"{mark:g}" for mark in marks])
-    y = Ticks(orders, [f"{h}× {order:g}" for h, order in enumerate(orders, start=1)])
-    log_frame(layer, chart, x, y, "Simulated time [s]")
-    _log_scale(layer, chart, top)
+    orders = {f"{h}× {teeth * h}": teeth * h for h in range(1, HARMONICS + 1)}
+    chart = Chart("order_map", SIZE, xlabel="Simulated time [s]")
+    image = chart.axes.imshow(
+        np.maximum(levels, amplitudes[0]),
+        cmap=SHADES,
+        norm=LogNorm(*amplitudes),
+        origin="lower",
+        aspect="auto",
+        extent=(first, last, 0.0, reach),
+    )
+    chart.axes.set_yticks([*orders.values()], [*orders])
+    chart.axes.grid(visible=False)
+    with dark():
+        chart.figure.colorbar(image, label="µm")
+    chart.log(layer)
     cursor = [[chart.upright(time)] for time in frames.time]
-    style = {"colors": [_CURSOR], "radii": [0.6]}
-    send_strips(layer, "order_map/cursor", frames.index, cursor, style)
-
-
-def _log_scale(layer: Layer, chart: Chart, top: int) -> None:
-    """Colour bar above the map, with the amplitudes of its ends."""
-    left, right, y = chart.width - 240.0, chart.width - 90.0, -chart.height - 14.0
-    edges = np.linspace(left, right, _BARS + 1)
-    bars = [np.array([(a, y), (b, y)], np.float32) for a, b in pairwise(edges)]
-    colours = shade((np.arange(_BARS) + 0.5) / _BARS)
-    bar = rr.LineStrips2D(bars, colors=colours, radii=4.0)
-    layer.log("order_map/scale", bar, static=True)
-    ends = _decades(top).texts[0], f"{_decades(top).texts[-1]} µm"
-    places = np.array([(left - 28.0, y - 12.0), (right + 38.0, y - 12.0)], np.float32)
-    layer.log("order_map/amplitudes", texts_at(places, ends), static=True)
+    send_strips(layer, "order_map/cursor", frames.index, cursor, _CURSOR)
 
 
 def _orders(frames: Frames, number: int, reach: float) -> Array:
-    """Largest amplitude [um] in each row of the image; NaN where it is unknown."""
-    rows = int(HEIGHT)
+    """Largest amplitude [um] in each row of the map; NaN where it is unknown."""
     window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:
-        return np.full(rows, np.nan)
+        return np.full(ROWS, np.nan)
     time, dte = window
     angle = relative_angle(frames.recording, time)
     if abs(angle[-1] - angle[0]) < _FEWEST_TURNS * 2.0 * math.pi:
-        return np.full(rows, np.nan)
+        return np.full(ROWS, np.nan)
     order, amplitude = order_spectrum(_MICRO * dte, angle, math.ceil(2.5 * reach))
-    levels = np.zeros(rows)
-    row = np.minimum((order / reach * rows).astype(np.intp), rows)[1:]
-    np.maximum.at(levels, row[row < rows], amplitude[1:][row < rows])
+    levels = np.zeros(ROWS)
+    row = np.minimum((order / reach * ROWS).astype(np.intp), ROWS)[1:]
+    np.maximum.at(levels, row[row < ROWS], amplitude[1:][row < ROWS])
     half_rate = math.pi * (len(time) - 1) / abs(angle[-1] - angle[0])  # as an order
-    levels[math.ceil(half_rate / reach * rows) :] = np.nan
+    levels[math.ceil(half_rate / reach * ROWS) :] = np.nan
     return levels
-
-
-def _decades(top: int) -> Ticks:
-    exponents = range(top - DECADES, top + 1)
-    return Ticks(exponents, [f"10{str(e).translate(_SUPERSCRIPT)}" for e in exponents])

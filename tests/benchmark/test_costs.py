@@ -4,7 +4,6 @@ import math
 
 import pytest
 from planetary_twin_benchmark import costs
-from planetary_twin_benchmark.timing import affordable
 
 from planetary_twin_py.gearset.phasing import mesh_phases
 from planetary_twin_py.run.engine import Engine
@@ -33,14 +32,3 @@ def checked_phases(count, teeth):
     load = paper.operating_point.input_torque / paper.gearset.planets
     assert scene.operating_point.input_torque / count == pytest.approx(load)
     return mesh_phases(scene.gearset.tooth_numbers, scene.gearset.planet_angles)[0]
-
-
-def test_every_term_has_its_speed(monkeypatch):
-    monkeypatch.setattr(costs, "LONGEST", 0.02)
-    found = {cost.value: cost.speed for cost in costs.measure_costs(["terms"])}
-    assert list(found) == list(costs.TERMS)
-    assert all(0.0 < speed.low <= speed.median <= speed.high for speed in found.values())
-
-
-def test_a_run_is_never_longer_than_the_longest():
-    assert affordable(load_scene("paper"), 1e-2, 0.0001, 0.0003) == 0.0003

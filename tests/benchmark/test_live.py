@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-import math
 import mmap
 import os
 import time
 
 import numpy as np
 import pytest
-from planetary_twin_live.figures import Quantiles, Slope
+from planetary_twin_live.figures import Slope
 from planetary_twin_live.measure import Bench
 from planetary_twin_live.process import processor_time, resident_memory
-
-
-def test_quantiles_are_those_of_the_sample() -> None:
-    assert Quantiles.of(list(range(101))) == (50.0, 99.0, 100.0)
-    assert all(math.isnan(value) for value in Quantiles.of([]))
-
-
-def test_a_slope_is_found_within_its_error() -> None:
-    time = np.linspace(0.0, 1.0, 200)
-    noise = np.random.default_rng(1).normal(0.0, 0.1, 200)
-    slope = Slope.of(time, 250.0 + 3.0 * time + noise)
-    assert abs(slope.value - 3.0) < 4.0 * slope.error < 0.3
 
 
 @pytest.mark.parametrize("correlation", [0.0, 0.5, 0.9])

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from numbered import Numbered
-from planetary_twin_live.recorder import Payload, bare_rate, run_trial
+from planetary_twin_live.recorder import run_trial
 from planetary_twin_live.tail import Tail
 
 
@@ -25,18 +25,9 @@ def test_a_tail_sees_flushed_messages_only(tmp_path: Path) -> None:
             assert tail.messages == numbered.written - 1 > before
 
 
-def test_a_payload_has_its_size() -> None:
-    assert [len(Payload(size)[7]) for size in (100, 1000, 100_000)] == [100, 1000, 100_000]
-
-
 def test_a_low_rate_is_sustained(domain: int, tmp_path: Path) -> None:
     trial = run_trial(1000, 100.0, 1.0, tmp_path)
     assert trial.lost == 0
     assert 0.0 < trial.rate < 110.0
     assert 0.0 < trial.latency.p50 <= trial.latency.max
     assert 0.0 < trial.cores < 1.0
-
-
-def test_the_bare_writer_is_timed(tmp_path: Path) -> None:
-    assert bare_rate(100_000, tmp_path / "bare.mcap") > 10.0
-    assert (tmp_path / "bare.mcap").stat().st_size > 50e6

@@ -11,9 +11,6 @@ from planetary_twin_benchmark.table import METHODS, measure
 import planetary_twin_py as pt
 
 SHORT = Case("short", {}, 0.002, 2)
-RUN_UP = Case("run-up", {"drive.speed_control.start_speed": 50.0}, 0.001, 3, {
-    "drive.speed_control.start_speed": 100.0,
-})  # fmt: skip
 HITS = Case("flank hits", RESONANCE, 0.0004, 2)
 RATTLE = Case("rattle", {"input_torque": 0.3, "torque_ripple": 60.0}, 0.004, 2)
 
@@ -37,22 +34,6 @@ def test_the_error_is_that_of_the_tolerance(case):
         assert row.error_ratio == row.error_dte / row.tolerance
         assert 0.0 < row.error_power_loss < 3.0 * row.tolerance
     assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
-
-
-@pytest.mark.exhaustive
-def test_a_case_with_a_stretch_is_compared_there():
-    assert RUN_UP.timed(10.0) == pytest.approx(0.003)
-    assert RUN_UP.scene().drive.speed_control.start_speed == 50.0
-    assert RUN_UP.compared().drive.speed_control.start_speed == 100.0
-    (row,) = measure([RUN_UP], (1e-4,), methods=METHODS[:1])
-    assert row.error_dte < 3e-4
-    (row,) = measure([RUN_UP], (1e-4,), methods=METHODS[1:])
-    assert row.error_dte < 1e-3
-
-
-def test_a_slow_run_is_timed_once():
-    assert SHORT.timed(1e9) == SHORT.duration
-    assert SHORT.timed(0.0) == SHORT.duration * SHORT.repeats
 
 
 def test_rattle_has_27_contact_events_in_a_mesh_period():

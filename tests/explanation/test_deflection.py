@@ -5,7 +5,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.explanation.deflection import deflection_of_run, deflection_of_scene
+from planetary_twin_py.explanation.deflection import deflection_warning
 
 PAPER = pt.load_scene("paper")
 
@@ -23,7 +23,7 @@ def yielding(modules, **changes):
 
 @pytest.mark.parametrize("modules", [0.095, 0.105])
 def test_a_tenth_of_the_module_is_the_limit_of_scenes(modules):
-    line = deflection_of_scene(yielding(modules))
+    line = deflection_warning(yielding(modules))
     assert (line is not None) == (modules > 0.1)
     if line:
         assert "sun-planet meshes, 0.1 modules" in line and "mesh.stiffness = given" in line
@@ -32,19 +32,19 @@ def test_a_tenth_of_the_module_is_the_limit_of_scenes(modules):
 @pytest.mark.parametrize("modules", [0.09, 0.12])
 def test_a_tenth_of_the_module_is_the_limit_of_runs(modules):
     scene = yielding(modules, dynamics="quasi_static")
-    assert (deflection_of_run(scene, pt.simulate(scene, 0.004)) is None) == (modules < 0.1)
+    assert (deflection_warning(scene, pt.simulate(scene, 0.004)) is None) == (modules < 0.1)
 
 
 def test_motion_within_the_backlash_is_no_deflection():
     scene = PAPER.replace(backlash=4e-4, input_torque=1.0, dynamics="quasi_static")
     run = pt.simulate(scene, 0.004)
     assert abs(run.dte).max() > 0.1 * scene.gearset.module
-    assert deflection_of_run(scene, run) is None
+    assert deflection_warning(scene, run) is None
 
 
 @pytest.mark.parametrize("name", pt.packaged_scenes())
 def test_packaged_scenes_are_within_the_limit(name):
-    assert deflection_of_scene(pt.load_scene(name)) is None
+    assert deflection_warning(pt.load_scene(name)) is None
 
 
 def test_a_modulus_in_megapascals_is_reported(tmp_path):

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.explanation.pressure import pressure_of_run, pressure_of_scene
+from planetary_twin_py.explanation.pressure import pressure_warning
 
 PAPER = pt.load_scene("paper").replace(**{"drive.torque_limit": 2000.0})
 
@@ -34,19 +34,19 @@ def at(pressure):
 def test_two_gigapascals_are_the_limit_of_runs(dynamics):
     for pressure, warned in ((1.95e9, False), (2.05e9, True)):
         scene = at(pressure).replace(dynamics=dynamics)
-        line = pressure_of_run(scene, pt.simulate(scene, 0.004))
+        line = pressure_warning(scene, pt.simulate(scene, 0.004))
         assert (line is not None) == warned
-        assert (pressure_of_scene(scene) is not None) == warned
+        assert (pressure_warning(scene) is not None) == warned
     assert "2.05 GPa in the sun-planet meshes" in line and "gearset.face_width" in line
 
 
 def test_without_friction_no_law_is_extrapolated():
-    assert pressure_of_scene(at(3e9).replace(**{"lubrication.friction": False})) is None
+    assert pressure_warning(at(3e9).replace(**{"lubrication.friction": False})) is None
 
 
 @pytest.mark.parametrize("name", pt.packaged_scenes())
 def test_packaged_scenes_are_within_the_limit(name):
-    assert pressure_of_scene(pt.load_scene(name)) is None
+    assert pressure_warning(pt.load_scene(name)) is None
 
 
 def test_a_study_reports_it_once(tmp_path):

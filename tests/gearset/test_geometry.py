@@ -3,8 +3,9 @@
 import math
 
 import pytest
+from paths import planet_ring_path, sun_planet_path
 
-from planetary_twin_py.gearset.geometry import base_pitch, planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.geometry import base_pitch
 from planetary_twin_py.gearset.kinematics import Teeth
 
 PAPER, ANGLE = Teeth(30, 20, 70), math.radians(21.34)

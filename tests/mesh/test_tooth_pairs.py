@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from paths import planet_ring_path, sun_planet_path
 
 from planetary_twin_py._core import PAIRS, TERMS, TOTAL
-from planetary_twin_py.gearset.geometry import PathOfContact, planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.geometry import PathOfContact
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.mesh.tooth_pairs import along, mean_weight, pair_table, terms_in_use
 

@@ -8,8 +8,9 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.modal.campbell import resonances
-from planetary_twin_py.modal.forcing import KINDS, equivalent_error, forcing
+from planetary_twin_py.modal.forcing import equivalent_error, forcing
 from planetary_twin_py.modal.natural import spring_model
+from planetary_twin_py.units.catalogue import SIDES
 
 RPM = 30.0 / math.pi
 # Equal planets, all in phase, whose mesh stiffness varies little: vibration is nearly linear.
@@ -62,7 +63,7 @@ def test_harmonics_of_a_step_are_those_of_a_rectangular_wave():
     double = mesh.path.contact_ratio - 1.0
     mean, single = 1.0 + 0.2 * double, scene.mesh.sun_planet_stiffness
     force = scene.operating_point.input_torque / (3.0 * scene.gearset.geometry.sun.base_radius)
-    meshes = [s for s in springs.springs if s.kind == KINDS[0]]
+    meshes = [s for s in springs.springs if s.kind == SIDES[0]]
     found = np.abs(equivalent_error(scene, 0, meshes, 8))
     for h, amplitude in enumerate(found, 1):
         wave = 0.4 * abs(math.sin(math.pi * h * double)) / (math.pi * h)
@@ -75,7 +76,7 @@ def test_an_error_of_form_pulls_with_the_stiffness_of_the_mesh():
     scene = QUIET.replace(**errors, **{"mesh.double_pair_ratio": 1.0})
     springs = spring_model(scene, "torsional", "mean")
     pull = forcing(scene, springs, 4).pull
-    stiffness = next(s.stiffness for s in springs.springs if s.kind == KINDS[0])
+    stiffness = next(s.stiffness for s in springs.springs if s.kind == SIDES[0])
     # 2e-6 sin(angle + 0.5), in the clock's sense of exp(-i w t)
     expected = 2e-6 * stiffness * cmath.exp(-1j * (0.5 - math.pi / 2.0))
     assert pull[1, :3] == pytest.approx([expected] * 3)

@@ -8,23 +8,24 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planetary_twin_py.modal.modes import modes_of
-from planetary_twin_py.modal.planar import PlanarBody, PlanarSet, planar_model
+from planetary_twin_py.modal.planar import planar_model
+from planetary_twin_py.modal.supported_set import Body, SupportedSet
 
 
 def lin_parker(angles, **changes):
     angle = math.radians(24.6)
     data = {
-        "sun": PlanarBody(0.4, 0.39, 1e8),
-        "ring": PlanarBody(2.35, 3.0, 1e8, 1e9),
-        "carrier": PlanarBody(5.43, 6.29, 1e8),
-        "planet": PlanarBody(0.66, 0.61, 1e8),
+        "sun": Body(0.4, 0.39, 1e8),
+        "ring": Body(2.35, 3.0, 1e8, 1e9),
+        "carrier": Body(5.43, 6.29, 1e8),
+        "planet": Body(0.66, 0.61, 1e8),
         "planet_angles": tuple(angles),
         "sun_planet": 5e8,
         "planet_ring": 5e8,
         "sun_angle": angle,
         "ring_angle": angle,
     }
-    return PlanarSet(**(data | changes))
+    return SupportedSet(**(data | changes))
 
 
 def equal(planets):
@@ -73,9 +74,9 @@ def test_modes_are_six_rotational_six_double_three_of_planets(planets):
 def random_set(draw):
     positive = st.floats(0.1, 10.0)
     stiff = st.floats(1e6, 1e10)
-    body = st.builds(PlanarBody, positive, positive, stiff, st.sampled_from([0.0, 1e8]))
+    body = st.builds(Body, positive, positive, stiff, st.sampled_from([0.0, 1e8]))
     angles = draw(st.lists(st.floats(0.0, 6.28), min_size=2, max_size=7))
-    return PlanarSet(
+    return SupportedSet(
         *(draw(body) for _ in range(4)),
         tuple(angles),
         draw(stiff),
@@ -93,7 +94,7 @@ def test_stiffness_is_symmetric_and_never_negative(data):
     k = model.stiffness
     assert np.abs(k - k.T).max() < 1e-12 * np.abs(k).max()
     assert np.linalg.eigvalsh(k).min() > -1e-9 * np.abs(k).max()
-    backwards = PlanarSet(**{**vars(gearset), "planet_angles": gearset.planet_angles[::-1]})
+    backwards = SupportedSet(**{**vars(gearset), "planet_angles": gearset.planet_angles[::-1]})
     first, second = (modes_of(m).frequencies for m in (model, planar_model(backwards)))
     assert first == pytest.approx(second, rel=1e-6, abs=1e-3 * first[-1])
 
@@ -101,7 +102,7 @@ def test_stiffness_is_symmetric_and_never_negative(data):
 def test_free_set_has_the_rigid_motions_of_the_plane():
     """18 motions, 6 meshes and 6 springs of the pins: 6 motions stretch none of them."""
     free = {
-        name: PlanarBody(body.mass, body.rim_mass, 0.0)
+        name: Body(body.mass, body.rim_mass, 0.0)
         for name, body in vars(lin_parker(equal(3))).items()
         if name in ("sun", "ring", "carrier")
     }

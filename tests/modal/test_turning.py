@@ -13,8 +13,9 @@ from scipy.linalg import eigvals
 import planetary_twin_py as pt
 from planetary_twin_py.modal.modes import modes_of
 from planetary_twin_py.modal.natural import spring_model
-from planetary_twin_py.modal.planar import PlanarBody, planar_model
+from planetary_twin_py.modal.planar import planar_model
 from planetary_twin_py.modal.spatial import spatial_model
+from planetary_twin_py.modal.supported_set import Body
 from planetary_twin_py.modal.turning import turning_modes, turning_terms
 
 SPINS = {"sun": 700.0, "planet": -300.0, "ring": 0.0, "carrier": 200.0}
@@ -99,13 +100,13 @@ def test_turning_splits_translational_pairs_and_no_others():
 
 def test_a_rigid_rotation_stays_rigid_though_the_carrier_turns():
     data = lin_parker(equal(3))
-    free = lin_parker(equal(3), ring=PlanarBody(2.35, 3.0, 1e8))
+    free = lin_parker(equal(3), ring=Body(2.35, 3.0, 1e8))
     assert modes_at(planar_model(free), 300.0, data.planet_angles).kinds[:2] == ("rigid", "rigid")
 
 
 def test_an_axis_above_its_critical_speed_centres_itself():
     """Its bearing yields to centrifugal forces, but Coriolis forces turn it back."""
-    speed, weak = 300.0, lin_parker(equal(3), sun=PlanarBody(0.4, 0.39, 4e3), sun_planet=1e-6)
+    speed, weak = 300.0, lin_parker(equal(3), sun=Body(0.4, 0.39, 4e3), sun_planet=1e-6)
     found = modes_at(planar_model(weak), speed, weak.planet_angles).frequencies
     own = math.sqrt(4e3 / 0.4)
     assert own < speed
@@ -117,8 +118,8 @@ def uneven(square):
     """Planets on pins that are stiffer along one direction, on a carrier that does not move."""
     return lin_parker(
         equal(3),
-        carrier=PlanarBody(1e9, 1e9, 1e8),
-        planet=PlanarBody(0.5, 0.6, 0.5 * square, across=0.5 * 4.0 * square),
+        carrier=Body(1e9, 1e9, 1e8),
+        planet=Body(0.5, 0.6, 0.5 * square, across=0.5 * 4.0 * square),
         sun_planet=1e-3,
         planet_ring=1e-3,
     )

@@ -94,6 +94,7 @@ def test_residual_of_collocation_falls_with_the_tolerance():
         },
         {"mesh.backlash": "regulatory_factor"},
         {"mesh.damping.law": "natural_frequency"},
+        {"errors.planet_stiffness": (0.7, 1.0, 1.3)},
     ],
     ids=lambda changes: "-".join(changes),
 )

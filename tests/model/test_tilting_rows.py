@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py.modal.spatial import SpatialBody, SpatialSet, spatial_model
+from planetary_twin_py.modal.spatial import spatial_model
+from planetary_twin_py.modal.supported_set import Body, SupportedSet
 from planetary_twin_py.model.planar_rows import COAST, DRIVE, planar_rows
 from planetary_twin_py.model.tilting_rows import MeshOfKind, leaning_row
 
@@ -127,15 +128,15 @@ def test_rows_are_those_of_the_spatial_modes():
     """The same normals as `modal.spatial`, which counts along n and not along n/cos(beta_b)."""
     cosine = math.cos(ANGLE)
     bodies = {
-        name: SpatialBody(1.0, 1.0, 1.0, radius, 0.0, 0.0, 0.0)
+        name: Body(1.0, 1.0, 0.0, radius=radius)
         for name, radius in (
             ("sun", SUN * cosine), ("ring", RING * cosine), ("planet", PLANET * cosine),
             ("carrier", ARM),
         )
     }  # fmt: skip
     model = spatial_model(
-        SpatialSet(**bodies, planet_angles=(PSI,), sun_planet=STIFFNESS, planet_ring=STIFFNESS,
-                   pressure_angle=ANGLE, base_helix=HELIX, face_width=WIDTH)
+        SupportedSet(**bodies, planet_angles=(PSI,), sun_planet=STIFFNESS, planet_ring=STIFFNESS,
+                     sun_angle=ANGLE, ring_angle=ANGLE, base_helix=HELIX, face_width=WIDTH)
     )  # fmt: skip
     kinds = {"sun": "sun_planet", "ring": "planet_ring"}
     for name, kind in kinds.items():

@@ -8,7 +8,8 @@ import pytest
 from planar.bodies_in_a_plane import Bodies, Forces, jacobian, rates
 from planar.published_set import MESH, PIN, TORQUE, scene
 
-from planetary_twin_py.modal.planar import PlanarBody, PlanarSet, planar_model
+from planetary_twin_py.modal.planar import planar_model
+from planetary_twin_py.modal.supported_set import Body, SupportedSet
 from planetary_twin_py.modal.turning import turning_modes, turning_terms
 from planetary_twin_py.statics.load_sharing import load_sharing
 
@@ -61,12 +62,12 @@ def test_small_vibration_has_the_natural_frequencies(angles, speed):
     step = np.tile([1e-6, 1e-6, 1e-4], 2 * len(data.mass))
     found = np.linalg.eigvals(jacobian(data, point, free, step))
     found = np.sort(np.abs(found.imag))[::2] / (2.0 * math.pi)
-    held = PlanarBody(MASS["ring"], RIM["ring"], 1e8, 1e9)
+    held = Body(MASS["ring"], RIM["ring"], 1e8, 1e9)
     model = planar_model(
-        PlanarSet(
-            PlanarBody(MASS["sun"], RIM["sun"], 1e8), held,
-            PlanarBody(MASS["carrier"], RIM["carrier"], 1e8),
-            PlanarBody(MASS["planet"], RIM["planet"], PIN),
+        SupportedSet(
+            Body(MASS["sun"], RIM["sun"], 1e8), held,
+            Body(MASS["carrier"], RIM["carrier"], 1e8),
+            Body(MASS["planet"], RIM["planet"], PIN),
             angles, MESH, MESH, ANGLE, ANGLE,
         )
     )  # fmt: skip

@@ -4,9 +4,9 @@ import math
 
 import pytest
 import yaml
+from paths import planet_ring_path
 
 import planetary_twin_py as pt
-from planetary_twin_py.gearset.geometry import planet_ring_path
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.plots.quantity import find
 

@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from paths import planet_ring_path, sun_planet_path
 from planetary_twin_benchmark.samples import samples_until
 from stability.sound import UNIFORM, base_radius, sound_run
 
 import planetary_twin_py as pt
-from planetary_twin_py.gearset.geometry import base_pitch, planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.geometry import base_pitch
 from planetary_twin_py.gearset.phasing import mesh_phases
 from planetary_twin_py.model.layout import MOTOR
 from planetary_twin_py.run.engine import Engine

@@ -11,7 +11,6 @@ import math
 import numpy as np
 import pytest
 from planar.published_set import MESH, PIN, TORQUE, scene
-from tiers import first_rows
 
 from planetary_twin_py import simulate
 from planetary_twin_py.statics.load_sharing import load_sharing
@@ -69,12 +68,3 @@ def test_loads_and_float_are_those_of_statics(member, approach, sun):
     assert orders(run.axes.load_share) == pytest.approx(orders(static.share), abs=1e-5)
     floated, expected = (orders(each.displacement[:, 0]) for each in (run.axes, static))
     assert floated[1] == pytest.approx(expected[1], abs=1e-3 * E)
-
-
-@pytest.mark.exhaustive
-@pytest.mark.parametrize(("member", "approach"), first_rows(1, BY_MEMBER, pytest.mark.release))
-def test_a_vibrating_set_shares_so_in_the_mean(member, approach):
-    run = one_turn(turning(member, HELD, "planar"), settling=0.05)
-    first = orders(run.axes.load_share)[1]
-    assert first == pytest.approx(BRANCH * approach / FORCE, rel=5e-3)
-    assert abs(run.energy.residual) < 1e-6 * run.energy.put_in

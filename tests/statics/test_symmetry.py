@@ -20,11 +20,6 @@ SETS = [(FLOWS[0], WEIGHT), (FLOWS[2], {}), (FLOWS[4], {})]
 EACH_SET = pytest.mark.parametrize(
     ("flow", "weight"), SETS, ids=[flow_name(flow) for flow, _ in SETS]
 )
-FIRST_SET = pytest.mark.parametrize(
-    ("flow", "weight"),
-    [SETS[0], *(pytest.param(*each, marks=pytest.mark.exhaustive) for each in SETS[1:])],
-    ids=[flow_name(flow) for flow, _ in SETS],
-)
 SETTLED = 1.0  # [s], as the speed loop is slow
 STEP = 2.0 * math.pi / 100.0
 FLIP = np.array([1.0, -1.0])
@@ -61,26 +56,6 @@ def test_a_mirrored_set_shares_its_static_load_in_the_mirror(flow, weight):
     for name in ("bearing", "planet_bearing", "displacement"):
         straight, seen = (getattr(each, name).mean(axis=0) for each in (one, other))
         assert seen == pytest.approx(straight * FLIP, abs=1e-4 * np.abs(straight).max())
-
-
-@pytest.mark.exhaustive
-@FIRST_SET
-def test_a_mirrored_set_moves_in_the_mirror(flow, weight):
-    scene = uneven(flow, weight)
-    # Losses cover up to a step more or less at each end, which is little of so long a run.
-    runs = [simulate(each, 0.1, settling=SETTLED) for each in (scene, mirrored(scene))]
-    one, other = (run.mesh for run in runs)
-    assert other["mesh_force_mean"] == pytest.approx(-one["mesh_force_mean"], rel=1e-4)
-    assert other["dte_mean"] == pytest.approx(-one["dte_mean"], rel=1e-4)
-    for name in ("dte_rms", "mesh_force_peak", "power_loss"):
-        assert other[name] == pytest.approx(one[name], rel=5e-3)
-    for name in ("displacement", "bearing_force"):
-        straight, seen = (getattr(run.axes, name).mean(axis=0) for run in runs)
-        assert seen == pytest.approx(straight * FLIP, abs=1e-4 * np.abs(straight).max())
-    drive, coast = runs[0].axes.flank_force.mean(axis=0)
-    swapped = np.stack([coast, drive])
-    assert runs[1].axes.flank_force.mean(axis=0) == pytest.approx(swapped, rel=1e-4, abs=0.5)
-    assert runs[1].mean_power_loss == pytest.approx(runs[0].mean_power_loss, rel=1e-4)
 
 
 @pytest.mark.exhaustive

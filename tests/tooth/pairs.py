@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from planetary_twin_py.gearset.geometry import planet_ring_path, sun_planet_path
+from paths import planet_ring_path, sun_planet_path
+
 from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.tooth.contact import ContactLaw

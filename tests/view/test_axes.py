@@ -82,17 +82,6 @@ def test_arrows_have_the_size_of_the_bearing_forces(recording, drawn):
     assert all(np.linalg.norm(vector[0]) == 0.0 for _, vector in still)  # it floats
 
 
-def test_scales_are_written_in_the_view(recording, drawn):
-    scale = scales(scene_of(recording)[0].gearset, recording.axes_state)
-    texts = []
-    for chunk in RrdReader(drawn).stream():
-        batch = chunk.to_record_batch()
-        if chunk.entity_path == "/gears/bearing_force/texts":
-            texts += batch.column("Points3D:labels").to_pylist()[0]
-    assert f"Axes displaced x {scale.magnification:g}" in texts
-    assert any(text.startswith("Bearing force ") for text in texts)
-
-
 def test_orbit_and_load_shares_are_drawn(recording, drawn):
     assert all(len(row) for _, row in rows(drawn, "/orbit/sun/curve", "LineStrips2D:strips"))
     shares = rows(drawn, "/axes/load_share", "Scalars:scalars")

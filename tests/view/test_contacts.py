@@ -6,16 +6,17 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from paths import planet_ring_path, sun_planet_path
 from synthetic_recording import write_recording
 
-from planetary_twin_py.gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.gearset.kinematics import speed_ratios
 from planetary_twin_py.gearset.mount import mount
 from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.robot.parts import carrier_radius, gear_of
+from planetary_twin_py.robot.parts import carrier_radius
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.view.contacts import contacts, forces, log_contacts, newtons
+from planetary_twin_py.view.contacts import contacts, forces, log_contacts
 from planetary_twin_py.view.motion import motion
 from planetary_twin_py.view.timeline import columns
 
@@ -57,16 +58,10 @@ def gears_of_mesh(scene, mesh):
     mounted = mount(gearset.tooth_numbers, gearset.planet_angles)
     psi = gearset.planet_angles[i]
     centre = carrier_radius(gearset) * np.array([math.cos(psi), math.sin(psi)])
-    angle = turned(scene)
-    sun = gear_of(gearset, gearset.teeth.sun), mounted.sun + angle["sun"], np.zeros(2)
-    planet = (
-        gear_of(gearset, gearset.teeth.planet),
-        mounted.planets[i] + angle[f"planet_{i + 1}"],
-        centre,
-    )
-    annulus = (
-        gear_of(gearset, gearset.teeth.ring, True), mounted.ring + angle["ring"], np.zeros(2)
-    )  # fmt: skip
+    gears, angle, middle = gearset.geometry, turned(scene), np.zeros(2)
+    sun = gears.sun, mounted.sun + angle["sun"], middle
+    planet = gears.planet, mounted.planets[i] + angle[f"planet_{i + 1}"], centre
+    annulus = gears.ring, mounted.ring + angle["ring"], middle
     return (planet, annulus) if ring else (sun, planet)
 
 
@@ -188,7 +183,3 @@ def test_contacts_are_sent_in_blocks_that_miss_no_time(tmp_path, monkeypatch):
         columns(moved.time, moved.stamp)[0].as_arrow_array().to_numpy(zero_copy_only=False).tolist()
     )
     assert len(expected) > 3 * block and all(times == expected for times in sent.values())
-
-
-def test_loads_have_readable_labels():
-    assert [newtons(f) for f in (900.0, 2e3, 3e4, 1e6)] == ["900 N", "2 kN", "30 kN", "1 MN"]

@@ -2,6 +2,7 @@
 
 import subprocess
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -10,11 +11,12 @@ from synthetic_recording import BLOCK, write_recording
 
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
+from planetary_twin_py.view.chart import Chart
 from planetary_twin_py.view.frames import frames
-from planetary_twin_py.view.phase_portrait import flanks_meet
-from planetary_twin_py.view.round_numbers import one_digit, round_up, ticks
+from planetary_twin_py.view.phase_portrait import SIZE, _on_axis, _portrait, flanks_meet
+from planetary_twin_py.view.round_numbers import round_down, round_up
 from planetary_twin_py.view.show import save
-from planetary_twin_py.view.spectra import HEIGHT, _orders, _spectrum
+from planetary_twin_py.view.spectra import ROWS, _orders, _spectrum
 
 RERUN = Path(rerun_cli.__file__).parent / "rerun"
 
@@ -33,10 +35,10 @@ def test_the_file_contains_spectrum_order_map_and_phase_portrait(recording, tmp_
     for entity in (
         "/spectrum/dte",
         "/spectrum/mesh_harmonics",
-        "/order_map/image",
+        "/order_map/picture",
         "/order_map/cursor",
         "/phase_portrait/curve",
-        "/phase_portrait/marks",
+        "/phase_portrait/range",
     ):
         assert entity in printed
 
@@ -53,7 +55,7 @@ def test_the_order_map_keeps_the_meshing_at_its_order(recording):
     windows, reach = frames(recording), 8.5 * 30
     for at in (0.1, 0.9):
         levels = _orders(windows, int(np.abs(windows.time - at).argmin()), reach)
-        assert levels.argmax() == pytest.approx(30 / reach * HEIGHT, abs=1.0)
+        assert levels.argmax() == pytest.approx(30 / reach * ROWS, abs=1.0)
 
 
 def test_windows_near_a_gap_are_shifted_and_none_spans_it(recording):
@@ -105,7 +107,25 @@ def test_marks_of_the_portrait_are_where_flanks_meet(law, share):
     assert flanks_meet(scene, 4e-5) == share * 4e-5
 
 
-def test_scales_end_and_step_at_round_numbers():
-    assert [round_up(v) for v in (0.9, 1.0, 1.1, 3.0, 6e-5)] == pytest.approx([1, 1, 2, 5, 1e-4])
-    assert [one_digit(v) for v in (1.2, 2.0, 870.0)] == [2.0, 2.0, 900.0]
-    assert ticks(-0.13, 0.21, 5).tolist() == pytest.approx([-0.1, 0.0, 0.1, 0.2])
+def test_a_curve_is_placed_on_the_axes_of_its_picture():
+    chart = Chart("spectrum", (400, 300), yscale="log", xlim=(0.0, 10.0), ylim=(1e-3, 10.0))
+    chart.log(Mock())
+    frame = chart.axes.bbox
+    corners = np.array([[frame.x0, 600 - frame.y0], [frame.x1, 600 - frame.y1]])
+    assert chart.place([0.0, 10.0], [1e-3, 10.0]) == pytest.approx(corners, abs=0.01)
+    assert chart.place([-1.0, 11.0], [0.0, 99.0]) == pytest.approx(corners, abs=0.01)
+    assert chart.place([5.0], [0.1])[0] == pytest.approx(corners.mean(axis=0), abs=0.01)
+
+
+def test_a_portrait_fills_its_axes(recording):
+    windows = frames(recording)
+    chart = Chart("phase_portrait", SIZE)
+    drawn = _portrait(chart, windows, 3, 0.0)
+    x = np.linspace(2.0, 4.0, 11)
+    assert _on_axis(x, x)[[0, -1]] == pytest.approx([0.06 / 1.12, 1.06 / 1.12])
+    assert len(drawn.curve) == len(drawn.ranges) == 1
+
+
+def test_scales_end_at_round_numbers():
+    assert [round_up(v) for v in (1.2, 2.0, 870.0, 6e-5)] == pytest.approx([2, 2, 900, 6e-5])
+    assert [round_down(v) for v in (1.2, 2.0, 870.0)] == pytest.approx([1, 2, 800])
