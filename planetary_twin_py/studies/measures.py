@@ -68,7 +68,7 @@ def summary_of(result: Result) -> Row:
     """
     figures = {"power_loss": result.mean_power_loss}
     for name, (_, quantity) in SUMMARY.items():
-        figures[name] = float(quantity.over_meshes(result.mesh[name]))
+        figures[name] = quantity.of_meshes(result.mesh[name])
     return figures
 
 
@@ -141,8 +141,6 @@ def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
     """
     planets = len(next(iter(mesh.values()))) // 2
     return {
-        side: {
-            name: float(quantity.over_meshes(mesh[name][meshes])) for name, quantity in MESH.items()
-        }
+        side: {name: quantity.of_meshes(mesh[name][meshes]) for name, quantity in MESH.items()}
         for side, meshes in zip(SIDES, (slice(planets), slice(planets, None)), strict=True)
     }

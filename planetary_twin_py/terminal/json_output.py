@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,10 +12,10 @@ from .console import make_console
 from .messages import fail
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    from .tables import TableConsole
 
 
-def console_beside(target: str | None) -> Console:
+def console_beside(target: str | None) -> TableConsole:
     """Console for text: standard output, or standard error if JSON goes to standard output."""
     return make_console(stderr=target == "-")
 
@@ -31,3 +32,8 @@ def write_json(figures: Any, target: str | None) -> None:
         Path(target).write_text(text, "utf-8")
     except OSError as error:
         fail(f"--json = {target!r}: {error.strerror}")
+
+
+def finite(value: Any) -> Any:
+    """`value`, or None in place of NaN and infinity, which JSON lacks."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value

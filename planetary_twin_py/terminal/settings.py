@@ -64,6 +64,19 @@ def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
     return scene
 
 
+def scene_with(name: str, given: Sequence[str] | None) -> Scene:
+    """Load a scene with the changes of `--set`, see `changed_scene`.
+
+    Args:
+        name: packaged scene, or path of a YAML file.
+        given: texts NAME=VALUE.
+
+    Raises:
+        ValueError: the scene does not exist, a text is not NAME=VALUE, or a field is invalid.
+    """
+    return changed_scene(name, settings(given or []))
+
+
 def say_units(scene: Scene, changes: Mapping[str, Any]) -> None:
     """Print in which unit each number without unit was read.
 
