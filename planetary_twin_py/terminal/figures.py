@@ -39,7 +39,7 @@ def print_lines(console: TableConsole, quantities: Quantities, values: Values) -
         values: in SI, or texts, by key; a key that is missing has no line.
     """
     shown = {key: quantity for key, quantity in quantities.items() if key in values}
-    width = max(len(quantity.title) for quantity in shown.values()) + 1
+    width = max(len(quantity.title) for quantity in shown.values()) + 2
     for key, quantity in shown.items():
         value = text_of(values[key], quantity.si, digits=6)
         console.print(f"{quantity.title:{width}}{value}", markup=False)
