@@ -26,5 +26,5 @@ def print_oil(console: Console, scene: Scene) -> dict[str, Any]:
     if oil is None:
         return {"oil": None}
     for line in oil.lines:
-        console.print(line, markup=False, highlight=False)
+        console.print(line, markup=False)
     return {"oil": oil.as_figures()}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..terminal.messages import fail, need, remark
+from ..terminal.console import progress
+from ..terminal.messages import fail, need, remark, warn
 from ..terminal.output_files import PICTURES, check_file
 from ..terminal.settings import say_units
 
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from ..studies.axes import Axis, Normal, Span
     from ..studies.plan import Study
-    from ..studies.sweep import Report
-    from ..studies.work import Executor, Failure
+    from ..studies.work import Executor, Failure, Report
 
 TABLES = (".parquet", ".csv")
 PICTURE_DPI = 150  # dots per inch
@@ -110,8 +110,8 @@ def computed(study: Study, out: Path, scheduler: str | None = None) -> Iterator[
 
     journal = out.with_name(f"{out.name}.journal")
     with (
-        _executor(scheduler) as executor,
-        _reported(study) as report,
+        executor_of(scheduler) as executor,
+        reported("points", len(study.points)) as report,
         kept(journal, len(study.points)),
     ):
         table = sweep(study, executor, journal, report)
@@ -139,13 +139,25 @@ def kept(journal: Path, points: int) -> Iterator[None]:
 
 
 @contextmanager
-def _executor(scheduler: str | None) -> Iterator[Executor]:
+def executor_of(scheduler: str | None, threads: int | None = None) -> Iterator[Executor]:
+    """What runs many tasks.
+
+    Args:
+        scheduler: address of a Dask scheduler, or number of threads; None takes `threads`.
+        threads: None is a thread per core.
+
+    Yields:
+        Threads of this process, or the workers of the scheduler.
+
+    Raises:
+        ValueError: the number of threads is not positive, or the scheduler cannot be reached.
+    """
     if scheduler is None or scheduler.isdecimal():
         if scheduler is not None and int(scheduler) < 1:
             raise ValueError(f"--scheduler = {scheduler!r}: must be at least 1 thread")
         from ..simulation.threads import Threads
 
-        yield Threads(None if scheduler is None else int(scheduler))
+        yield Threads(threads if scheduler is None else int(scheduler))
         return
     need("studies", "distributed")
     from ..studies.cluster import Cluster
@@ -158,9 +170,14 @@ def _executor(scheduler: str | None) -> Iterator[Executor]:
 
 
 @contextmanager
-def _reported(study: Study) -> Iterator[Report]:
-    """A progress bar of the points, above which failures are printed."""
-    with progress("points", len(study.points)) as advance:
+def reported(what: str, total: int) -> Iterator[Report]:
+    """A progress bar of the points of a study, above which failures are printed.
+
+    Args:
+        what: label of the bar.
+        total: number of points.
+    """
+    with progress(what, total) as advance:
 
         def report(done: int, failure: Failure | None) -> None:
             advance(done)
@@ -203,7 +220,7 @@ def write_results(
         write(table, out)
 
 
-def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
+def warn_of(table: pa.Table, scenes: Sequence[Scene]) -> None:
     """Print the warnings that apply to the results of a study, a line each.
 
     Args:
@@ -220,37 +237,7 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
     from ..studies.inaccurate import inaccuracies
     from ..studies.turning import turning_of_study
 
-    lines = (
-        next(filter(None, map(held_axes_warning, scenes)), None),
-        next(filter(None, map(backlash_of_scene, scenes)), None),
-        next(filter(None, map(deflection_of_scene, scenes)), None),
-        next(filter(None, map(pressure_of_scene, scenes)), None),
-        oil_of_scenes(scenes),
-        clipping_of_study(table),
-        unbalanced_runs(table),
-        *inaccuracies(table),
-        *turning_of_study(table),
-    )
-    for line in filter(None, lines):
-        remark(f"warning: {line}")
-
-
-@contextmanager
-def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
-    """Show a progress bar with the remaining time on stderr, if that is a terminal.
-
-    Args:
-        what: label of the bar.
-        total: number of units of work.
-
-    Yields:
-        A function to call with the number of units completed since the last call.
-    """
-    from rich.console import Console
-    from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
-        task = bar.add_task(what, total=total)
-        yield lambda done: bar.advance(task, done)
+    for judge in (held_axes_warning, backlash_of_scene, deflection_of_scene, pressure_of_scene):
+        warn([next(filter(None, map(judge, scenes)), None)])
+    warn((oil_of_scenes(scenes), clipping_of_study(table), unbalanced_runs(table)))
+    warn((*inaccuracies(table), *turning_of_study(table)))

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..terminal.arguments import SceneArgument, SetOption, ToleranceOption
-from ..terminal.messages import fail, remark
+from ..terminal.arguments import SceneArgument, SetOption, StudyOut, ToleranceOption
+from ..terminal.messages import fail, one_line_errors, warn
 from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
-from ._study import TABLES, axis, check_suffix, default_speeds, progress, write_results
+from ._study import TABLES, axis, check_suffix, default_speeds, reported, write_results
 
 
 def bifurcation(
     scene: SceneArgument,
-    out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
+    out: StudyOut,
     input_speed: Annotated[
         str | None,
         typer.Option(
@@ -54,7 +53,7 @@ def bifurcation(
     from ..studies.bifurcation import bifurcation as run
     from ..studies.inaccurate import inaccuracies
 
-    try:
+    with one_line_errors():
         changes = settings(set_ or [])
         loaded = changed_scene(scene, changes)
         input_speed = input_speed or default_speeds(loaded, 0.1, "181")
@@ -62,19 +61,9 @@ def bifurcation(
         if not isinstance(speeds, Axis):
             fail(f"--input-speed = {input_speed!r}: must be FROM:TO:COUNT")
         dwell = Dwell(settling, cycles, phase, tolerance)
-        with progress("speeds held", 2 * len(speeds.values)) as advance:
-
-            def report(failure: str | None) -> None:
-                advance(1)
-                if failure:
-                    remark(failure)
-
+        with reported("speeds held", 2 * len(speeds.values)) as report:
             table = run(loaded, speeds.values, dwell, report)
         write_results(table, out)
-    except (ValueError, OSError) as error:
-        fail(error)
     runs = table.filter(pc.equal(table["cycle"], 0))
-    held = held_axes_warning(loaded)
-    for line in filter(None, (held, *without_effect(loaded, changes), *inaccuracies(runs))):
-        remark(f"warning: {line}")
+    warn((held_axes_warning(loaded), *without_effect(loaded, changes), *inaccuracies(runs)))
     typer.echo(f"{out}: {len(speeds.values)} speeds, rising and falling")

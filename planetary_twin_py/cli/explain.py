@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -81,7 +81,7 @@ def explain(
     console.print(table(headings, limits(loaded), title="Limits of the model", texts=headings))
     warn(found.remarks)
     of_meshes = {side: getattr(meshes, side)._asdict() for side in SIDES}
-    figures = _as_figures(found) | {"mesh_frequency": meshes.mesh_frequency, "meshes": of_meshes}
+    figures = found.as_figures() | {"mesh_frequency": meshes.mesh_frequency, "meshes": of_meshes}
     write_json(figures | oil, json_)
 
 
@@ -137,28 +137,10 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
             if not each.refused  # the caption has the reason
         ],
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
-        caption=f"{_verdict(found)}\nRun time is computing time per simulated second. Bearing "
+        caption=f"{found.verdict}\nRun time is computing time per simulated second. Bearing "
         "forces and orbits need axes that move: planar, spatial, quasi_static_planar, "
         "quasi_static_spatial.",
     )
-
-
-def _verdict(found: DynamicsChoice) -> str:
-    """The selected dynamics, the errors of the others, and why some are not possible."""
-    lines = [
-        f"Simplest dynamics within {100.0 * found.allowed:g} % (dynamics_error): {found.dynamics}."
-    ]
-    others = [
-        f"{each.dynamics} {each.largest}"
-        for each in found.candidates
-        if not each.refused and each.dynamics not in (found.dynamics, found.reference)
-    ]
-    if others:
-        lines[0] += f" Errors of the others: {', '.join(others)}."
-    for each in found.candidates:
-        if each.refused:
-            lines.append(f"Not possible: {each.dynamics}, because {each.refused}.")
-    return "\n".join(lines)
 
 
 def _term_table(found: Explanation) -> Table:
@@ -190,20 +172,3 @@ def _heading(name: str) -> str:
 
 def _change(before: float, after: float) -> str:
     return f"{100 * (after / before - 1.0):+.2f}" if before != 0.0 else "-"
-
-
-def _as_figures(found: Explanation) -> dict[str, Any]:
-    return {
-        "scene": found.figures,
-        "terms": [
-            {
-                "name": effect.term.name,
-                "law": effect.term.law,
-                "without": effect.without,
-                "cost": effect.cost,
-            }
-            for effect in found.effects
-        ],
-        "dynamics": found.dynamics.figures(),
-        "remarks": found.remarks,
-    }

@@ -10,9 +10,9 @@ import typer
 
 from ..terminal.arguments import SetOption, complete_scene
 from ..terminal.console import busy, make_console
-from ..terminal.messages import fail, need
+from ..terminal.messages import need, one_line_errors
 from ..terminal.output_files import check_recording
-from ..terminal.settings import changed_scene, settings
+from ..terminal.settings import scene_with
 
 if TYPE_CHECKING:
     from ..recording.tables.rig_recording import Imported
@@ -46,14 +46,12 @@ def import_(
     need("analysis", "mcap", "rosbags", "pyarrow")
     from ..recording.tables.rig_recording import write_measured
 
-    try:
-        gearbox = changed_scene(scene, settings(set_ or []))
+    with one_line_errors():
+        gearbox = scene_with(scene, set_)
         with busy("converting the table"):
             done = write_measured(table, gearbox, out)
-    except (ValueError, OSError) as error:
-        fail(error)
     for line in _summary(out, done):
-        make_console().print(line, highlight=False, soft_wrap=True)
+        make_console().one_line(line)
 
 
 def _summary(out: Path, done: Imported) -> Iterator[str]:

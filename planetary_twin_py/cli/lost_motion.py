@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import JsonOption, SceneArgument, SetOption
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption, picture_option
+from ..terminal.console import progress
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import PICTURES, file_ending_in, writing
-from ..terminal.settings import changed_scene, settings
-from ._study import progress
+from ..terminal.messages import need, one_line_errors, remark
+from ..terminal.output_files import writing
+from ..terminal.settings import scene_with
 
 LARGE_SHARE = 0.45  # of the torque; a share must be below 0.5
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from ..scene import Scene
     from ..studies.lost_motion import LostMotion
+    from ..terminal.tables import TableConsole
 
 
 def lost_motion(
@@ -38,10 +37,7 @@ def lost_motion(
         typer.Option(help="Part of the torque at which lost motion is measured, below 0.5."),
     ] = 0.03,
     set_: SetOption = None,
-    picture: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE.png", help="Draw the loop.", callback=file_ending_in(*PICTURES)),
-    ] = None,
+    picture: Annotated[Path | None, picture_option("Draw the loop.")] = None,
     json_: JsonOption = None,
 ) -> None:
     """Measure lost motion, hysteresis and torsional stiffness of SCENE.
@@ -59,16 +55,14 @@ def lost_motion(
     from ..studies.lost_motion import LEVELS
     from ..studies.lost_motion import lost_motion as measure
 
-    try:
-        loaded = changed_scene(scene, settings(set_ or []))
+    with one_line_errors(ArithmeticError):
+        loaded = scene_with(scene, set_)
         largest = _torque(loaded, torque)
         with progress("torques", 5 * LEVELS + 3) as advance:
             found = measure(loaded, largest, share, report=advance)
-    except (ValueError, ArithmeticError) as error:
-        fail(error)
     console = console_beside(json_)
     _print(console, found, largest)
-    console.print(_HELD, highlight=False)
+    console.print(_HELD)
     if not found.settled:
         remark(
             "warning: the twist had not come to rest at some torques: the loop is wider than that "
@@ -85,8 +79,7 @@ def lost_motion(
 
         with writing("--picture", picture):
             save(lost_motion_diagram(loaded, found), str(picture))
-    if json_ is not None:
-        write_json(_figures(found), json_)
+    write_json(found.figures(), json_)
 
 
 _HELD = (
@@ -96,26 +89,22 @@ _HELD = (
 )
 
 
-def _print(console: Console, found: LostMotion, largest: float) -> None:
+def _print(console: TableConsole, found: LostMotion, largest: float) -> None:
+    from ..units.shown import LOST_MOTION
+
     positive, negative = found.stiffness_by_sense
-    for name, value in (
-        ("largest torque on the output [N m]", largest),
-        (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),
-        (f"hysteresis at {100 * found.share:g} % of it [deg]", _hysteresis(found)),
-        ("torsional stiffness, half to full torque [N m/rad]", found.stiffness),
-        ("- under positive torque [N m/rad]", positive),
-        ("- under negative torque [N m/rad]", negative),
-        ("stiffness, motor to load with couplings [N m/rad]", found.stiffness_with_couplings),
-    ):
-        shown = value if isinstance(value, str) else f"{value:.6g}"
-        console.print(f"{name:<52}{shown}", highlight=False, markup=False)
-
-
-def _hysteresis(found: LostMotion) -> float | str:
-    """Hysteresis [deg], or its upper bound if it is not resolved."""
-    if found.hysteresis_resolved:
-        return math.degrees(found.hysteresis)
-    return f"below {math.degrees(found.hysteresis + 2.0 * found.resolution):.2g}"
+    values = {
+        "largest_torque": largest,
+        "stiffness_positive": positive,
+        "stiffness_negative": negative,
+        **{name: getattr(found, name) for name in LOST_MOTION if hasattr(found, name)},
+    }
+    for name, quantity in LOST_MOTION.items():
+        value = f"{quantity.factor * values[name]:.6g}"
+        if name == "hysteresis" and not found.hysteresis_resolved:
+            value = f"below {math.degrees(found.hysteresis + 2.0 * found.resolution):.2g}"
+        heading = quantity.heading.format(share=100.0 * found.share)
+        console.print(f"{heading:<52}{value}", markup=False)
 
 
 def _better(found: LostMotion) -> str:
@@ -123,20 +112,6 @@ def _better(found: LostMotion) -> str:
     if found.share < LARGE_SHARE:
         return f"measure it at a larger --share, up to {LARGE_SHARE:g}"
     return "this friction is too small for this test"
-
-
-def _figures(found: LostMotion) -> dict[str, object]:
-    return {
-        "lost_motion": found.lost_motion,
-        "hysteresis": found.hysteresis,
-        "hysteresis_resolved": found.hysteresis_resolved,
-        "stiffness": found.stiffness,
-        "stiffness_by_sense": found.stiffness_by_sense,
-        "stiffness_with_couplings": found.stiffness_with_couplings,
-        "settled": found.settled,
-        "torque": found.torque.tolist(),
-        "twist": found.twist.tolist(),
-    }
 
 
 def _torque(scene: Scene, text: str | None) -> float:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..terminal.messages import fail, remark
+from ..terminal.messages import fail, one_line_errors, remark
 from ..terminal.output_files import PICTURES
 from ._study import TABLES, check_suffix, write_results
 
@@ -56,11 +56,8 @@ def plot(
         table = read(study)
     except (ValueError, OSError) as error:
         fail(f"{study}: {str(error).splitlines()[0]}")
-    measures = y.split(",") if y else ()
-    try:
-        write_results(table, out, x, measures, by, kind)
-    except (ValueError, OSError) as error:
-        fail(error)
+    with one_line_errors():
+        write_results(table, out, x, y.split(",") if y else (), by, kind)
     if failed := failures(table):
         remark(f"{failed} of {len(table)} points failed and are omitted")
     typer.echo(f"{out}")

@@ -14,7 +14,7 @@ from ..terminal.arguments import (
     SetOption,
     ToleranceOption,
 )
-from ..terminal.console import course, print_list
+from ..terminal.console import print_list, progress_of
 from ..terminal.figures import keyed, print_lines, rows, text_of
 from ..terminal.interruptible import interruptible
 from ..terminal.json_output import console_beside, write_json
@@ -27,10 +27,9 @@ from ..units.engineering import figure, without_rounding
 from ._oil import print_oil
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
     from ..run.axes.motion import AxesMotion
-    from ..run.axes.statistics import AxesStatistics
     from ..run.result import Result
     from ..scene import Scene
     from ..terminal.tables import TableConsole
@@ -124,7 +123,7 @@ def _record(out: Path, scene: Scene, *how: float) -> Result:
     plan = Plan(scene, *how)
     check_run(plan.duration, plan.sample_rate, "auto", plan.tolerance, plan.settling)
     whole = plan.settling + plan.duration
-    with course("recording") as show:
+    with progress_of("recording") as show:
         _, result = record_run(plan, out, lambda time: show(time, whole))
     return replace(result, choice=choice)
 
@@ -135,11 +134,12 @@ def _print_train(
     """Print the scene and the results of the whole train, and return them by JSON name."""
     from ..explanation.losses import losses_in_words
     from ..scene.summary import gears, operating_point
+    from ..simulation.figures import figures_of_run
     from ..units.shown import RUN, SOURCES
 
     print_list(console, "gears: ", gears(scene))
     print_list(console, "operating point: ", operating_point(scene))
-    found = _train(scene, result, settling)
+    found = figures_of_run(scene, result, settling)
     value = text_of(found["efficiency"], "", digits=6)
     if value == "-":
         value = "undefined: no machine puts power in"
@@ -153,33 +153,9 @@ def _print_train(
     return keyed(RUN, found)
 
 
-def _train(scene: Scene, result: Result, settling: float) -> dict[str, Any]:
-    """Results of the whole train in SI, by the names of `RUN`."""
-    from ..gearset.kinematics import mesh_frequency
-    from ..studies.measures import summary_of
-    from ..units.catalogue import SUMMARY
-
-    energy, seen = result.energy, summary_of(result)
-    sun, carrier = (
-        float(result.mean_speed[result.bodies.index(member)]) for member in ("sun", "carrier")
-    )
-    return {
-        "settling": settling,
-        "efficiency": result.efficiency,
-        "mean_power_loss": seen["power_loss"],
-        "tooth_friction": energy.friction / result.duration,
-        "bearing_loss": energy.bearing / result.duration,
-        "churning_loss": energy.churning / result.duration,
-        **{name: seen[statistic] for statistic, (name, _) in SUMMARY.items()},
-        "mesh_frequency": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
-        "energy_residual": energy.residual / energy.driving_work if energy.driven else 0.0,
-        "real_time_factor": result.stats.real_time_factor,
-    }
-
-
 def _print_meshes(console: TableConsole, result: Result) -> dict[str, Any]:
     """Print the results of the sun meshes and of the ring meshes, and return them by JSON name."""
-    from ..studies.measures import mesh_rows
+    from ..simulation.figures import mesh_rows
     from ..terminal.tables import table
     from ..units.catalogue import MESH, side_title
 
@@ -195,14 +171,14 @@ def _print_axes(console: TableConsole, motion: AxesMotion | None) -> dict[str, A
     """Print the results of axes that move, and return them by JSON name; nothing if held."""
     if motion is None or motion.statistics is None:
         return {}
+    from ..simulation.figures import axes_figures, share_figures
     from ..terminal.tables import table
-    from ..units.shown import AXES_OF_RUN, SHARES_OF_RUN, TILTING_OF_RUN
+    from ..units.shown import AXES_OF_RUN, SHARES_OF_RUN
 
-    quantities = AXES_OF_RUN if motion.tilting is None else AXES_OF_RUN | TILTING_OF_RUN
-    found = _axes(motion, motion.statistics, quantities)
-    shares = _shares(motion)
+    found, shares = axes_figures(motion), share_figures(motion)
     cells = []
-    for name, quantity in quantities.items():
+    for name in found:
+        quantity = AXES_OF_RUN[name]
         scale = max(map(abs, found[name].values()))
         values = (without_rounding(value, scale) for value in found[name].values())
         cells.append([quantity.text, *(figure(value, quantity.si) for value in values)])
@@ -212,34 +188,7 @@ def _print_axes(console: TableConsole, motion: AxesMotion | None) -> dict[str, A
         cells.append([quantity.text, *texts])
     console.print(table(("", *motion.bodies), cells, title="Axes"))
     if not shares:
-        return keyed(quantities, found)
+        return keyed(AXES_OF_RUN, found)
     factor = motion.load_sharing_factor
     console.print(f"load sharing factor K_gamma, largest of these shares: {factor:.4f}")
-    return keyed(quantities, found) | shares | {"load_sharing_factor": factor}
-
-
-def _axes(
-    motion: AxesMotion, seen: AxesStatistics, quantities: Iterable[str]
-) -> dict[str, dict[str, float]]:
-    """Statistics of all bodies by the names of `quantities`; of vectors, the magnitudes."""
-    import numpy as np
-
-    statistics = seen._asdict() | ({} if seen.tilting is None else seen.tilting._asdict())
-    found = {}
-    for name in quantities:
-        values = statistics[name.replace("thrust", "axial_force")]
-        sizes = values if values.ndim == 1 else np.linalg.norm(values, axis=1)
-        found[name] = dict(zip(motion.bodies, sizes.tolist(), strict=True))
-    return found
-
-
-def _shares(motion: AxesMotion) -> dict[str, dict[str, float]]:
-    """Shares of the planets by the names of `SHARES_OF_RUN`; nothing without a load to share."""
-    planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
-    mean, largest = motion.mean_load_share.tolist(), motion.largest_load_share.tolist()
-    if any(share != share for share in mean):
-        return {}
-    return {
-        "load_share": dict(zip(planets, mean, strict=True)),
-        "largest_load_share": dict(zip(planets, largest, strict=True)),
-    }
+    return keyed(AXES_OF_RUN, found) | shares | {"load_sharing_factor": factor}

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import typer
 
 from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need
+from ..terminal.messages import need, one_line_errors
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from ..recording.runs.verify import Comparison
 
 
@@ -30,51 +29,45 @@ def verify(
     """
 
     need("recording", "mcap", "rosbags")
-    from ..recording.container.records import RecordingError
     from ..recording.ros2.namespaces import choose_namespace
     from ..recording.ros2.playback import Playback
     from ..recording.runs.verify import verify as compare
 
     console = console_beside(json_)
-    try:
+    with one_line_errors():
         playback = Playback(file)
         chosen = choose_namespace(playback.counts, namespace, file)
         with console.status("simulating again") as status:
             result = compare(
                 file, chosen, lambda time: status.update(f"simulating again: {time:.1f} s")
             )
-    except (RecordingError, OSError) as error:
-        fail(error)
-    _print(console, result)
-    write_json(_figures(result), json_)
+    for remark in filter(None, (*result.remarks, result.ledger, *result.accuracy)):
+        console.print(f"warning: {remark}", style="yellow", soft_wrap=True, markup=False)
+    for label, text in _lines(result):
+        console.one_line(f"{label:18}{text}")
+    write_json(result.figures(), json_)
     if not (result.identical if result.same_makers else result.within_bound):
         raise typer.Exit(1)
 
 
-def _print(console: Console, result: Comparison) -> None:
+def _lines(result: Comparison) -> Iterator[tuple[str, str]]:
+    """What was compared and found, with labels."""
     from ..recording.runs.verify import BOUND
 
-    for remark in filter(None, (*result.remarks, result.ledger, *result.accuracy)):
-        console.print(
-            f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False, markup=False
-        )
     counts = ", ".join(f"{count} {topic}" for topic, count in result.messages.items())
-    console.print(f"compared          {counts}: {result.values} values", highlight=False)
+    yield "compared", f"{counts}: {result.values} values"
     if result.not_recorded:
-        console.print(f"not recorded      {result.not_recorded} states")
+        yield "not recorded", f"{result.not_recorded} states"
     if not result.same_makers:
-        console.print("recorded by       another core or another type of machine")
+        yield "recorded by", "another core or another type of machine"
     if first := result.first_difference:
-        console.print(
-            f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
+        yield (
+            "first difference",
+            f"{first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
             f"recorded {first.recorded!r}, simulated {first.simulated!r}",
-            highlight=False,
         )
-        console.print(
-            f"largest           {result.largest:.3g} x tolerance "
-            f"(bound between machines: {BOUND:g})"
-        )
-    console.print(f"result            {_conclusion(result)}", highlight=False, soft_wrap=True)
+        yield "largest", f"{result.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
+    yield "result", _conclusion(result)
 
 
 def _conclusion(result: Comparison) -> str:
@@ -107,20 +100,3 @@ def _of_differences(result: Comparison) -> str:
         return "differs by more than the bound between machines"
     incomplete = "; but the recording is incomplete, see the warnings" if result.remarks else ""
     return f"within the bound between machines{incomplete}"
-
-
-def _figures(result: Comparison) -> dict[str, Any]:
-    first = result.first_difference
-    return {
-        "identical": result.identical,
-        "first_difference": None if first is None else first._asdict(),
-        "same_makers": result.same_makers,
-        "within_bound": result.within_bound,
-        "largest_difference": result.largest,
-        "messages": result.messages,
-        "values": result.values,
-        "not_recorded": result.not_recorded,
-        "remarks": result.remarks,
-        "ledger": result.ledger,
-        "accuracy": result.accuracy,
-    }

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -104,6 +105,15 @@ class LostMotion:
     def stiffness_with_couplings(self) -> float:
         """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
         return 1.0 / (1.0 / self.stiffness + self.couplings)
+
+    def figures(self) -> dict[str, Any]:
+        """The loop and what follows from it for JSON, in SI."""
+        names = (
+            "lost_motion", "hysteresis", "hysteresis_resolved", "stiffness", "stiffness_by_sense",
+            "stiffness_with_couplings", "settled",
+        )  # fmt: skip
+        figures = {name: getattr(self, name) for name in names}
+        return figures | {"torque": self.torque.tolist(), "twist": self.twist.tolist()}
 
 
 def _twist_at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:

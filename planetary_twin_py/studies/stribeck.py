@@ -16,8 +16,8 @@ from ..scene import Scene
 from .axes import Axis, Normal, Span
 from .measures import row
 from .plan import Point, describe, grid
-from .sweep import Report, sweep
-from .work import Executor, Failure, Found
+from .sweep import sweep
+from .work import Executor, Failure, Found, Report
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING
 from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
 from .journal import Journal
 from .plan import Point, Study
-from .work import Evaluation, Executor, Failure, Found
+from .work import Evaluation, Executor, Failure, Found, Report
 
 if TYPE_CHECKING:
     import pyarrow as pa
-
-Report = Callable[[int, Failure | None], None]
 
 
 def sweep(

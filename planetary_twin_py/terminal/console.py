@@ -60,7 +60,7 @@ def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
 
 
 @contextmanager
-def course(what: str) -> Iterator[Callable[[float, float], None]]:
+def progress_of(what: str) -> Iterator[Callable[[float, float], None]]:
     """Show how far an activity is, with a bar on stderr that disappears, if that is a terminal.
 
     Args:
@@ -87,4 +87,4 @@ def print_list(console: TableConsole, lead: str, parts: Iterable[str]) -> None:
     """
     whole = ", ".join(part.replace(" ", _NO_BREAK) for part in parts)
     folded = textwrap.fill(f"{lead}{whole}", console.width, subsequent_indent="  ")
-    console.line(folded.replace(_NO_BREAK, " "))
+    console.one_line(folded.replace(_NO_BREAK, " "))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -32,8 +31,3 @@ def write_json(figures: Any, target: str | None) -> None:
         Path(target).write_text(text, "utf-8")
     except OSError as error:
         fail(f"--json = {target!r}: {error.strerror}")
-
-
-def finite(value: Any) -> Any:
-    """`value`, or None in place of NaN and infinity, which JSON lacks."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value

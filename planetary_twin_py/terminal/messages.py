@@ -37,9 +37,10 @@ def one_line_errors(*further: type[Exception]) -> Iterator[None]:
     Args:
         further: exceptions that do, in addition to `ValueError` and `OSError`.
     """
+    kinds: tuple[type[Exception], ...] = (ValueError, OSError, *further)
     try:
         yield
-    except (ValueError, OSError, *further) as error:
+    except kinds as error:
         fail(error)
 
 

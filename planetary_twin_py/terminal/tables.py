@@ -65,7 +65,7 @@ class TableConsole(Console):
         """Print as Rich does; tables fit the width, and control characters are escaped."""
         super().print(*(self._escaped(one) for one in objects), **how)
 
-    def line(self, text: str) -> None:
+    def one_line(self, text: str) -> None:
         """Print plain text as one line, which the terminal folds where it is too long."""
         self.print(text, markup=False, soft_wrap=True)
 

@@ -6,6 +6,7 @@ their quantities is a catalogue of its own, see `quantities_of`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import get_type_hints
 
@@ -57,9 +58,6 @@ AXES_OF_RUN = {
     "bearing_force_mean": Quantity("force on the bearing, magnitude of its mean", "N"),
     "bearing_force_magnitude": Quantity("force on the bearing, mean of its magnitude", "N"),
     "bearing_force_peak": Quantity("force on the bearing, peak", "N"),
-}
-"""Of each axis, where axes move."""
-TILTING_OF_RUN = {
     "axial_displacement_mean": Quantity("axial displacement, mean", "m"),
     "tilt_mean": Quantity("tilt, magnitude of its mean", "rad"),
     "tilt_magnitude": Quantity("tilt, mean of its magnitude", "rad"),
@@ -71,25 +69,22 @@ TILTING_OF_RUN = {
     ),
     "tilting_moment_peak": Quantity("tilting moment on the bearing, peak", "N m"),
 }
-"""Of each axis, where axes tilt, too."""
+"""Of each axis, where axes move; axial motion, tilts, thrust and moments where they tilt, too."""
 SHARES_OF_RUN = {
     "load_share": Quantity("share of the load, mean"),
     "largest_load_share": Quantity("share of the load, largest mean over a mesh cycle"),
 }
 """Of each planet, where axes move; the largest of the second is K_gamma."""
 
+_DEGREES = ("deg", math.degrees(1.0))
+
 LOST_MOTION = {
-    "lost_motion": Quantity("lost motion", "rad"),
-    "hysteresis": Quantity("hysteresis", "rad"),
+    "largest_torque": Quantity("largest torque on the output", "N m"),
+    "lost_motion": Quantity("lost motion at {share:g} % of it", "rad", customary=_DEGREES),
+    "hysteresis": Quantity("hysteresis at {share:g} % of it", "rad", customary=_DEGREES),
     "stiffness": Quantity("torsional stiffness, half to full torque", "N m/rad"),
+    "stiffness_positive": Quantity("- under positive torque", "N m/rad"),
+    "stiffness_negative": Quantity("- under negative torque", "N m/rad"),
     "stiffness_with_couplings": Quantity("stiffness, motor to load with couplings", "N m/rad"),
 }
 """Of a test of lost motion."""
-
-DUTY = {
-    "duration": Quantity("duty cycle in steady running", "s"),
-    "driving_energy": Quantity("driving energy", "J"),
-    "loss_energy": Quantity("lost energy", "J"),
-    "efficiency": Quantity("efficiency"),
-}
-"""Of a duty cycle."""

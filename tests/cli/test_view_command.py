@@ -51,7 +51,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
 
 
 def test_a_long_recording_is_shown_in_part(tmp_path, monkeypatch):
-    monkeypatch.setattr("planetary_twin_py.cli.view.MOST_STATES", 20)
+    monkeypatch.setattr("planetary_twin_py.view.session.MOST_STATES", 20)
     long = write_recording(tmp_path / "long.mcap", 0.5)
     arguments = "view", long, "--scene", "paper", "--save"
     answer = CliRunner().invoke(build_app(), list(map(str, (*arguments, tmp_path / "a.rrd"))))

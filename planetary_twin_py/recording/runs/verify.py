@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -77,6 +77,18 @@ class Comparison:
     def within_bound(self) -> bool:
         """Whether the differences are within the bound for different machines."""
         return self.largest <= BOUND and not self.remarks
+
+    def figures(self) -> dict[str, Any]:
+        """The comparison for JSON."""
+        figures = asdict(self)
+        del figures["left_out"]
+        first = self.first_difference
+        return figures | {
+            "identical": self.identical,
+            "first_difference": None if first is None else first._asdict(),
+            "within_bound": self.within_bound,
+            "largest_difference": figures.pop("largest"),
+        }
 
 
 def verify(
