@@ -9,6 +9,8 @@ from itertools import pairwise
 from typing import Any
 
 from ..scene import Scene
+from ..simulation.natural_modes import natural_modes
+from .aliases import NEGLIGIBLE, alias_remark
 from .distinct_lines import DISTINCT
 from .line_names import LineNames, NamedLine
 from .mesh_spectrum import MeshSpectrum
@@ -85,6 +87,18 @@ class LineReport:
                 f"sidebands of the {member} are {apart:.4g} {self.unit} apart and not named: they "
                 f"need {self._length(apart)}"
             )
+
+    def aliases(self) -> Iterator[str]:
+        """A warning if the sample rate is too low for the waveform of a twin."""
+        signal, found = self.signal, self.spectrum
+        if found.alias_share <= NEGLIGIBLE:
+            return
+        highest = mesh = None
+        if self.scene is not None:
+            highest = float(natural_modes(self.scene).frequencies.max())
+        if found.mesh is not None:
+            mesh = found.mesh * signal.sample_rate / found.sample_rate
+        yield alias_remark(signal.sample_rate, found.alias_share, highest, mesh)
 
     @cached_property
     def _names(self) -> LineNames:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..terminal.console import progress
-from ..terminal.messages import fail, need, remark, warn
-from ..terminal.output_files import PICTURES, check_file
+from ..terminal.messages import need, remark, warn
+from ..terminal.output_files import PICTURES
 from ..terminal.settings import say_units
 
 if TYPE_CHECKING:
@@ -21,20 +20,11 @@ if TYPE_CHECKING:
     from ..studies.plan import Study
     from ..studies.work import Executor, Failure, Report
 
-TABLES = (".parquet", ".csv")
 PICTURE_DPI = 150  # dots per inch
 
 
-def check_suffix(out: Path, admitted: Sequence[str]) -> None:
-    """End the command if `out` has another suffix, is not writable, or its packages are missing.
-
-    Args:
-        out: file to write.
-        admitted: suffixes with their dots.
-    """
-    if out.suffix not in admitted:
-        fail(f"--out = {str(out)!r}: must end in {', '.join(admitted)}")
-    check_file("--out", out)
+def need_packages(out: Path) -> None:
+    """End the command if packages are missing that tables of studies, or the file `out`, need."""
     need("studies", "pyarrow")
     if out.suffix in PICTURES:
         need("plots", "matplotlib")
@@ -66,27 +56,6 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
         for value in dict.fromkeys(ends):
             say_units(scene.replace(**{field: value}), {field: value})
     return found
-
-
-def default_speeds(scene: Scene, share: float, count: str) -> str:
-    """Input speeds of a study for which none are given.
-
-    Args:
-        scene: the scene.
-        share: lowest speed over the highest one [-].
-        count: number of speeds, as in a range: "41:log".
-
-    Returns:
-        The range up to the largest of 1, 2, 5, 10 ... rpm within `drive.speed_limit`, in the sense
-        of the input speed of the scene.
-    """
-    from ..units.conversion import rpm
-
-    limit = scene.drive.speed_limit / rpm(1.0)
-    decade = 10.0 ** math.floor(math.log10(limit))
-    highest = next(part * decade for part in (5.0, 2.0, 1.0) if part * decade <= limit)
-    highest = math.copysign(highest, scene.operating_point.input_speed)
-    return f"{share * highest:.10g}rpm:{highest:.10g}rpm:{count}"
 
 
 @contextmanager

@@ -8,10 +8,9 @@ import typer
 
 from ..terminal.arguments import SceneArgument, SetOption, StudyOut, ToleranceOption
 from ..terminal.messages import fail, one_line_errors, warn
-from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
-from ._study import TABLES, axis, check_suffix, default_speeds, reported, write_results
+from ._study import axis, need_packages, reported, write_results
 
 
 def bifurcation(
@@ -43,12 +42,12 @@ def bifurcation(
     Example: planetary-twin bifurcation paper --set input_torque=10 --set backlash=20um
     --input-speed 8000rpm:10000rpm:41 --out jumps.png
     """
-    check_suffix(out, TABLES + PICTURES)
+    need_packages(out)
     from pyarrow import compute as pc
 
     from ..checks.fixed_axes import held_axes_warning
     from ..scene.unused import without_effect
-    from ..studies.axes import Axis
+    from ..studies.axes import Axis, default_speeds
     from ..studies.bifurcation import Dwell
     from ..studies.bifurcation import bifurcation as run
     from ..studies.inaccurate import inaccuracies

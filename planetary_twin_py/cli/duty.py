@@ -13,6 +13,7 @@ from ..terminal.arguments import (
     SceneArgument,
     SetOption,
     SettlingOption,
+    StudyTable,
     ToleranceOption,
 )
 from ..terminal.json_output import console_beside, write_json
@@ -20,7 +21,7 @@ from ..terminal.messages import one_line_errors, remark
 from ..terminal.settings import scene_with
 from ..units.catalogue import STUDY_RESULTS
 from ..units.engineering import figure
-from ._study import TABLES, check_suffix, computed, warn_of, write_results
+from ._study import computed, need_packages, warn_of, write_results
 
 if TYPE_CHECKING:
     from ..studies.duty import Summary
@@ -34,9 +35,7 @@ def duty(
             metavar="TABLE", help="Duty cycle: .csv or .parquet with time, torque, speed."
         ),
     ],
-    out: Annotated[
-        Path, typer.Option(help="Table of the operating points (.parquet with units, .csv).")
-    ],
+    out: StudyTable,
     set_: SetOption = None,
     duration: EvaluatedOption = 0.2,
     settling: SettlingOption = 0.05,
@@ -54,7 +53,7 @@ def duty(
 
     Example: planetary-twin duty paper cycle.csv --set dynamics=quasi_static --out points.parquet
     """
-    check_suffix(out, TABLES)
+    need_packages(out)
     from ..studies.duty import read_duty, summary_of_duty
     from ..studies.plan import Settings
 

@@ -17,7 +17,6 @@ from ..terminal.settings import scene_with
 from ..terminal.unit_options import SECONDS
 from ..units.catalogue import FIGURES, MESH, SIDES, Quantity, side_title
 from ..units.engineering import figure
-from ._oil import print_oil
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -49,6 +48,7 @@ def explain(
 
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
+    from ..explanation.oil import oil_figures
     from ..explanation.terms import limits
     from ..explanation.turning import duration_for_means
     from ..scene.summary import gears
@@ -71,7 +71,9 @@ def explain(
     print_list(console, "gears: ", gears(loaded))
     console.print()
     console.print(_mesh_table(loaded, meshes))
-    oil = print_oil(console, loaded)
+    oil = oil_figures(loaded)
+    for line in oil.lines if oil else ():
+        console.print(line, markup=False)
     if loaded.dynamics == "auto":
         console.print(found.dynamics.text)
         loaded = found.dynamics.scene
@@ -81,8 +83,13 @@ def explain(
     console.print(table(headings, limits(loaded), title="Limits of the model", texts=headings))
     warn(found.remarks)
     of_meshes = {side: getattr(meshes, side)._asdict() for side in SIDES}
-    figures = found.as_figures() | {"mesh_frequency": meshes.mesh_frequency, "meshes": of_meshes}
-    write_json(figures | oil, json_)
+    figures = {
+        **found.as_figures(),
+        "mesh_frequency": meshes.mesh_frequency,
+        "meshes": of_meshes,
+        "oil": None if oil is None else oil.as_figures(),
+    }
+    write_json(figures, json_)
 
 
 def _mesh_table(scene: Scene, meshes: Meshes) -> Table:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -13,9 +12,6 @@ from ..terminal.console import busy, make_console
 from ..terminal.messages import need, one_line_errors
 from ..terminal.output_files import check_recording
 from ..terminal.settings import scene_with
-
-if TYPE_CHECKING:
-    from ..recording.tables.rig_recording import Imported
 
 
 def import_(
@@ -50,16 +46,5 @@ def import_(
         gearbox = scene_with(scene, set_)
         with busy("converting the table"):
             done = write_measured(table, gearbox, out)
-    for line in _summary(out, done):
+    for line in done.lines(out):
         make_console().one_line(line)
-
-
-def _summary(out: Path, done: Imported) -> Iterator[str]:
-    """Number of rows, and the operating points with their start times."""
-    from ..scene import TUNABLES
-
-    step = done.measured.step
-    yield f"{out}: {done.measured.rows} rows, one every {step:g} s"
-    for part in done.points:
-        means = (f"{name} = {v:.6g} {TUNABLES[name].unit}" for name, v in part.means.items())
-        yield f"from {part.first * step:g} s: {', '.join(means) or 'as in the scene'}"

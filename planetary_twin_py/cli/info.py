@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -17,9 +16,7 @@ from ..terminal.names import shown
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..recording.runs.events import Event
     from ..recording.runs.info import Info
-    from ..recording.runs.ramps import Ramp
     from ..terminal.tables import TableConsole
 
 
@@ -38,11 +35,12 @@ def info(
     """
 
     need("recording", "mcap", "rosbags")
+    from ..recording.runs.events import events_of_all
     from ..recording.runs.info import read_info
 
     with one_line_errors(), busy("reading the recording"):
         found = read_info(file)
-        happened = _events(file, found) if events else None
+        happened = events_of_all(file, found.topics) if events else None
     for line in found.remarks:
         remark(line)
     console = console_beside(json_)
@@ -60,17 +58,6 @@ def info(
         fail(f"{file}: has no message that can be read", code=1)
 
 
-def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
-    """Events of each gearbox, with its namespace."""
-    from ..recording.ros2.topics import STATE
-    from ..recording.runs.events import read_events
-
-    names = [
-        topic.removesuffix(f"/{STATE}") for topic in found.topics if topic.endswith(f"/{STATE}")
-    ]
-    return [(name, event) for name in sorted(names) for event in read_events(file, name, [])]
-
-
 def _print(console: TableConsole, found: Info) -> None:
     from ..recording.runs.ramps import ramps
 
@@ -80,7 +67,7 @@ def _print(console: TableConsole, found: Info) -> None:
         console.one_line(f"{label:14}{text}")
     for number, ramp in enumerate(ramps(found.changes)):
         title = "" if number else "changes"
-        print_list(console, f"{title:13} {ramp.times[0]:10.4f} s  ", _described(ramp))
+        print_list(console, f"{title:13} {ramp.times[0]:10.4f} s  ", ramp.in_words())
 
 
 def _topics(found: Info) -> Table:
@@ -115,28 +102,3 @@ def _lines(found: Info) -> Iterator[tuple[str, str]]:
     if found.skips:
         skips = f"in {found.skips} skips of stamps"
         yield "skipped", f"{found.skipped:.3f} s of ROS time, {skips}"
-
-
-def _described(ramp: Ramp) -> list[str]:
-    """The changed parameters and their values."""
-    steps = len(ramp.times)
-    if not ramp.last:
-        return ["no change"]
-    if steps == 1:
-        return [f"{name} = {_shown(name, value)}" for name, value in ramp.last.items()]
-    *ways, last = (
-        f"{k} from {ramp.first[k]:.6g} to {value:.6g} {_unit(k)}".rstrip()
-        for k, value in ramp.last.items()
-    )
-    return [*ways, f"{last} in {steps} steps over {ramp.duration:.6g} s"]
-
-
-def _shown(name: str, value: float | str) -> str:
-    """A value with its unit."""
-    return shown(value) if isinstance(value, str) else f"{value:.6g} {_unit(name)}".rstrip()
-
-
-def _unit(name: str) -> str:
-    from ..scene import TUNABLES
-
-    return TUNABLES[name].unit

@@ -11,11 +11,11 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption, picture_option
 from ..terminal.console import progress
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import need, one_line_errors, remark
+from ..terminal.messages import need, one_line_errors, warn
 from ..terminal.output_files import writing
 from ..terminal.settings import scene_with
+from ..terminal.unit_options import read_quantity
 
-LARGE_SHARE = 0.45  # of the torque; a share must be below 0.5
 if TYPE_CHECKING:
     from ..scene import Scene
     from ..studies.lost_motion import LostMotion
@@ -63,16 +63,7 @@ def lost_motion(
     console = console_beside(json_)
     _print(console, found, largest)
     console.print(_HELD)
-    if not found.settled:
-        remark(
-            "warning: the twist had not come to rest at some torques: the loop is wider than that "
-            "of a slower test"
-        )
-    if not found.hysteresis_resolved:
-        remark(
-            f"warning: the hysteresis is not resolved: twists are read to "
-            f"{math.degrees(found.resolution):.2g} deg; {_better(found)}"
-        )
+    warn(found.remarks())
     if picture is not None:
         from ..plots.lost_motion import lost_motion_diagram
         from ..plots.style import save
@@ -107,17 +98,9 @@ def _print(console: TableConsole, found: LostMotion, largest: float) -> None:
         console.print(f"{heading:<52}{value}", markup=False)
 
 
-def _better(found: LostMotion) -> str:
-    """What would resolve the hysteresis: it grows with the share, and the resolution does not."""
-    if found.share < LARGE_SHARE:
-        return f"measure it at a larger --share, up to {LARGE_SHARE:g}"
-    return "this friction is too small for this test"
-
-
 def _torque(scene: Scene, text: str | None) -> float:
     """Largest torque on the output [N m]."""
     from ..model.layout import LOAD_MACHINE, Layout
-    from ..units.conversion import to_si
 
     if text is None:
         torque = abs(
@@ -126,7 +109,4 @@ def _torque(scene: Scene, text: str | None) -> float:
         if not torque > 0.0:
             raise ValueError("--torque: required, as input_torque = 0")
         return float(torque)
-    try:
-        return float(str(to_si(text, "N m")))
-    except ValueError as error:
-        raise ValueError(f"--torque = {text!r}: {error}") from None
+    return read_quantity("--torque", text, "N m")

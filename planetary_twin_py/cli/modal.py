@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,16 +13,14 @@ from ..terminal.messages import need, one_line_errors, warn
 from ..terminal.names import shown
 from ..terminal.output_files import output_file, writing
 from ..terminal.settings import scene_with
-from ..units.engineering import figure
+from ..terminal.unit_options import read_quantity
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..modal.campbell import Resonance
     from ..modal.modes import NaturalModes
     from ..modal.springs import SpringModel
     from ..scene import Scene
-    from ..terminal.tables import TableConsole
 
 LEAST_CHANGE = 0.005  # [Hz]
 
@@ -72,6 +68,7 @@ def modal(
     from ..modal.campbell import resonances
     from ..modal.natural import model_of, natural_modes, spring_model
     from ..modal.remarks import modal_remarks
+    from ..modal.resonance_text import resonance_lines
     from ..simulation.natural_modes import chosen
 
     with one_line_errors():
@@ -86,7 +83,8 @@ def modal(
     turning = _turning(loaded, speed)
     title = f"{shown(loaded.name)}, {model} model{turning}"
     console.print(_mode_table(title, single, mean, None if turning else springs))
-    _print_resonances(console, loaded, found)
+    for line in resonance_lines(loaded, found):
+        console.print(line)
     warn(modal_remarks(loaded, model, speed if turning else None))
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
@@ -104,14 +102,8 @@ def _speed(text: str | None, model: str) -> float | None:
     if text is None:
         return None
     from ..modal.natural import MOVING_AXES
-    from ..units.conversion import to_si
 
-    try:
-        speed = float(to_si(text, "rad/s"))  # type: ignore[arg-type]
-    except ValueError as error:
-        raise ValueError(f"--input-speed = {text!r}: {error}") from None
-    if not math.isfinite(speed):
-        raise ValueError(f"--input-speed = {text!r}: must be finite")
+    speed = read_quantity("--input-speed", text, "rad/s")
     if speed and model not in MOVING_AXES:
         raise ValueError(
             f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
@@ -121,19 +113,15 @@ def _speed(text: str | None, model: str) -> float | None:
 
 def _turning(scene: Scene, speed: float | None) -> str:
     """Part of a title that states the speeds [rad/s] of the motors unless nothing turns."""
+    from ..modal.resonance_text import in_rpm
+
     if speed is None:
         return ""
     speeds = (speed, scene.operating_point.second_input_speed)[: len(scene.drive.inputs)]
     if not any(speeds):
         return ""
     inputs = "inputs" if len(speeds) > 1 else "input"
-    return f", {inputs} at {' and '.join(map(_rpm, speeds))}, frame of the carrier"
-
-
-def _rpm(speed: float, digits: str = "g") -> str:
-    from ..units.conversion import rpm
-
-    return f"{speed / rpm(1.0):{digits}} rpm"
+    return f", {inputs} at {' and '.join(map(in_rpm, speeds))}, frame of the carrier"
 
 
 def _frequencies(single: NaturalModes, mean: NaturalModes) -> dict[str, Any]:
@@ -195,58 +183,3 @@ def _text(changes: dict[str, float]) -> str:
         if abs(change) >= LEAST_CHANGE
     )
     return ", ".join(felt) or "-"
-
-
-def _print_resonances(console: TableConsole, scene: Scene, found: Sequence[Resonance]) -> None:
-    """Print the resonant speeds, first those that the meshing excites."""
-    from ..modal.excitation import EXCITED
-
-    excited = [resonance for resonance in found if resonance.excitation == EXCITED]
-    strongest = max((resonance.weight for resonance in excited), default=0.0)
-    console.print(_heading(scene, strongest > 0.0))
-    for resonance in excited:
-        share = f", {resonance.weight / strongest:.0%} of the strongest" if strongest else ""
-        console.print(_line(resonance) + share)
-    if not excited:
-        console.print("none")
-    if len(excited) == len(found):
-        return
-    console.print(_NOT_EXCITED)
-    for resonance in found:
-        if resonance.excitation != EXCITED:
-            console.print(f"{_line(resonance)}, {resonance.excitation}")
-
-
-_NOT_EXCITED = (
-    "Frequencies that meet without resonance, if the planets are equal; errors of position, form "
-    "or stiffness, and faults, excite what phasing suppresses:"
-)
-
-
-def _heading(scene: Scene, weighted: bool) -> str:
-    from ..modal.campbell import HARMONICS, LEAST_SHARE
-
-    which = f"harmonics 1 to {HARMONICS} of the mesh frequency"
-    if weighted:
-        torque = figure(scene.operating_point.input_torque, "N m")
-        which += (
-            f" and higher ones with {LEAST_SHARE:.0%} of the strongest (by the force of mesh "
-            f"stiffness and errors of form on the mode at input_torque = {torque}, undamped)"
-        )
-    limit, second = scene.drive.speed_limit, scene.operating_point.second_input_speed
-    speeds = f"speeds up to {_rpm(limit, '.0f')} (drive.speed_limit)"
-    if second:
-        speeds = (
-            f"speeds of the first motor up to {_rpm(limit, '.0f')} (drive.speed_limit) in both "
-        )
-        speeds += f"senses, the second one at {_rpm(second)} (second_input_speed)"
-    return f"Resonances at mean mesh stiffness, {which}, {speeds}:"
-
-
-def _line(resonance: Resonance) -> str:
-    numbers = range(resonance.mode + 1, resonance.mode + 1 + resonance.multiplicity)
-    modes = f"mode{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
-    return (
-        f"{_rpm(resonance.speed, '10.1f')}: harmonic {resonance.harmonic} "
-        f"of the mesh frequency meets {modes} at {resonance.frequency:.1f} Hz"
-    )

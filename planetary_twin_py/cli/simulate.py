@@ -24,7 +24,6 @@ from ..terminal.output_files import check_file, check_recording
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import HERTZ, SECONDS
 from ..units.engineering import figure, without_rounding
-from ._oil import print_oil
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -60,6 +59,7 @@ def simulate(
 
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
+    from ..explanation.oil import oil_figures
     from ..explanation.remarks import remarks
     from ..scene.unused import without_effect
     from ..simulation.simulate import simulate as run
@@ -89,7 +89,10 @@ def simulate(
     figures |= _print_train(console, loaded, result, settling)
     figures |= _print_meshes(console, result)
     figures |= _print_axes(console, result.axes)
-    figures |= print_oil(console, loaded)
+    oil = oil_figures(loaded)
+    for line in oil.lines if oil else ():
+        console.print(line, markup=False)
+    figures["oil"] = None if oil is None else oil.as_figures()
     figures["remarks"] = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     warn(figures["remarks"])
     write_json(figures, json_)

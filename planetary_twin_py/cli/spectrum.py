@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -184,7 +184,7 @@ def _analysed(asked: Options) -> _Subject:
     from ..analysis.band import read_band
     from ..analysis.line_report import LineReport
     from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
-    from ..analysis.signals import QUANTITIES, read_signal
+    from ..analysis.signals import QUANTITIES, read_signal, settled
     from ..scene import parse_scene
 
     band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
@@ -194,7 +194,7 @@ def _analysed(asked: Options) -> _Subject:
     else:
         signal = read_signal(asked.file, asked.mesh, asked.quantity)
     if asked.from_ is None and asked.to is None:
-        signal = _steady(asked.file, signal)
+        signal = settled(asked.file, signal)
     else:
         signal = signal.within(asked.from_, asked.to)
     scene = None if signal.scene_yaml is None else parse_scene(signal.scene_yaml)
@@ -217,20 +217,6 @@ def _sensor(asked: Options) -> tuple[Sensor, Signal]:
     )
     scene = None if asked.scene is None else scene_with(asked.scene, asked.set_)
     return sensor, sensor_signal(sensor, scene)
-
-
-def _steady(file: Path, signal: Signal) -> Signal:
-    """The longest settled part at one operating point, or all of it if there is none."""
-    from ..recording.container.suffixes import is_table
-    from ..recording.runs.steadiness import steady_span
-
-    if file.suffix == ".npz" or is_table(file):
-        return signal.within(None, None)
-    if span := steady_span(file):
-        return signal.within(*span)
-    whole = signal.within(None, None)
-    line = f"{file}: no settled interval at one operating point was found; all of it is analysed"
-    return replace(whole, remarks=(*whole.remarks, line))
 
 
 def _title(asked: Options, subject: _Subject) -> str:
@@ -264,27 +250,11 @@ def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
         hertz = abs(signal.speed) / math.tau if asked.order else 1.0
         yield from unused_speed_remarks(subject.unused_speed, signal, found, hertz, LINES)
     if not asked.is_table:  # data loggers have an anti-aliasing filter
-        yield from _aliases(report)
+        yield from report.aliases()
     elif subject.speed_jumps:
         yield from subject.speed_jumps
     elif report.scene is not None:
         yield from scale_remarks(found, report.scene)
-
-
-def _aliases(report: LineReport) -> Iterator[str]:
-    """A warning if the sample rate is too low for the waveform of a twin."""
-    from ..analysis.aliases import NEGLIGIBLE, alias_remark
-    from ..simulation.natural_modes import natural_modes
-
-    signal, found = report.signal, report.spectrum
-    if found.alias_share <= NEGLIGIBLE:
-        return
-    highest = mesh = None
-    if report.scene is not None:
-        highest = float(natural_modes(report.scene).frequencies.max())
-    if found.mesh is not None:
-        mesh = found.mesh * signal.sample_rate / found.sample_rate
-    yield alias_remark(signal.sample_rate, found.alias_share, highest, mesh)
 
 
 def _print(console: TableConsole, subject: _Subject) -> None:

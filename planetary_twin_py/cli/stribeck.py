@@ -8,9 +8,8 @@ import typer
 
 from ..terminal.arguments import SceneArgument, SetOption, StudyOut
 from ..terminal.messages import one_line_errors, remark
-from ..terminal.output_files import PICTURES
 from ..terminal.settings import scene_with
-from ._study import TABLES, axis, check_suffix, default_speeds, reported, warn_of, write_results
+from ._study import axis, need_packages, reported, warn_of, write_results
 
 
 def stribeck(
@@ -33,9 +32,9 @@ def stribeck(
 
     Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
     """
-    check_suffix(out, TABLES + PICTURES)
+    need_packages(out)
     from ..simulation.threads import Threads
-    from ..studies.axes import Axis
+    from ..studies.axes import Axis, default_speeds
     from ..studies.stribeck import stribeck as run
     from ..studies.stribeck import stribeck_scene
 

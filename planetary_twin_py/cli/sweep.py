@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -15,15 +15,13 @@ from ..terminal.arguments import (
     ToleranceOption,
 )
 from ..terminal.messages import one_line_errors, warn
-from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
 from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
-from ._study import TABLES, axis, check_suffix, computed, warn_of, write_results
+from ._study import axis, computed, need_packages, warn_of, write_results
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-    from ..scene import Scene
 
 # Options that click does not know are fields of the scene.
 FIXED = "set"  # not a field
@@ -71,7 +69,8 @@ def sweep(  # noqa: PLR0913 - an argument for each option
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet
     """
-    check_suffix(out, TABLES + PICTURES)
+    need_packages(out)
+    from ..scene.unused import without_effect_in_all
     from ..studies.axes import Normal, planet_by_planet
     from ..studies.distribution import usual_measures
     from ..studies.plan import Settings, grid, latin_hypercube
@@ -97,7 +96,7 @@ def sweep(  # noqa: PLR0913 - an argument for each option
                 measures = measures or [*usual_measures(table)]
             write_results(table, out, measures=measures, kind="histogram" if drawn else None)
     scenes = study.extremes()
-    warn(_without_effect(scenes, (*fixed, *study.fields)))
+    warn(without_effect_in_all(scenes, (*fixed, *study.fields)))
     warn_of(table, scenes)
     if drawn:
         _print_distributions(table, measures)
@@ -131,15 +130,6 @@ def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
         if not text:
             raise ValueError(f"{option}: has no values")
         yield name.replace("-", "_"), text
-
-
-def _without_effect(scenes: Sequence[Scene], names: Iterable[str]) -> Iterator[str]:
-    """A warning for each of the fields `names` that has no effect in any of the scenes."""
-    from ..scene.unused import not_in_use, without_effect
-
-    for name in names if scenes else ():
-        if all(not_in_use(scene, name) for scene in scenes):
-            yield from without_effect(scenes[0], [name])
 
 
 def _print_distributions(study: pa.Table, names: Sequence[str]) -> None:

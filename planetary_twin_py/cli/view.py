@@ -13,7 +13,7 @@ import typer
 from ..terminal.arguments import complete_recording, complete_scene
 from ..terminal.console import busy
 from ..terminal.messages import fail, need, one_line_errors, remark
-from ..terminal.output_files import output_file
+from ..terminal.output_files import file_ending_in
 from ..terminal.unit_options import SECONDS, read_seconds
 
 if TYPE_CHECKING:
@@ -35,14 +35,15 @@ def view(
     save: Annotated[
         Path | None,
         typer.Option(
-            help="Write a Rerun file (.rrd) instead of opening a window.", callback=output_file
+            help="Write a Rerun file (.rrd) instead of opening a window.",
+            callback=file_ending_in(".rrd"),
         ),
     ] = None,
     screenshot: Annotated[
         Path | None,
         typer.Option(
             help="Write a picture (.png) instead of opening a window; needs no display.",
-            callback=output_file,
+            callback=file_ending_in(".png"),
         ),
     ] = None,
     at: Annotated[
@@ -79,9 +80,6 @@ def view(
 
     Example: planetary-twin view recordings/NAME --during 2:3
     """
-    for option, path, suffix in (("--save", save, ".rrd"), ("--screenshot", screenshot, ".png")):
-        if path is not None and path.suffix != suffix:
-            fail(f"{option} = {str(path)!r}: must end in {suffix}")
     os.environ.setdefault("RUST_LOG", "off")  # Rerun raises its errors; do not print them twice
     need("view", "rerun", "mcap", "rosbags")
     from ..view.session import read_shown, show_live

@@ -10,7 +10,7 @@ torsional stiffness between half and full torque.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,7 @@ from ..run.twin import Twin
 from ..scene import Scene
 
 SHARE = 0.03  # of the torque, at which lost motion is measured
+LARGE_SHARE = 0.45  # of the torque; a share must be below 0.5
 UPPER = 0.5  # of the torque, from which the stiffness is measured
 LEVELS = 25  # torques from 0 to the largest
 DWELL = 0.01  # [s] from one reading of the twist to the next
@@ -105,6 +106,22 @@ class LostMotion:
     def stiffness_with_couplings(self) -> float:
         """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
         return 1.0 / (1.0 / self.stiffness + self.couplings)
+
+    def remarks(self) -> Iterator[str]:
+        """What makes the loop or its figures uncertain."""
+        if not self.settled:
+            yield (
+                "the twist had not come to rest at some torques: the loop is wider than that of a "
+                "slower test"
+            )
+        if not self.hysteresis_resolved:
+            remedy = "this friction is too small for this test"
+            if self.share < LARGE_SHARE:  # hysteresis grows with the share, resolution does not
+                remedy = f"measure it at a larger --share, up to {LARGE_SHARE:g}"
+            yield (
+                "the hysteresis is not resolved: twists are read to "
+                f"{math.degrees(self.resolution):.2g} deg; {remedy}"
+            )
 
     def figures(self) -> dict[str, Any]:
         """The loop and what follows from it for JSON, in SI."""

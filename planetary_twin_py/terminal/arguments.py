@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from .completion import scene_fields
-from .output_files import PICTURES, TABLES, file_ending_in, output_file
+from .output_files import PICTURES, STUDY_TABLES, TABLES, file_ending_in, output_file
 from .unit_options import SECONDS
 
 RECORDINGS = Path("recordings")
@@ -104,8 +104,19 @@ SetOption = Annotated[
         autocompletion=complete_setting,
     ),
 ]
+StudyTable = Annotated[
+    Path,
+    typer.Option(help="Table (.parquet with units, .csv).", callback=file_ending_in(*STUDY_TABLES)),
+]
+StudyPicture = Annotated[
+    Path, typer.Option(help="Picture: .png, .svg or .pdf.", callback=file_ending_in(*PICTURES))
+]
 StudyOut = Annotated[
-    Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")
+    Path,
+    typer.Option(
+        help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).",
+        callback=file_ending_in(*STUDY_TABLES, *PICTURES),
+    ),
 ]
 EvaluatedOption = Annotated[float, typer.Option(help="Evaluated time of each run.", **SECONDS)]
 SettlingOption = Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)]
