@@ -1,17 +1,15 @@
 """The command `load-sharing` against the library."""
 
 import json
+from functools import partial
 
+import command_line
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), ["load-sharing", *arguments])
+invoke = partial(command_line.invoke, "load-sharing")
 
 
 def test_figures_are_those_of_the_library():
@@ -83,20 +81,6 @@ def test_a_picture_is_drawn(tmp_path):
     png = tmp_path / "sharing.png"
     assert invoke("floating_sun", "--picture", str(png)).exit_code == 0
     assert png.read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ("input_torque=0 N m", "input_torque"),
-        ("errors.pin_tangential=[-20um,0um]", "errors.pin_tangential: has 2 entries: must have 4"),
-        ("supports.planet.bearing=0N/m", "no static equilibrium"),
-    ],
-)
-def test_invalid_input_ends_in_one_line(change, words):
-    result = invoke("floating_sun", "--set", change)
-    assert result.exit_code == 2
-    assert words in result.output.strip().splitlines()[-1]
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "spatial", "quasi_static_spatial"])

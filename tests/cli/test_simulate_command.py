@@ -2,22 +2,20 @@
 
 import json
 import re
+from functools import partial
 
+import command_line
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.scene.summary import operating_point
 from planetary_twin_py.studies.fit.parameter import read_parameters
 from planetary_twin_py.units.conversion import to_si
 
+invoke = partial(command_line.invoke, "simulate")
+
 SHORT = ["--duration", "0.004", "--set", "lambda_ratio=1.5", "--set", "mesh.ramp=0.05"]
-
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), ["simulate", *arguments])
 
 
 def expected(sample_rate=50_000.0):
@@ -155,25 +153,6 @@ def test_samples_are_written_completely(tmp_path):
     table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True, deletechars="")
     assert table["dte/sun_planet_2"] == pytest.approx(run.dte[:, 1])
     assert len(table.dtype.names) == 1 + 2 * 6 + 7 * 6
-
-
-@pytest.mark.parametrize(
-    "arguments, word",
-    [
-        (("nowhere",), "nowhere"),
-        (("paper", "--set", "mesh.ramp"), "NAME=VALUE"),
-        (("paper", "--set", "mesh.rump=1"), "mesh.rump: no such field"),
-        (("paper", "--set", "lambda_ratio=11"), "within 0 and 10"),
-        (("paper", "--set", "input_torque=40,5 N m"), "input_torque = '40,5 N m': write a decimal"),
-        (("paper", "--set", "input_torque=40 kN"), "[kN] cannot be converted to N m"),
-        (("paper", "--duration", "-1"), "duration"),
-        (("paper", "--out", "run.txt"), "run.txt"),
-    ],
-)
-def test_invalid_arguments_end_in_one_line(arguments, word):
-    result = invoke(*arguments)
-    assert result.exit_code == 2
-    assert word in result.stderr and result.stderr.count("\n") == 1
 
 
 COMPUTED = ["--set", "lubrication.lambda_ratio=computed"]

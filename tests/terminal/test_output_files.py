@@ -3,9 +3,7 @@
 import os
 
 import pytest
-from typer.testing import CliRunner
-
-from planetary_twin_py.cli import build_app
+from command_line import invoke
 
 LONG = ("--duration", "3000")  # [s] longer than anyone would wait
 COMMANDS = [
@@ -46,7 +44,7 @@ ENDINGS = [
 @pytest.mark.parametrize("command", ENDINGS, ids=" ".join)
 def test_a_file_name_with_another_ending_is_refused_at_once(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    done = CliRunner().invoke(build_app(), command)
+    done = invoke(*command)
     assert done.exit_code == 2
     assert "= 'a.txt': must end in ." in done.stderr and done.stderr.count("\n") == 1
 
@@ -54,7 +52,7 @@ def test_a_file_name_with_another_ending_is_refused_at_once(command, tmp_path, m
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_a_folder_that_does_not_exist_is_refused_at_once(command, tmp_path):
     missing = tmp_path / "missing"
-    done = CliRunner().invoke(build_app(), [part.format(missing) for part in command])
+    done = invoke(*(part.format(missing) for part in command))
     assert done.exit_code == 2
     assert f"the folder {missing} does not exist" in done.stderr
     assert done.stderr.count("\n") == 1
@@ -69,28 +67,26 @@ def test_a_recording_that_cannot_be_created_is_refused_at_once(out, reason, tmp_
     (tmp_path / "taken").mkdir()
     (tmp_path / "plain").write_text("")
     arguments = ["simulate", "paper", *LONG, "--out", str(tmp_path / out)]
-    done = CliRunner().invoke(build_app(), arguments)
+    done = invoke(*arguments)
     assert done.exit_code == 2
     assert reason in done.stderr and done.stderr.count("\n") == 1
 
 
 def test_a_folder_in_the_place_of_a_file_is_refused_at_once(tmp_path):
-    done = CliRunner().invoke(build_app(), ["modal", "--json", str(tmp_path)])
+    done = invoke("modal", "--json", tmp_path)
     assert done.exit_code == 2
     assert "is a folder; name a file" in done.stderr
 
 
 def test_a_pipe_in_the_place_of_a_table_is_refused_at_once(tmp_path):
     os.mkfifo(pipe := tmp_path / "pipe.csv")
-    done = CliRunner().invoke(build_app(), ["plant", "paper", "--out", str(pipe)])
+    done = invoke("plant", "paper", "--out", pipe)
     assert done.exit_code == 2
     assert "pipe.csv': must be a file" in done.stderr
 
 
 def test_parents_of_the_folder_of_a_recording_are_created(tmp_path):
     out = tmp_path / "new" / "run"
-    done = CliRunner().invoke(
-        build_app(), ["simulate", "paper", "--duration", "0.01", "--out", str(out)]
-    )
+    done = invoke("simulate", "paper", "--duration", 0.01, "--out", out)
     assert done.exit_code == 0, done.output
     assert list(out.glob("*.mcap"))

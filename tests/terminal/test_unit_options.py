@@ -2,9 +2,8 @@
 
 import pytest
 import typer
-from typer.testing import CliRunner
+from command_line import invoke
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.terminal.unit_options import read_hertz, read_seconds
 
 
@@ -38,7 +37,7 @@ def test_text_that_is_not_a_frequency_is_refused(given):
 def test_duration_and_rate_of_a_run_follow_their_units(tmp_path):
     out = tmp_path / "run.csv"
     command = ["simulate", "--duration", "2ms", "--sample-rate", "10kHz", "--out", str(out)]
-    done = CliRunner().invoke(build_app(), command)
+    done = invoke(*command)
     assert done.exit_code == 0, done.output
     assert len(out.read_text().splitlines()) == 1 + 20
 
@@ -48,5 +47,5 @@ def test_duration_and_rate_of_a_run_follow_their_units(tmp_path):
     [("--duration", "2 m", "10ms"), ("--sample-rate", "2 ms", "50kHz")],
 )
 def test_a_wrong_unit_names_the_option(option, given, example):
-    done = CliRunner().invoke(build_app(), ["simulate", option, given])
+    done = invoke("simulate", option, given)
     assert done.exit_code == 2 and option in done.output and example in done.output
