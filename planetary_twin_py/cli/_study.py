@@ -44,16 +44,12 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
     Raises:
         ValueError: see `read_axis`.
     """
-    from ..studies.axes import Axis, Normal, read_axis
+    from ..studies.axes import read_axis
     from ..units.conversion import is_number
 
     found = read_axis(scene, field, text)
-    if isinstance(found, Axis):
-        ends = (found.values[0], found.values[-1])
-    else:
-        ends = (found.mean,) * 2 if isinstance(found, Normal) else (found.low, found.high)
     if is_number(text.removeprefix("normal(").replace(":", ",").split(",")[0]):
-        for value in dict.fromkeys(ends):
+        for value in dict.fromkeys(found.ends):
             say_units(scene.replace(**{field: value}), {field: value})
     return found
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,8 +17,6 @@ from ..terminal.unit_options import read_quantity
 
 if TYPE_CHECKING:
     from ..scene import Scene
-    from ..studies.lost_motion import LostMotion
-    from ..terminal.tables import TableConsole
 
 
 def lost_motion(
@@ -61,7 +58,8 @@ def lost_motion(
         with progress("torques", 5 * LEVELS + 3) as advance:
             found = measure(loaded, largest, share, report=advance)
     console = console_beside(json_)
-    _print(console, found, largest)
+    for heading, text in found.lines():
+        console.print(f"{heading:<52}{text}", markup=False)
     console.print(_HELD)
     warn(found.remarks())
     if picture is not None:
@@ -78,24 +76,6 @@ _HELD = (
     "softer. The compliance of the contacts is that at the largest torque. The stiffness is that "
     "at one position of the mesh: other tooth pairs carry in the other sense and at other positions"
 )
-
-
-def _print(console: TableConsole, found: LostMotion, largest: float) -> None:
-    from ..units.shown import LOST_MOTION
-
-    positive, negative = found.stiffness_by_sense
-    values = {
-        "largest_torque": largest,
-        "stiffness_positive": positive,
-        "stiffness_negative": negative,
-        **{name: getattr(found, name) for name in LOST_MOTION if hasattr(found, name)},
-    }
-    for name, quantity in LOST_MOTION.items():
-        value = f"{quantity.factor * values[name]:.6g}"
-        if name == "hysteresis" and not found.hysteresis_resolved:
-            value = f"below {math.degrees(found.hysteresis + 2.0 * found.resolution):.2g}"
-        heading = quantity.heading.format(share=100.0 * found.share)
-        console.print(f"{heading:<52}{value}", markup=False)
 
 
 def _torque(scene: Scene, text: str | None) -> float:

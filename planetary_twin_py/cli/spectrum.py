@@ -21,7 +21,6 @@ from ..terminal.unit_options import HERTZ, SECONDS
 
 if TYPE_CHECKING:
     from ..analysis.line_report import LineReport
-    from ..analysis.mesh_spectrum import MeshSpectrum
     from ..analysis.signals import Signal
     from ..recording.tables.sensor import Sensor
     from ..recording.tables.speed_faults import SpeedColumn
@@ -127,7 +126,7 @@ def spectrum(**given: Any) -> None:
             subject = _analysed(asked)
         report = subject.report
         if asked.out is not None:
-            _write(asked.out, report.spectrum, _title(asked, subject), _labels(asked, subject))
+            _write(asked.out, subject)
     for line in _remarks(asked, subject):
         remark(line)
     _print(console_beside(asked.json_), subject)
@@ -169,6 +168,7 @@ def _check(asked: Options) -> None:
 class _Subject(NamedTuple):
     """The analysed signal and its names."""
 
+    file: str
     report: LineReport
     mesh: str | None
     """None for a sensor."""
@@ -202,9 +202,14 @@ def _analysed(asked: Options) -> _Subject:
     found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
     found = found if band is None else found.within(band)
     report = LineReport(signal, found, scene, asked.order, filtered=asked.is_table)
+    name = asked.file.name
     if sensor is None:
-        return _Subject(report, asked.mesh, asked.quantity, QUANTITIES[asked.quantity], None, ())
-    return _Subject(report, None, sensor.name, sensor.unit, sensor.unused_speed, sensor.speed_jumps)
+        return _Subject(
+            name, report, asked.mesh, asked.quantity, QUANTITIES[asked.quantity], None, ()
+        )
+    return _Subject(
+        name, report, None, sensor.name, sensor.unit, sensor.unused_speed, sensor.speed_jumps
+    )
 
 
 def _sensor(asked: Options) -> tuple[Sensor, Signal]:
@@ -217,17 +222,6 @@ def _sensor(asked: Options) -> tuple[Sensor, Signal]:
     )
     scene = None if asked.scene is None else scene_with(asked.scene, asked.set_)
     return sensor, sensor_signal(sensor, scene)
-
-
-def _title(asked: Options, subject: _Subject) -> str:
-    begin, end = subject.report.signal.time[[0, -1]]
-    return f"{asked.file.name}: {subject.mesh or subject.quantity}, {begin:.3f} to {end:.3f} s"
-
-
-def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
-    """Labels of the two axes."""
-    axis = "order [cycles per turn]" if asked.order else "frequency [Hz]"
-    return axis, f"amplitude of {subject.quantity} [{subject.unit}]"
 
 
 def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
@@ -289,14 +283,20 @@ def _print(console: TableConsole, subject: _Subject) -> None:
     )
 
 
-def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) -> None:
+def _write(out: Path, subject: _Subject) -> None:
+    report = subject.report
+    axis = "order [cycles per turn]" if report.by_order else "frequency [Hz]"
+    labels = axis, f"amplitude of {subject.quantity} [{subject.unit}]"
     if out.suffix == ".csv":
         import numpy as np
 
+        found = report.spectrum
         table = np.column_stack((found.axis, found.amplitude))[found.in_band]
         np.savetxt(out, table, delimiter=",", header=",".join(labels), comments="")
         return
     from ..plots.spectrum import spectrum_plot
     from ..plots.style import save
 
-    save(spectrum_plot(found, title, labels), str(out))
+    begin, end = report.signal.time[[0, -1]]
+    title = f"{subject.file}: {subject.mesh or subject.quantity}, {begin:.3f} to {end:.3f} s"
+    save(spectrum_plot(report.spectrum, title, labels), str(out))

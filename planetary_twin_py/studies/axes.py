@@ -28,6 +28,11 @@ class Axis:
     field: str
     values: tuple[Any, ...]
 
+    @property
+    def ends(self) -> tuple[Any, Any]:
+        """First and last value."""
+        return self.values[0], self.values[-1]
+
 
 @dataclass(frozen=True)
 class Span:
@@ -37,6 +42,11 @@ class Span:
     low: float
     high: float
     logarithmic: bool = False
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Lowest and highest value."""
+        return self.low, self.high
 
     def at(self, share: np.ndarray) -> np.ndarray:
         """Values (n,) at the fractions `share` (n,) of the range, 0 to 1."""
@@ -53,6 +63,11 @@ class Normal:
     mean: float
     deviation: float
     """Standard deviation."""
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The mean, which is typed as the ends of a range are."""
+        return self.mean, self.mean
 
     def at(self, share: np.ndarray) -> np.ndarray:
         """Values (n,) below which the shares (n,) of the distribution are, 0 to 1."""

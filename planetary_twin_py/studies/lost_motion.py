@@ -20,6 +20,7 @@ from ..model.layout import LOAD_MACHINE, Layout
 from ..model.stiffness_laws import stiffness_laws
 from ..run.twin import Twin
 from ..scene import Scene
+from ..units.shown import LOST_MOTION
 
 SHARE = 0.03  # of the torque, at which lost motion is measured
 LARGE_SHARE = 0.45  # of the torque; a share must be below 0.5
@@ -56,6 +57,8 @@ class LostMotion:
     """Compliance of the couplings of the scene, at the output with the motor held [rad/(N m)]."""
     resolution: float
     """Change between two readings that is taken for rest: smaller twists are not resolved [rad]."""
+    largest_torque: float
+    """To which the output was loaded [N m]."""
 
     def _branches(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Torque and twist of the falling branch, reversed, and of the rising one."""
@@ -106,6 +109,25 @@ class LostMotion:
     def stiffness_with_couplings(self) -> float:
         """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
         return 1.0 / (1.0 / self.stiffness + self.couplings)
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """What the loop shows: the heading of each quantity with its unit, and its value."""
+        positive, negative = self.stiffness_by_sense
+        values = {
+            "largest_torque": self.largest_torque,
+            "lost_motion": self.lost_motion,
+            "hysteresis": self.hysteresis,
+            "stiffness": self.stiffness,
+            "stiffness_positive": positive,
+            "stiffness_negative": negative,
+            "stiffness_with_couplings": self.stiffness_with_couplings,
+        }
+        for name, quantity in LOST_MOTION.items():
+            text = f"{quantity.factor * values[name]:.6g}"
+            if name == "hysteresis" and not self.hysteresis_resolved:
+                bound = self.hysteresis + 2.0 * self.resolution
+                text = f"below {quantity.factor * bound:.2g}"
+            yield quantity.heading.format(share=100.0 * self.share), text
 
     def remarks(self) -> Iterator[str]:
         """What makes the loop or its figures uncertain."""
@@ -238,7 +260,8 @@ def lost_motion(
         report(1)
     closed = _with_flanks_parted(*np.array(loop[len(loading) - 1 :]).T)
     couplings = _compliance_of_couplings(scene)
-    return LostMotion(*closed, largest_motion <= resolution, share, couplings, resolution)
+    settled = largest_motion <= resolution
+    return LostMotion(*closed, settled, share, couplings, resolution, torque)
 
 
 def _motion(readings: list[tuple[float, float]]) -> float:

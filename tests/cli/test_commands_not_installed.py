@@ -22,8 +22,3 @@ def test_a_command_that_is_not_installed_names_what_it_needs(name, monkeypatch):
     part = "ROS nodes" if name in _commands.OF_NODES else "benchmarks"
     assert done.exit_code == 2 and len(done.stderr.splitlines()) == 1
     assert f"{name}: needs the {part}" in done.stderr and "docs/installing.md" in done.stderr
-
-
-def test_an_unknown_command_is_refused_as_before():
-    done = invoke("simulat")
-    assert done.exit_code == 2 and "No such command 'simulat'" in done.stderr

@@ -2,7 +2,6 @@
 
 import json
 
-import pytest
 from command_line import invoke
 
 from planetary_twin_py.scene.fields import scene_sections
@@ -30,9 +29,3 @@ def test_a_part_of_a_name_selects_the_fields_that_contain_it():
         "range": "[0, 2]",
         "meaning": "damping ratio of one mesh, for law: viscous",
     }
-
-
-@pytest.mark.parametrize("command", ["simulate", "sweep", "modal"])
-def test_commands_that_accept_fields_mention_it(command):
-    shown = " ".join(invoke(command, "--help").stdout.split())
-    assert "planetary-twin fields" in shown

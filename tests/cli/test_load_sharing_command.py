@@ -45,11 +45,6 @@ def test_the_means_over_each_of_several_mesh_cycles_are_compared():
     assert found.mean_factor == pytest.approx(cycles.max())
 
 
-def test_bearing_forces_are_said_to_omit_friction():
-    shown = " ".join(invoke("floating_sun").output.split())
-    assert "without tooth friction" in shown and "dynamics = quasi_static_planar" in shown
-
-
 def test_forces_have_units_and_rounding_errors_are_not_shown():
     shown = invoke("paper").output
     assert " N " in shown and "e-" not in shown

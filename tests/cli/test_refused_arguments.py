@@ -1,5 +1,6 @@
-"""An argument that cannot be used ends a command in one line, with exit code 2."""
+"""An argument that cannot be used ends a command in one line, before anything is computed."""
 
+import os
 import shlex
 
 import pytest
@@ -84,6 +85,39 @@ spectrum vibration.csv --speed shaft | --speed = 'shaft': no such column
 spectrum vibration.csv --set "input_speed=1000 rpm" | needs --scene
 spectrum vibration.csv --sample-rate 0 | greater than 0
 spectrum vibration.csv --mesh planet_ring_1 | --mesh and --quantity are not for tables
+simulate paper --duration 3000 --out no/run.npz | the folder no does not exist
+simulate paper --duration 3000 --out no/run.mcap | the folder no does not exist
+simulate paper --duration 3000 --json no/run.json | the folder no does not exist
+simulate paper --duration 3000 --out taken | taken': already exists; choose another name
+simulate paper --duration 3000 --out empty.csv/run | empty.csv is not a folder
+explain paper --duration 3000 --json no/run.json | the folder no does not exist
+sweep paper --input-speed 100:200:50 --duration 3000 --out no/s.csv | the folder no does not exist
+stribeck paper --out no/s.csv | the folder no does not exist
+bifurcation paper --settling 1000 --out no/s.png | the folder no does not exist
+plot s.csv --out no/s.png | the folder no does not exist
+modal --campbell no/c.png | the folder no does not exist
+modal --json no/c.json | the folder no does not exist
+modal --json taken | is a folder; name a file
+bench --json no/c.json | the folder no does not exist
+bench --plot no/c.png | the folder no does not exist
+bench --markdown no/c.md | the folder no does not exist
+fields --json no/c.json | the folder no does not exist
+info none --json no/c.json | the folder no does not exist
+verify none --json no/c.json | the folder no does not exist
+fit none --free backlash --json no/c.json | the folder no does not exist
+spectrum none --out no/c.csv | the folder no does not exist
+view none --save no/c.rrd | the folder no does not exist
+view none --screenshot no/c.png | the folder no does not exist
+import rig.csv --out no/c.mcap | the folder no does not exist
+follow paper --from rig.csv --out a.txt | = 'a.txt': must end in .
+fleet paper --from rig.csv --out a.txt | = 'a.txt': must end in .
+fit rig.csv --free backlash --scene paper --report a.txt | = 'a.txt': must end in .
+plant paper --duration 1e6 --out a.txt | = 'a.txt': must end in .
+plant paper --duration 1e6 --out a.csv --encoders a.txt | = 'a.txt': must end in .
+plant paper --out pipe.csv | pipe.csv': must be a file
+lost-motion paper --picture a.txt | = 'a.txt': must end in .
+load-sharing paper --picture a.txt | = 'a.txt': must end in .
+export-fmu paper --out a.txt | = 'a.txt': must end in .
 """
 
 
@@ -102,6 +136,8 @@ def folder(tmp_path_factory):
     }
     for name, text in texts.items():
         (path / name).write_text(text)
+    (path / "taken").mkdir()
+    os.mkfifo(path / "pipe.csv")
     return path
 
 
@@ -109,7 +145,8 @@ def folder(tmp_path_factory):
 def test_an_argument_that_cannot_be_used_ends_in_one_line(case, folder, monkeypatch):
     monkeypatch.chdir(folder)
     typed, _, words = case.partition(" | ")
+    before = sorted(folder.iterdir())
     done = invoke(*shlex.split(typed))
-    assert done.exit_code == 2
+    assert done.exit_code == 2 and sorted(folder.iterdir()) == before
     (line,) = (line for line in done.stderr.splitlines() if "no unit is given" not in line)
     assert words in line

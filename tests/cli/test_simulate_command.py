@@ -131,10 +131,6 @@ def test_the_sign_of_loaded_coast_flanks_is_explained():
     assert line in invoke("wind_turbine_stage", "--duration", "0.05").stdout
 
 
-def test_the_table_of_meshes_says_that_peaks_have_no_sign():
-    assert "A peak is the largest magnitude" in invoke("paper", *SHORT).stdout
-
-
 def test_samples_contain_their_scene(tmp_path):
     invoke("paper", *SHORT, "--out", str(tmp_path / "run.npz"))
     text = str(np.load(tmp_path / "run.npz")["scene_yaml"])
@@ -192,3 +188,10 @@ def test_the_output_is_named_where_power_enters_there(torque, speed, enters):
     assert (line in operating_point(scene)) == enters
     machines = pt.simulate(scene, 0.02).energy.machines
     assert (machines[1] > 0.0) == enters
+
+
+def test_parents_of_the_folder_of_a_recording_are_created(tmp_path):
+    out = tmp_path / "new" / "run"
+    done = invoke("paper", "--duration", 0.01, "--out", out)
+    assert done.exit_code == 0, done.output
+    assert list(out.glob("*.mcap"))
