@@ -197,9 +197,7 @@ def warn_of(table: pa.Table, scenes: Sequence[Scene]) -> None:
     from ..explanation.deflection import deflection_of_scene
     from ..explanation.oil import oil_of_scenes
     from ..explanation.pressure import pressure_of_scene
-    from ..studies.clipping import clipping_of_study
-    from ..studies.energy_balance import unbalanced_runs
-    from ..studies.inaccurate import inaccuracies
+    from ..studies.doubts import clipping_of_study, inaccuracies, unbalanced_runs
     from ..studies.turning import turning_of_study
 
     for judge in (held_axes_warning, backlash_of_scene, deflection_of_scene, pressure_of_scene):

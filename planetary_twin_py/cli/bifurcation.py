@@ -50,7 +50,7 @@ def bifurcation(
     from ..studies.axes import Axis, default_speeds
     from ..studies.bifurcation import Dwell
     from ..studies.bifurcation import bifurcation as run
-    from ..studies.inaccurate import inaccuracies
+    from ..studies.doubts import inaccuracies
 
     with one_line_errors():
         changes = settings(set_ or [])

@@ -19,7 +19,7 @@ from ..model.gearbox import Gearbox
 from ..run.counters import Course
 from ..scene import Scene
 from ..units.catalogue import COURSE
-from .marks import BIFURCATION
+from .plan import BIFURCATION
 from .section import Section
 from .work import Failure, Report
 
