@@ -23,9 +23,14 @@ def run(*arguments, prelude="", **environment):
     )
 
 
+def invoke(*arguments, **environment):
+    """The same in this process: a result of Typer with exit_code, output, stdout and stderr."""
+    return CliRunner(env=environment).invoke(build_app(), [*map(str, arguments)])
+
+
 def run_here(*arguments, **environment):
     """The same in this process, for commands that a test only wants to have run."""
-    done = CliRunner(env=environment).invoke(build_app(), [*map(str, arguments)])
+    done = invoke(*arguments, **environment)
     if done.exception and not isinstance(done.exception, SystemExit):
         raise done.exception
     return subprocess.CompletedProcess(arguments, done.exit_code, done.stdout, done.stderr)

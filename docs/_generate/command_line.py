@@ -2,11 +2,21 @@
 
 import re
 from collections import Counter
+from collections.abc import Mapping
 
 import typer
 from typer.cli import get_docs_for_click
 
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.explanation.meshes import MeshFigures
+from planetary_twin_py.units.catalogue import MESH, Quantity
+from planetary_twin_py.units.shown import (
+    AXES_OF_RUN,
+    RUN,
+    SHARES_OF_RUN,
+    key_with_unit,
+    quantities_of,
+)
 
 _MANY = 3
 """An option that is the same in so many commands is explained once."""
@@ -24,6 +34,24 @@ _COMMON = """
 A command below names those that it has. `--help` shows the explanations of all options.
 
 """
+
+
+def _keyed(quantities: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    return {key_with_unit(name, quantity): quantity for name, quantity in quantities.items()}
+
+
+_FIGURES = {
+    "simulate": {
+        "": _keyed(RUN),
+        "`sun_planet` and `planet_ring`": _keyed(MESH),
+        "of each body, where axes move": _keyed(AXES_OF_RUN),
+        "of each planet, where axes move": _keyed(SHARES_OF_RUN),
+    },
+    "explain": {
+        "`meshes`, of `sun_planet` and `planet_ring`, in SI": quantities_of(MeshFigures),
+    },
+}
+"""Figures of `--json` by command and by their place."""
 
 
 def page() -> str:
@@ -59,7 +87,20 @@ def _section(command: str, many: set[str]) -> str:
     also = ", ".join(f"`{name}`" for name in names if name.startswith("--") and name != "--help")
     rows += [f"* also {also}\n"] if also else []
     listed = "\n" + "".join(rows) if rows else ""
-    return f"\n## `{usage[1].replace(' [OPTIONS]', '')}`\n\n{_words(command)}{listed}"
+    name = usage[1].split()[1]
+    return f"\n## `{usage[1].replace(' [OPTIONS]', '')}`\n\n{_words(command)}{listed}" + "".join(
+        _figures(place, keys) for place, keys in _FIGURES.get(name, {}).items()
+    )
+
+
+def _figures(place: str, quantities: Mapping[str, Quantity]) -> str:
+    """Keys of `--json` with their units, and what they are."""
+    where = f", {place}" if place else ""
+    lines = (
+        f"* `{key}`{f' [{quantity.si}]' if quantity.si else ''}: {quantity.text.removeprefix('- ')}"
+        for key, quantity in quantities.items()
+    )
+    return "\n".join((f"\nFigures of `--json`{where}:\n", *lines, ""))
 
 
 def _words(command: str) -> str:

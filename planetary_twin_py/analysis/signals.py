@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from ..recording.container.records import RecordingError
+from ..recording.container.suffixes import is_table
 from ..recording.runs.reader import Recording, read_recording
+from ..recording.runs.steadiness import steady_span
 from ..recording.runs.unwrapping import unwrap
 from ..units.catalogue import WAVEFORM
 from .segments import full_rate, longest_segment, sample_rate
@@ -200,3 +202,22 @@ def _column(mesh: str, meshes: tuple[str, ...]) -> int:
     if mesh not in meshes:
         raise RecordingError(f"mesh = {mesh!r}: must be one of {', '.join(meshes)}")
     return meshes.index(mesh)
+
+
+def settled(file: Path, signal: Signal) -> Signal:
+    """The longest settled part of a signal at one operating point, or all of it.
+
+    Args:
+        file: of the signal.
+        signal: all of it.
+
+    Returns:
+        The part, with a remark if a recording has no such part; all of a signal from another file.
+    """
+    if file.suffix == ".npz" or is_table(file):
+        return signal.within(None, None)
+    if span := steady_span(file):
+        return signal.within(*span)
+    whole = signal.within(None, None)
+    line = f"{file}: no settled interval at one operating point was found; all of it is analysed"
+    return replace(whole, remarks=(*whole.remarks, line))

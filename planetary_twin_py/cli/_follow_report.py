@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..terminal.messages import remark
+from ..terminal.messages import warn
 from ..terminal.names import shown
+from ..text.finite import finite
 from ..text.intervals import interval_text
 from ..text.stamps import instant, is_date
 from ..units.engineering import percent
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from ..following.follower import Following
+    from ..terminal.tables import TableConsole
 
 REMEDY = "improved by"
 """Heading of the column with readings that would determine a quantity, or determine it better."""
 
 
-def print_state(console: Console, name: str, span: tuple[float, float], state: Following) -> None:
+def print_state(
+    console: TableConsole, name: str, span: tuple[float, float], state: Following
+) -> None:
     """Print estimates, events, teeth and warnings.
 
     Args:
@@ -30,21 +31,20 @@ def print_state(console: Console, name: str, span: tuple[float, float], state: F
         span: first and last stamp of the readings [s].
         state: estimated state after the last reading.
     """
-    from rich.table import Table
+    from ..terminal.tables import table
 
-    table = Table(title=f"{shown(name)}, {_span(*span)}")
-    for heading in ("quantity", "estimate", "95 % interval", "unit", "status", REMEDY):
-        table.add_column(heading, justify="left" if heading == REMEDY else "right")
+    rows = []
     for one in state.estimates:
         known = one.status in ("ESTIMATED", "STALE")
         value, interval = interval_text(one.value, one.low, one.high) if known else ("-", "-")
         status = one.status.replace("_", " ")
-        table.add_row(one.name, value, interval, one.unit or "-", status, one.remedy)
-    console.print(table)
+        rows.append([one.name, value, interval, one.unit or "-", status, one.remedy])
+    headings = ("quantity", "estimate", "95 % interval", "unit", "status", REMEDY)
+    title = f"{shown(name)}, {_span(*span)}"
+    console.print(table(headings, rows, title=title, texts=(REMEDY,)))
     for line in _lines(state):
-        console.print(line, highlight=False, markup=False, soft_wrap=True)
-    for line in state.remarks:
-        remark(f"warning: {line}")
+        console.one_line(line)
+    warn(state.remarks)
 
 
 def _span(first: float, last: float) -> str:
@@ -85,29 +85,26 @@ def state_figures(state: Following) -> dict[str, Any]:
         Estimates, events, teeth, counters and remarks.
     """
     return {
-        "time": _finite(state.time),
+        "time": finite(state.time),
         "estimates": {
-            one.name: {key: _finite(value) for key, value in one._asdict().items() if key != "name"}
+            one.name: {key: finite(value) for key, value in one._asdict().items() if key != "name"}
             for one in state.estimates
         },
         "events": [
             {
-                "what": event.what,
-                "since": event.since,
-                "found": event.found,
-                "size": {key: _finite(value) for key, value in event.size._asdict().items()},
-                "causes": event.causes,
-                "evidence": event.evidence,
+                name: getattr(event, name)
+                for name in ("what", "since", "found", "causes", "evidence")
             }
+            | {"size": {key: finite(value) for key, value in event.size._asdict().items()}}
             for event in state.events
         ],
         "teeth": [
             {
                 "gear": tooth.gear,
                 "tooth": tooth.tooth,
-                "stiffness_loss": _finite(tooth.loss.value),
-                "low": _finite(tooth.loss.low),
-                "high": _finite(tooth.loss.high),
+                "stiffness_loss": finite(tooth.loss.value),
+                "low": finite(tooth.loss.low),
+                "high": finite(tooth.loss.high),
                 "z": tooth.z,
                 "kinds": tooth.kinds,
                 "candidates": tooth.candidates,
@@ -118,8 +115,3 @@ def state_figures(state: Following) -> dict[str, Any]:
         "counters": state.counters,
         "remarks": state.remarks,
     }
-
-
-def _finite(value: Any) -> Any:
-    """`value`, or None in place of NaN, which JSON lacks."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value

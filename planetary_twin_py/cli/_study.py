@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import PICTURES, check_file
+from ..terminal.console import progress
+from ..terminal.messages import need, remark, warn
+from ..terminal.output_files import PICTURES
 from ..terminal.settings import say_units
 
 if TYPE_CHECKING:
@@ -18,23 +18,13 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from ..studies.axes import Axis, Normal, Span
     from ..studies.plan import Study
-    from ..studies.sweep import Report
-    from ..studies.work import Executor, Failure
+    from ..studies.work import Executor, Failure, Report
 
-TABLES = (".parquet", ".csv")
 PICTURE_DPI = 150  # dots per inch
 
 
-def check_suffix(out: Path, admitted: Sequence[str]) -> None:
-    """End the command if `out` has another suffix, is not writable, or its packages are missing.
-
-    Args:
-        out: file to write.
-        admitted: suffixes with their dots.
-    """
-    if out.suffix not in admitted:
-        fail(f"--out = {str(out)!r}: must end in {', '.join(admitted)}")
-    check_file("--out", out)
+def need_packages(out: Path) -> None:
+    """End the command if packages are missing that tables of studies, or the file `out`, need."""
     need("studies", "pyarrow")
     if out.suffix in PICTURES:
         need("plots", "matplotlib")
@@ -54,39 +44,14 @@ def axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
     Raises:
         ValueError: see `read_axis`.
     """
-    from ..studies.axes import Axis, Normal, read_axis
+    from ..studies.axes import read_axis
     from ..units.conversion import is_number
 
     found = read_axis(scene, field, text)
-    if isinstance(found, Axis):
-        ends = (found.values[0], found.values[-1])
-    else:
-        ends = (found.mean,) * 2 if isinstance(found, Normal) else (found.low, found.high)
     if is_number(text.removeprefix("normal(").replace(":", ",").split(",")[0]):
-        for value in dict.fromkeys(ends):
+        for value in dict.fromkeys(found.ends):
             say_units(scene.replace(**{field: value}), {field: value})
     return found
-
-
-def default_speeds(scene: Scene, share: float, count: str) -> str:
-    """Input speeds of a study for which none are given.
-
-    Args:
-        scene: the scene.
-        share: lowest speed over the highest one [-].
-        count: number of speeds, as in a range: "41:log".
-
-    Returns:
-        The range up to the largest of 1, 2, 5, 10 ... rpm within `drive.speed_limit`, in the sense
-        of the input speed of the scene.
-    """
-    from ..units.conversion import rpm
-
-    limit = scene.drive.speed_limit / rpm(1.0)
-    decade = 10.0 ** math.floor(math.log10(limit))
-    highest = next(part * decade for part in (5.0, 2.0, 1.0) if part * decade <= limit)
-    highest = math.copysign(highest, scene.operating_point.input_speed)
-    return f"{share * highest:.10g}rpm:{highest:.10g}rpm:{count}"
 
 
 @contextmanager
@@ -110,8 +75,8 @@ def computed(study: Study, out: Path, scheduler: str | None = None) -> Iterator[
 
     journal = out.with_name(f"{out.name}.journal")
     with (
-        _executor(scheduler) as executor,
-        _reported(study) as report,
+        executor_of(scheduler) as executor,
+        reported("points", len(study.points)) as report,
         kept(journal, len(study.points)),
     ):
         table = sweep(study, executor, journal, report)
@@ -139,13 +104,25 @@ def kept(journal: Path, points: int) -> Iterator[None]:
 
 
 @contextmanager
-def _executor(scheduler: str | None) -> Iterator[Executor]:
+def executor_of(scheduler: str | None, threads: int | None = None) -> Iterator[Executor]:
+    """What runs many tasks.
+
+    Args:
+        scheduler: address of a Dask scheduler, or number of threads; None takes `threads`.
+        threads: None is a thread per core.
+
+    Yields:
+        Threads of this process, or the workers of the scheduler.
+
+    Raises:
+        ValueError: the number of threads is not positive, or the scheduler cannot be reached.
+    """
     if scheduler is None or scheduler.isdecimal():
         if scheduler is not None and int(scheduler) < 1:
             raise ValueError(f"--scheduler = {scheduler!r}: must be at least 1 thread")
         from ..simulation.threads import Threads
 
-        yield Threads(None if scheduler is None else int(scheduler))
+        yield Threads(threads if scheduler is None else int(scheduler))
         return
     need("studies", "distributed")
     from ..studies.cluster import Cluster
@@ -158,9 +135,14 @@ def _executor(scheduler: str | None) -> Iterator[Executor]:
 
 
 @contextmanager
-def _reported(study: Study) -> Iterator[Report]:
-    """A progress bar of the points, above which failures are printed."""
-    with progress("points", len(study.points)) as advance:
+def reported(what: str, total: int) -> Iterator[Report]:
+    """A progress bar of the points of a study, above which failures are printed.
+
+    Args:
+        what: label of the bar.
+        total: number of points.
+    """
+    with progress(what, total) as advance:
 
         def report(done: int, failure: Failure | None) -> None:
             advance(done)
@@ -203,7 +185,7 @@ def write_results(
         write(table, out)
 
 
-def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
+def warn_of(table: pa.Table, scenes: Sequence[Scene]) -> None:
     """Print the warnings that apply to the results of a study, a line each.
 
     Args:
@@ -215,42 +197,10 @@ def warn(table: pa.Table, scenes: Sequence[Scene]) -> None:
     from ..explanation.deflection import deflection_warning
     from ..explanation.oil import oil_of_scenes
     from ..explanation.pressure import pressure_warning
-    from ..studies.clipping import clipping_of_study
-    from ..studies.energy_balance import unbalanced_runs
-    from ..studies.inaccurate import inaccuracies
+    from ..studies.doubts import clipping_of_study, inaccuracies, unbalanced_runs
     from ..studies.turning import turning_of_study
 
-    lines = (
-        next(filter(None, map(held_axes_warning, scenes)), None),
-        next(filter(None, map(backlash_of_scene, scenes)), None),
-        next(filter(None, map(deflection_warning, scenes)), None),
-        next(filter(None, map(pressure_warning, scenes)), None),
-        oil_of_scenes(scenes),
-        clipping_of_study(table),
-        unbalanced_runs(table),
-        *inaccuracies(table),
-        *turning_of_study(table),
-    )
-    for line in filter(None, lines):
-        remark(f"warning: {line}")
-
-
-@contextmanager
-def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
-    """Show a progress bar with the remaining time on stderr, if that is a terminal.
-
-    Args:
-        what: label of the bar.
-        total: number of units of work.
-
-    Yields:
-        A function to call with the number of units completed since the last call.
-    """
-    from rich.console import Console
-    from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
-        task = bar.add_task(what, total=total)
-        yield lambda done: bar.advance(task, done)
+    for judge in (held_axes_warning, backlash_of_scene, deflection_warning, pressure_warning):
+        warn([next(filter(None, map(judge, scenes)), None)])
+    warn((oil_of_scenes(scenes), clipping_of_study(table), unbalanced_runs(table)))
+    warn((*inaccuracies(table), *turning_of_study(table)))

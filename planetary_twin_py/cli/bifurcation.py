@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..terminal.arguments import SceneArgument, SetOption, ToleranceOption
-from ..terminal.messages import fail, remark
-from ..terminal.output_files import PICTURES
+from ..terminal.arguments import SceneArgument, SetOption, StudyOut, ToleranceOption
+from ..terminal.messages import fail, one_line_errors, warn
 from ..terminal.settings import changed_scene, settings
 from ..terminal.unit_options import SECONDS
-from ._study import TABLES, axis, check_suffix, default_speeds, progress, write_results
+from ._study import axis, need_packages, reported, write_results
 
 
 def bifurcation(
     scene: SceneArgument,
-    out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
+    out: StudyOut,
     input_speed: Annotated[
         str | None,
         typer.Option(
@@ -44,17 +42,17 @@ def bifurcation(
     Example: planetary-twin bifurcation paper --set input_torque=10 --set backlash=20um
     --input-speed 8000rpm:10000rpm:41 --out jumps.png
     """
-    check_suffix(out, TABLES + PICTURES)
+    need_packages(out)
     from pyarrow import compute as pc
 
     from ..checks.fixed_axes import held_axes_warning
     from ..scene.unused import without_effect
-    from ..studies.axes import Axis
+    from ..studies.axes import Axis, default_speeds
     from ..studies.bifurcation import Dwell
     from ..studies.bifurcation import bifurcation as run
-    from ..studies.inaccurate import inaccuracies
+    from ..studies.doubts import inaccuracies
 
-    try:
+    with one_line_errors():
         changes = settings(set_ or [])
         loaded = changed_scene(scene, changes)
         input_speed = input_speed or default_speeds(loaded, 0.1, "181")
@@ -62,19 +60,9 @@ def bifurcation(
         if not isinstance(speeds, Axis):
             fail(f"--input-speed = {input_speed!r}: must be FROM:TO:COUNT")
         dwell = Dwell(settling, cycles, phase, tolerance)
-        with progress("speeds held", 2 * len(speeds.values)) as advance:
-
-            def report(failure: str | None) -> None:
-                advance(1)
-                if failure:
-                    remark(failure)
-
+        with reported("speeds held", 2 * len(speeds.values)) as report:
             table = run(loaded, speeds.values, dwell, report)
         write_results(table, out)
-    except (ValueError, OSError) as error:
-        fail(error)
     runs = table.filter(pc.equal(table["cycle"], 0))
-    held = held_axes_warning(loaded)
-    for line in filter(None, (held, *without_effect(loaded, changes), *inaccuracies(runs))):
-        remark(f"warning: {line}")
+    warn((held_axes_warning(loaded), *without_effect(loaded, changes), *inaccuracies(runs)))
     typer.echo(f"{out}: {len(speeds.values)} speeds, rising and falling")

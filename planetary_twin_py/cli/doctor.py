@@ -25,20 +25,24 @@ def doctor(
 
     Example: planetary-twin doctor --json findings.json
     """
-    from rich.table import Table
     from rich.text import Text
+
+    from ..terminal.tables import table
 
     console = console_beside(json_)
     with console.status("checking the installation"):
         found = list(_findings())
-    table = Table(box=None, pad_edge=False)
-    for heading in ("part", "state", "details", "fix"):
-        table.add_column(heading, overflow="fold")
-    for finding in found:
-        colour = _COLOURS[finding.state]
-        state = Text(finding.state, colour)
-        table.add_row(finding.part, state, Text(finding.details), Text(finding.fix))
-    console.print(table)
+    rows: list[list[str | Text]] = [
+        [
+            each.part,
+            Text(each.state, _COLOURS[each.state]),
+            Text(each.details),
+            Text(each.fix),
+        ]
+        for each in found
+    ]
+    headings = ("part", "state", "details", "fix")
+    console.print(table(headings, rows, texts=headings, framed=False))
     write_json([_as_figures(finding) for finding in found], json_)
     if any(finding.state == "broken" for finding in found):
         raise typer.Exit(1)

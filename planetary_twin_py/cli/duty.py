@@ -7,13 +7,21 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
+from ..terminal.arguments import (
+    EvaluatedOption,
+    JsonOption,
+    SceneArgument,
+    SetOption,
+    SettlingOption,
+    StudyTable,
+    ToleranceOption,
+)
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, remark
-from ..terminal.settings import changed_scene, settings
-from ..terminal.unit_options import SECONDS
+from ..terminal.messages import one_line_errors, remark
+from ..terminal.settings import scene_with
+from ..units.catalogue import STUDY_RESULTS
 from ..units.engineering import figure
-from ._study import TABLES, check_suffix, computed, warn, write_results
+from ._study import computed, need_packages, warn_of, write_results
 
 if TYPE_CHECKING:
     from ..studies.duty import Summary
@@ -27,12 +35,10 @@ def duty(
             metavar="TABLE", help="Duty cycle: .csv or .parquet with time, torque, speed."
         ),
     ],
-    out: Annotated[
-        Path, typer.Option(help="Table of the operating points (.parquet with units, .csv).")
-    ],
+    out: StudyTable,
     set_: SetOption = None,
-    duration: Annotated[float, typer.Option(help="Evaluated time of each point.", **SECONDS)] = 0.2,
-    settling: Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)] = 0.05,
+    duration: EvaluatedOption = 0.2,
+    settling: SettlingOption = 0.05,
     tolerance: ToleranceOption = 1e-4,
     json_: JsonOption = None,
 ) -> None:
@@ -47,35 +53,30 @@ def duty(
 
     Example: planetary-twin duty paper cycle.csv --set dynamics=quasi_static --out points.parquet
     """
-    check_suffix(out, TABLES)
+    need_packages(out)
     from ..studies.duty import read_duty, summary_of_duty
     from ..studies.plan import Settings
 
-    try:
-        loaded = changed_scene(scene, settings(set_ or []))
+    with one_line_errors():
+        loaded = scene_with(scene, set_)
         cycle = read_duty(table)
         study, place = cycle.study(loaded, Settings(duration, settling, tolerance=tolerance))
         with computed(study, out) as found:
             write_results(found, out)
             summary = summary_of_duty(cycle, place, found)
-    except (ValueError, OSError) as error:
-        fail(error)
     console = console_beside(json_)
     for line in _lines(summary, len(study.points)):
-        console.print(line, highlight=False)
-    warn(found, study.extremes())
+        console.print(line)
+    warn_of(found, study.extremes())
     if not summary.driving_energy:
         remark("no machine drives in this cycle, so there is no efficiency")
-    if json_ is not None:
-        peaks = {name: {"value": v, "time": t} for name, (v, t) in summary.peaks.items()}
-        figures = summary._asdict() | {"efficiency": summary.efficiency, "peaks": peaks}
-        write_json(figures, json_)
+    peaks = {name: {"value": v, "time": t} for name, (v, t) in summary.peaks.items()}
+    figures = summary._asdict() | {"efficiency": summary.efficiency, "peaks": peaks}
+    write_json(figures, json_)
 
 
 def _lines(summary: Summary, points: int) -> list[str]:
     """The results in words."""
-    from ..units.catalogue import STUDY_RESULTS
-
     lines = [
         f"duty cycle of {summary.duration:g} s, {points} operating points, in steady running",
         f"driving energy {figure(summary.driving_energy, 'J')}, lost "

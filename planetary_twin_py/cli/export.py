@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from ..terminal.arguments import FileArgument, NamespaceOption
-from ..terminal.console import make_console
-from ..terminal.messages import fail, need, remark
+from ..terminal.console import make_console, progress_of
+from ..terminal.messages import need, one_line_errors, remark
 
 
 def export(
@@ -36,23 +36,14 @@ def export(
     Example: planetary-twin export recordings/NAME --out tables --format csv
     """
     need("analysis", "mcap", "rosbags", "pyarrow")
-    from rich.progress import Progress
-
     from ..recording.tables.export import Export
     from ..recording.tables.export import export as write
 
-    console = make_console()
     chosen = Export(out, format_, [name for name in topics.split(",") if name], namespace)
-    try:
-        with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
-            task = progress.add_task("writing", total=None)
-            done = write(
-                file, chosen, lambda at, end: progress.update(task, completed=at, total=end)
-            )
-    except (ValueError, OSError) as error:
-        fail(error)
+    with one_line_errors(), progress_of("writing") as show:
+        done = write(file, chosen, show)
     for line in done.remarks:
         remark(line)
     for path, rows in done.rows.items():
-        line = f"{path}: {rows} rows, {path.stat().st_size / 1e6:.1f} MB"
-        console.print(line, highlight=False, soft_wrap=True, markup=False)
+        size = path.stat().st_size / 1e6
+        make_console().one_line(f"{path}: {rows} rows, {size:.1f} MB")

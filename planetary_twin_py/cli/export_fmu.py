@@ -9,9 +9,9 @@ import typer
 
 from ..run.tolerance import LIVE_TOLERANCE
 from ..terminal.arguments import SceneArgument, SetOption
-from ..terminal.messages import fail
+from ..terminal.messages import fail, one_line_errors
 from ..terminal.output_files import file_ending_in
-from ..terminal.settings import changed_scene, settings
+from ..terminal.settings import scene_with
 
 
 def export_fmu(
@@ -38,10 +38,7 @@ def export_fmu(
 
     if fmi not in VERSIONS:
         fail(f"--fmi = {fmi!r}: must be {' or '.join(VERSIONS)}")
-    try:
-        loaded = changed_scene(scene, settings(set_ or []))
-        export(loaded, out, version=fmi, tolerance=tolerance)
-    except (ValueError, OSError) as error:
-        fail(error)
+    with one_line_errors():
+        export(scene_with(scene, set_), out, version=fmi, tolerance=tolerance)
     size = out.stat().st_size / 1e6
     typer.echo(f"{out}: FMI {fmi}, {size:.1f} MB, x86-64 {', '.join(exported_levels())}")

@@ -27,9 +27,10 @@ def fields(
 
     Example: planetary-twin fields mesh.damping
     """
-    from rich.table import Table
+    from rich.markup import escape
 
     from ..scene.fields import SceneField, scene_sections
+    from ..terminal.tables import table
 
     sections = list(scene_sections())
     found = [
@@ -41,12 +42,12 @@ def fields(
     if not found:
         names = ", ".join(field.name for field in sections[0].fields)
         fail(f"PART = {part!r}: no field name contains it; names start with {names}")
+    rows = (
+        [escape(text) for text in (f"{field.name} ({kind})" if kind else field.name, *field[1:])]
+        for kind, field in found
+    )
     console = console_beside(json_)
-    table = Table()
-    for heading in SceneField._fields:
-        table.add_column(heading, no_wrap=heading == "name")
-    for kind, field in found:
-        name = f"{field.name} ({kind})" if kind else field.name
-        table.add_row(*(text.replace("[", r"\[") for text in (name, *field[1:])))
-    console.print(table, highlight=False)
+    shown = table(SceneField._fields, rows, texts=SceneField._fields)
+    shown.columns[0].no_wrap = True
+    console.print(shown)
     write_json([{"kind": kind, **field._asdict()} for kind, field in found], json_)

@@ -8,11 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import JsonOption, SceneArgument, SetOption
+from ..terminal.arguments import (
+    JsonOption,
+    SceneArgument,
+    SetOption,
+    picture_option,
+    table_option,
+)
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need
-from ..terminal.output_files import PICTURES, TABLES, file_ending_in, writing
-from ..terminal.settings import changed_scene, settings
+from ..terminal.messages import need, one_line_errors
+from ..terminal.output_files import file_ending_in, writing
+from ..terminal.settings import scene_with
 from ._follow_inputs import (
     Files,
     ScaleOption,
@@ -68,22 +74,8 @@ _SaveBaseline = Annotated[
         callback=file_ending_in(".npz"),
     ),
 ]
-_Out = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE",
-        help="Write the estimates of every second to a .csv, .parquet or .npz table.",
-        callback=file_ending_in(*TABLES),
-    ),
-]
-_Picture = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE.png",
-        help="Draw teeth and friction level over time.",
-        callback=file_ending_in(*PICTURES),
-    ),
-]
+_Out = Annotated[Path | None, table_option("Write the estimates of every second")]
+_Picture = Annotated[Path | None, picture_option("Draw teeth and friction level over time.")]
 
 
 def follow(  # noqa: PLR0913 - an argument for each option
@@ -116,8 +108,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
 
     console = console_beside(json_)
     files = Files(from_, encoders, vibration)
-    try:
-        loaded = changed_scene(scene, settings(set_ or []))
+    with one_line_errors(ArithmeticError):
+        loaded = scene_with(scene, set_)
         known = described_sensors(sensors, scale or [])
         follower = Follower(loaded, known, encoder_format(files, known), known.scale)
         if baseline is not None:
@@ -125,8 +117,6 @@ def follow(  # noqa: PLR0913 - an argument for each option
         measured = read_measurements(files, known)
         with console.status("following"):
             states = list(play_back(follower, measured.readings, measured.samples))
-    except (ValueError, ArithmeticError, OSError) as error:
-        fail(error)
     print_state(console, loaded.name, measured.span, states[-1])
     if save_baseline is not None:
         with writing("--save-baseline", save_baseline):

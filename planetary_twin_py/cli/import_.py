@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ..terminal.arguments import SetOption, complete_scene
 from ..terminal.console import busy, make_console
-from ..terminal.messages import fail, need
+from ..terminal.messages import need, one_line_errors
 from ..terminal.output_files import check_recording
-from ..terminal.settings import changed_scene, settings
-
-if TYPE_CHECKING:
-    from ..recording.tables.rig_recording import Imported
+from ..terminal.settings import scene_with
 
 
 def import_(
@@ -46,22 +42,9 @@ def import_(
     need("analysis", "mcap", "rosbags", "pyarrow")
     from ..recording.tables.rig_recording import write_measured
 
-    try:
-        gearbox = changed_scene(scene, settings(set_ or []))
+    with one_line_errors():
+        gearbox = scene_with(scene, set_)
         with busy("converting the table"):
             done = write_measured(table, gearbox, out)
-    except (ValueError, OSError) as error:
-        fail(error)
-    for line in _summary(out, done):
-        make_console().print(line, highlight=False, soft_wrap=True)
-
-
-def _summary(out: Path, done: Imported) -> Iterator[str]:
-    """Number of rows, and the operating points with their start times."""
-    from ..scene import TUNABLES
-
-    step = done.measured.step
-    yield f"{out}: {done.measured.rows} rows, one every {step:g} s"
-    for part in done.points:
-        means = (f"{name} = {v:.6g} {TUNABLES[name].unit}" for name, v in part.means.items())
-        yield f"from {part.first * step:g} s: {', '.join(means) or 'as in the scene'}"
+    for line in done.lines(out):
+        make_console().one_line(line)

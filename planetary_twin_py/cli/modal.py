@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,17 +9,15 @@ import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need, remark
+from ..terminal.messages import need, one_line_errors, warn
 from ..terminal.names import shown
 from ..terminal.output_files import output_file, writing
-from ..terminal.settings import changed_scene, settings
-from ..units.engineering import figure
+from ..terminal.settings import scene_with
+from ..terminal.unit_options import read_quantity
 
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.table import Table
 
-    from ..modal.campbell import Resonance
     from ..modal.modes import NaturalModes
     from ..modal.springs import SpringModel
     from ..scene import Scene
@@ -71,38 +67,34 @@ def modal(
         need("plots", "matplotlib")
     from ..modal.campbell import resonances
     from ..modal.natural import model_of, natural_modes, spring_model
+    from ..modal.remarks import modal_remarks
+    from ..modal.resonance_text import resonance_lines
     from ..simulation.natural_modes import chosen
 
-    try:
-        loaded = chosen(changed_scene(scene, settings(set_ or [])), model)
+    with one_line_errors():
+        loaded = chosen(scene_with(scene, set_), model)
         model = model_of(loaded) if model is None else model
         speed = _speed(input_speed, model)
         single, mean = (natural_modes(loaded, model, k, speed) for k in ("single", "mean"))
         springs = spring_model(loaded, model, "mean")
-    except ValueError as error:
-        fail(error)
     limit = loaded.drive.speed_limit
     found = resonances(loaded, mean, springs, limit, input_speed=speed)
     console = console_beside(json_)
     turning = _turning(loaded, speed)
     title = f"{shown(loaded.name)}, {model} model{turning}"
     console.print(_mode_table(title, single, mean, None if turning else springs))
-    _print_resonances(console, loaded, found)
-    for judge in (_bearings_of_load, _bearings_without_stiffness, _planets_without_load):
-        if line := judge(loaded, model):
-            remark(f"warning: {line}")
-    if turning and (line := _whirl(loaded, speed)):
-        remark(f"warning: {line}")
+    for line in resonance_lines(loaded, found):
+        console.print(line)
+    warn(modal_remarks(loaded, model, speed if turning else None))
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
 
         with writing("--campbell", campbell):
             save(campbell_diagram(loaded, mean, found, limit, model=model), str(campbell))
-    if json_ is not None:
-        speeds = {"input_speed": speed or 0.0, "speed_limit": limit}
-        resonant = {"resonances": [resonance._asdict() for resonance in found]}
-        write_json(_frequencies(single, mean) | speeds | resonant, json_)
+    speeds = {"input_speed": speed or 0.0, "speed_limit": limit}
+    resonant = {"resonances": [resonance._asdict() for resonance in found]}
+    write_json(_frequencies(single, mean) | speeds | resonant, json_)
 
 
 def _speed(text: str | None, model: str) -> float | None:
@@ -110,14 +102,8 @@ def _speed(text: str | None, model: str) -> float | None:
     if text is None:
         return None
     from ..modal.natural import MOVING_AXES
-    from ..units.conversion import to_si
 
-    try:
-        speed = float(to_si(text, "rad/s"))  # type: ignore[arg-type]
-    except ValueError as error:
-        raise ValueError(f"--input-speed = {text!r}: {error}") from None
-    if not math.isfinite(speed):
-        raise ValueError(f"--input-speed = {text!r}: must be finite")
+    speed = read_quantity("--input-speed", text, "rad/s")
     if speed and model not in MOVING_AXES:
         raise ValueError(
             f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
@@ -125,93 +111,17 @@ def _speed(text: str | None, model: str) -> float | None:
     return speed if model in MOVING_AXES else None
 
 
-def _whirl(scene: Scene, speed: float | None) -> str:
-    """A remark on whirl that damping makes grow at a speed of the first motor [rad/s]."""
-    from ..modal.whirl import whirl_warning
-    from ..model.gearbox import Gearbox
-
-    point = scene.operating_point.model_copy(update={"input_speed": speed})
-    return whirl_warning(Gearbox(scene), point)
-
-
-def _bearings_of_load(scene: Scene, model: str) -> str | None:
-    """A remark on bearings that are linear about their static load, if the model has any."""
-    from ..modal.natural import MOVING_AXES
-    from ..statics.small_motion import depends_on_load
-
-    supports = scene.supports
-    if supports is None or model not in MOVING_AXES:
-        return None
-    bodies = ("sun", "ring", "carrier", "planet")
-    found = [body for body in bodies if depends_on_load(getattr(supports, body))]
-    if not found:
-        return None
-    named = ", ".join(f"supports.{body}" for body in found)
-    torque = figure(scene.operating_point.input_torque, "N m")
-    return (
-        f"{named}: a bearing with clearance or rolling elements is linear about its mean static "
-        f"load at input_torque = {torque}, and has no stiffness without load: modes are those of "
-        "vibration that is small compared with this load"
-    )
-
-
-def _bearings_without_stiffness(scene: Scene, model: str) -> str | None:
-    """A remark on axial and tilting stiffnesses that the scene lacks, if the model has any."""
-    from ..scene.support_rules import missing_stiffnesses
-
-    if scene.supports is None or model != "spatial":
-        return None
-    missing = [*missing_stiffnesses(scene.supports)]
-    if not missing:
-        return None
-    return (
-        f"{', '.join(missing)}: missing, so without stiffness: some modes are rigid or lower for "
-        "that reason alone; dynamics = spatial requires a stiffness of each, 0 where a body floats"
-    )
-
-
-def _planets_without_load(scene: Scene, model: str) -> str | None:
-    """A remark on planets whose meshes are open in static equilibrium, if there are any."""
-    from ..modal.natural import carrying_planets
-
-    shares = dict(enumerate(carrying_planets(scene, model), 1))
-    never = [n for n, share in shares.items() if share == 0.0]
-    at_times = {n: share for n, share in shares.items() if 0.0 < share < 1.0}
-    parts = []
-    if never:
-        parts.append(f"{_planets(never)} without load, so without stiffness")
-    if at_times:
-        shown = ", ".join(f"{share:.2g}" for share in at_times.values())
-        parts.append(f"{_planets(at_times)} with load, so stiffness, for {shown} of the time")
-    if not parts:
-        return None
-    torque = figure(scene.operating_point.input_torque, "N m")
-    return (
-        f"in static equilibrium at input_torque = {torque} there are meshes of "
-        f"{', and of '.join(parts)} (see load-sharing): modes are those of vibration that neither "
-        "opens nor closes meshes"
-    )
-
-
-def _planets(numbers: Collection[int]) -> str:
-    return f"planet{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
-
-
 def _turning(scene: Scene, speed: float | None) -> str:
     """Part of a title that states the speeds [rad/s] of the motors unless nothing turns."""
+    from ..modal.resonance_text import in_rpm
+
     if speed is None:
         return ""
     speeds = (speed, scene.operating_point.second_input_speed)[: len(scene.drive.inputs)]
     if not any(speeds):
         return ""
     inputs = "inputs" if len(speeds) > 1 else "input"
-    return f", {inputs} at {' and '.join(map(_rpm, speeds))}, frame of the carrier"
-
-
-def _rpm(speed: float, digits: str = "g") -> str:
-    from ..units.conversion import rpm
-
-    return f"{speed / rpm(1.0):{digits}} rpm"
+    return f", {inputs} at {' and '.join(map(in_rpm, speeds))}, frame of the carrier"
 
 
 def _frequencies(single: NaturalModes, mean: NaturalModes) -> dict[str, Any]:
@@ -227,38 +137,41 @@ def _mode_table(
     title: str, single: NaturalModes, mean: NaturalModes, springs: SpringModel | None
 ) -> Table:
     """Modes in ascending order of frequency; with the sensitivity to `springs` if given."""
-    from rich.table import Table
+    from ..terminal.tables import table
 
-    from ..modal.sensitivity import frequency_sensitivities
-
-    table = Table(
-        title=title,
-        caption="Frequency f with one tooth pair in every mesh, and with the mean mesh stiffness",
-    )
-    for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind"):
-        table.add_column(heading, justify="right")
     # The order of two modes may differ between the two stiffnesses.
     both = zip(single.kinds, mean.kinds, strict=True)
     kinds = [", then ".join(dict.fromkeys(pair)) for pair in both]
-    figures = zip(single.frequencies, mean.frequencies, kinds, strict=True)
-    rows = [[f"{m}", f"{one:.2f}", f"{f:.2f}", kind] for m, (one, f, kind) in enumerate(figures, 1)]
+    modes = zip(single.frequencies, mean.frequencies, kinds, strict=True)
+    rows = [[f"{m}", f"{one:.2f}", f"{f:.2f}", kind] for m, (one, f, kind) in enumerate(modes, 1)]
+    headings = ["mode", "f, one pair [Hz]", "f, mean [Hz]", "kind"]
+    caption = "Frequency f with one tooth pair in every mesh, and with the mean mesh stiffness"
     if springs is not None:
-        table.add_column(r"change per 1 % of stiffness \[Hz]")
-        table.caption = (
-            f"{table.caption}, and its change if the stiffness of one kind of spring rises by 1 %; "
+        headings.append(_CHANGE)
+        caption += (
+            ", and its change if the stiffness of one kind of spring rises by 1 %; "
             f"changes below {LEAST_CHANGE:g} Hz are omitted"
         )
-        slopes = frequency_sensitivities(springs)
-        stiffness = {spring.kind: spring.stiffness / spring.factor for spring in springs.acting}
-        for m, row in enumerate(rows):
-            row.append(
-                _text({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in stiffness})
-            )
+        for row, changes in zip(rows, _changes(springs), strict=True):
+            row.append(_text(changes))
     if single.kinds != mean.kinds:
-        table.caption = f"{table.caption}. Two kinds: that with one pair, then that with the mean"
-    for row in rows:
-        table.add_row(*row)
-    return table
+        caption += ". Two kinds: that with one pair, then that with the mean"
+    return table(headings, rows, title=title, caption=caption, texts=(_CHANGE,))
+
+
+_CHANGE = "change per 1 % of stiffness [Hz]"
+
+
+def _changes(springs: SpringModel) -> list[dict[str, float]]:
+    """For each mode, the change of its frequency [Hz] by kind of spring that is 1 % stiffer."""
+    from ..modal.sensitivity import frequency_sensitivities
+
+    slopes = frequency_sensitivities(springs)
+    stiffness = {spring.kind: spring.stiffness / spring.factor for spring in springs.acting}
+    return [
+        {kind: slopes[kind][mode] * 0.01 * size for kind, size in stiffness.items()}
+        for mode in range(len(springs.mass))
+    ]
 
 
 def _text(changes: dict[str, float]) -> str:
@@ -270,58 +183,3 @@ def _text(changes: dict[str, float]) -> str:
         if abs(change) >= LEAST_CHANGE
     )
     return ", ".join(felt) or "-"
-
-
-def _print_resonances(console: Console, scene: Scene, found: Sequence[Resonance]) -> None:
-    """Print the resonant speeds, first those that the meshing excites."""
-    from ..modal.excitation import EXCITED
-
-    excited = [resonance for resonance in found if resonance.excitation == EXCITED]
-    strongest = max((resonance.weight for resonance in excited), default=0.0)
-    console.print(_heading(scene, strongest > 0.0), highlight=False)
-    for resonance in excited:
-        share = f", {resonance.weight / strongest:.0%} of the strongest" if strongest else ""
-        console.print(_line(resonance) + share)
-    if not excited:
-        console.print("none")
-    if len(excited) == len(found):
-        return
-    console.print(_NOT_EXCITED, highlight=False)
-    for resonance in found:
-        if resonance.excitation != EXCITED:
-            console.print(f"{_line(resonance)}, {resonance.excitation}")
-
-
-_NOT_EXCITED = (
-    "Frequencies that meet without resonance, if the planets are equal; errors of position, form "
-    "or stiffness, and faults, excite what phasing suppresses:"
-)
-
-
-def _heading(scene: Scene, weighted: bool) -> str:
-    from ..modal.campbell import HARMONICS, LEAST_SHARE
-
-    which = f"harmonics 1 to {HARMONICS} of the mesh frequency"
-    if weighted:
-        torque = figure(scene.operating_point.input_torque, "N m")
-        which += (
-            f" and higher ones with {LEAST_SHARE:.0%} of the strongest (by the force of mesh "
-            f"stiffness and errors of form on the mode at input_torque = {torque}, undamped)"
-        )
-    limit, second = scene.drive.speed_limit, scene.operating_point.second_input_speed
-    speeds = f"speeds up to {_rpm(limit, '.0f')} (drive.speed_limit)"
-    if second:
-        speeds = (
-            f"speeds of the first motor up to {_rpm(limit, '.0f')} (drive.speed_limit) in both "
-        )
-        speeds += f"senses, the second one at {_rpm(second)} (second_input_speed)"
-    return f"Resonances at mean mesh stiffness, {which}, {speeds}:"
-
-
-def _line(resonance: Resonance) -> str:
-    numbers = range(resonance.mode + 1, resonance.mode + 1 + resonance.multiplicity)
-    modes = f"mode{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
-    return (
-        f"{_rpm(resonance.speed, '10.1f')}: harmonic {resonance.harmonic} "
-        f"of the mesh frequency meets {modes} at {resonance.frequency:.1f} Hz"
-    )

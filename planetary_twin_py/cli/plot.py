@@ -7,16 +7,17 @@ from typing import Annotated
 
 import typer
 
-from ..terminal.messages import fail, remark
-from ..terminal.output_files import PICTURES
-from ._study import TABLES, check_suffix, write_results
+from ..terminal.arguments import StudyPicture
+from ..terminal.messages import fail, one_line_errors, remark
+from ..terminal.output_files import STUDY_TABLES
+from ._study import need_packages, write_results
 
 
 def plot(
     study: Annotated[
         Path, typer.Argument(metavar="STUDY", help="Table of a study, .parquet or .csv.")
     ],
-    out: Annotated[Path, typer.Option(help="Picture: .png, .svg or .pdf.")],
+    out: StudyPicture,
     x: Annotated[str | None, typer.Option("--x", metavar="FIELD", help="Horizontal axis.")] = None,
     y: Annotated[
         str | None,
@@ -44,9 +45,9 @@ def plot(
 
     Example: planetary-twin plot study.parquet --y efficiency,power_loss --out study.svg
     """
-    check_suffix(out, PICTURES)
-    if study.suffix not in TABLES:
-        fail(f"STUDY = {str(study)!r}: must end in {', '.join(TABLES)}")
+    need_packages(out)
+    if study.suffix not in STUDY_TABLES:
+        fail(f"STUDY = {str(study)!r}: must end in {', '.join(STUDY_TABLES)}")
     if not study.is_file():
         fail(f"STUDY = {str(study)!r}: no such file")
     from ..plots.study import failures
@@ -56,11 +57,8 @@ def plot(
         table = read(study)
     except (ValueError, OSError) as error:
         fail(f"{study}: {str(error).splitlines()[0]}")
-    measures = y.split(",") if y else ()
-    try:
-        write_results(table, out, x, measures, by, kind)
-    except (ValueError, OSError) as error:
-        fail(error)
+    with one_line_errors():
+        write_results(table, out, x, y.split(",") if y else (), by, kind)
     if failed := failures(table):
         remark(f"{failed} of {len(table)} points failed and are omitted")
     typer.echo(f"{out}")

@@ -9,7 +9,7 @@ import typer
 
 from ..terminal.arguments import FileArgument
 from ..terminal.console import busy, make_console
-from ..terminal.messages import fail, need, remark
+from ..terminal.messages import fail, need, one_line_errors, remark
 from ..terminal.names import shown
 from ..terminal.output_files import check_recording
 
@@ -31,27 +31,20 @@ def recover(
     Example: planetary-twin recover recordings/paper_20260101_120000 --out recordings/saved
     """
     need("recording", "mcap", "rosbags")
-    from rich.table import Table
-
-    from ..recording.container.records import RecordingError
     from ..recording.ros2.recover import recover as save
     from ..recording.runs.info import read_info
+    from ..terminal.tables import table
 
     if out is not None and folder is not None:
         fail(f"--out = {str(out)!r}: the argument {str(folder)!r} names another folder")
     folder = out or folder or file.with_name(f"{file.stem}_whole")
     check_recording("--out", folder)
-    try:
-        with busy("copying intact messages"):
-            saved = save(file, folder)
-            remarks = [*saved.remarks, *read_info(saved.file).remarks]
-    except (RecordingError, OSError) as error:
-        fail(error)
+    with one_line_errors(), busy("copying intact messages"):
+        saved = save(file, folder)
+        remarks = [*saved.remarks, *read_info(saved.file).remarks]
     for line in remarks or ["no damage found: the copy is complete"]:
         remark(line)
-    table = Table("topic", "messages saved", box=None)
-    for topic, count in saved.messages.items():
-        table.add_row(shown(topic), str(count))
     console = make_console()
-    console.print(table)
-    console.print(f"{saved.file}", highlight=False, soft_wrap=True)
+    rows = ([shown(topic), str(count)] for topic, count in saved.messages.items())
+    console.print(table(("topic", "messages saved"), rows, framed=False))
+    console.one_line(f"{saved.file}")

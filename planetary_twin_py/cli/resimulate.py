@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from ..terminal.arguments import FileArgument, NamespaceOption, SetOption
-from ..terminal.console import make_console
-from ..terminal.messages import fail, need, remark
+from ..terminal.console import make_console, progress_of
+from ..terminal.messages import need, one_line_errors, remark
 from ..terminal.output_files import check_recording
 from ..terminal.settings import say_units, settings
 from ..terminal.unit_options import SECONDS
@@ -51,8 +51,6 @@ def resimulate(
     Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 0.5
     """
     need("recording", "mcap", "rosbags")
-    from rich.progress import Progress
-
     from ..recording.ros2.namespaces import choose_namespace
     from ..recording.ros2.playback import Playback
     from ..recording.runs.branch import Branch
@@ -63,8 +61,7 @@ def resimulate(
 
     folder = out or file.with_name(f"{file.stem}_again")
     check_recording("--out", folder)
-    console = make_console()
-    try:
+    with one_line_errors():
         changes = settings(set_ or [])
         remarks: list[str] = []
         course = None
@@ -74,19 +71,10 @@ def resimulate(
             course = read_commands(commands)
         branch = Branch(changes, from_, duration, run, course)
         chosen = choose_namespace(Playback(file).counts, namespace, file)
-        with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
-            task = progress.add_task("simulating", total=None)
-            made = simulate_again(
-                file,
-                chosen,
-                branch,
-                folder,
-                lambda time, end: progress.update(task, completed=time, total=end),
-            )
-    except (ValueError, OSError) as error:
-        fail(error)
+        with progress_of("simulating") as show:
+            made = simulate_again(file, chosen, branch, folder, show)
     say_units(made.scene, changes)
     for line in (*remarks, *without_effect(made.scene, changes), *made.remarks):
         remark(line)
     line = f"{made.file}: as recorded until {made.begins:g} s, then as set until {made.end:g} s"
-    console.print(line, highlight=False, soft_wrap=True)
+    make_console().one_line(line)

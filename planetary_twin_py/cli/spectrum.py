@@ -5,8 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from itertools import chain, pairwise
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -15,22 +14,17 @@ import typer
 from ..terminal.arguments import JsonOption, SetOption, complete_recording, complete_scene
 from ..terminal.console import busy
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import fail, need, remark
+from ..terminal.messages import fail, need, one_line_errors, remark
 from ..terminal.output_files import output_file
-from ..terminal.settings import changed_scene, settings
+from ..terminal.settings import scene_with
 from ..terminal.unit_options import HERTZ, SECONDS
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
-    from ..analysis.line_names import NamedLine
-    from ..analysis.mesh_spectrum import MeshSpectrum
+    from ..analysis.line_report import LineReport
     from ..analysis.signals import Signal
+    from ..recording.tables.sensor import Sensor
     from ..recording.tables.speed_faults import SpeedColumn
-    from ..scene import Scene
-
-LINES = 12
-CYCLES = 2  # in the record, from which on the amplitude of a line is exact to 2 %
+    from ..terminal.tables import TableConsole
 
 
 @dataclass(frozen=True)
@@ -127,26 +121,17 @@ def spectrum(**given: Any) -> None:
     """
     asked = Options(**given)
     _check(asked)
-    try:
+    with one_line_errors():
         with busy("reading and analysing"):
-            signal, found, subject = _analysed(asked)
+            subject = _analysed(asked)
+        report = subject.report
         if asked.out is not None:
-            _write(asked.out, found, _title(asked, subject, signal), _labels(asked, subject))
-    except (ValueError, OSError) as error:
-        fail(error)
-    speed = _constant_speed if asked.order else _varying_speed
-    remarks = (
-        speed(asked, signal, found),
-        _unused_speed(asked, signal, found, subject.unused_speed),
-        _aliases(asked, signal, found),
-    )
-    doubts = subject.speed_jumps or _wrong_scale(asked, signal, found)
-    for line in (*signal.remarks, *chain(*remarks), *doubts):
+            _write(asked.out, subject)
+    for line in _remarks(asked, subject):
         remark(line)
-    figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
-    figures |= _figures(asked, signal, found)
-    _print(console_beside(asked.json_), figures, subject)
-    write_json(figures, asked.json_)
+    _print(console_beside(asked.json_), subject)
+    named = {"mesh": subject.mesh, "quantity": subject.quantity}
+    write_json(named | report.figures(), asked.json_)
 
 
 # Typer reads the options from the signature.
@@ -181,24 +166,53 @@ def _check(asked: Options) -> None:
 
 
 class _Subject(NamedTuple):
-    """Names of the analysed signal."""
+    """The analysed signal and its names."""
 
+    file: str
+    report: LineReport
     mesh: str | None
     """None for a sensor."""
     quantity: str
     unit: str
-    unused_speed: SpeedColumn | None = None
+    unused_speed: SpeedColumn | None
     """Measured speed in a table that is not used."""
-    speed_jumps: tuple[str, ...] = ()
+    speed_jumps: tuple[str, ...]
     """Warnings about a measured speed that is used."""
 
 
-def _read(asked: Options) -> tuple[Signal, _Subject]:
-    from ..analysis.signals import QUANTITIES, read_signal
+def _analysed(asked: Options) -> _Subject:
+    from ..analysis.band import read_band
+    from ..analysis.line_report import LineReport
+    from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+    from ..analysis.signals import QUANTITIES, read_signal, settled
+    from ..scene import parse_scene
 
-    if not asked.is_table:
+    band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
+    sensor = None
+    if asked.is_table:
+        sensor, signal = _sensor(asked)
+    else:
         signal = read_signal(asked.file, asked.mesh, asked.quantity)
-        return signal, _Subject(asked.mesh, asked.quantity, QUANTITIES[asked.quantity])
+    if asked.from_ is None and asked.to is None:
+        signal = settled(asked.file, signal)
+    else:
+        signal = signal.within(asked.from_, asked.to)
+    scene = None if signal.scene_yaml is None else parse_scene(signal.scene_yaml)
+    spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
+    found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
+    found = found if band is None else found.within(band)
+    report = LineReport(signal, found, scene, asked.order, filtered=asked.is_table)
+    name = asked.file.name
+    if sensor is None:
+        return _Subject(
+            name, report, asked.mesh, asked.quantity, QUANTITIES[asked.quantity], None, ()
+        )
+    return _Subject(
+        name, report, None, sensor.name, sensor.unit, sensor.unused_speed, sensor.speed_jumps
+    )
+
+
+def _sensor(asked: Options) -> tuple[Sensor, Signal]:
     from ..analysis.sensor import sensor_signal
     from ..recording.tables.sensor import read_sensor
 
@@ -206,253 +220,83 @@ def _read(asked: Options) -> tuple[Signal, _Subject]:
     sensor = read_sensor(
         asked.file, asked.column, asked.sample_rate, asked.speed, *interval, one_way=asked.order
     )
-    scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
-    subject = _Subject(None, sensor.name, sensor.unit, sensor.unused_speed, sensor.speed_jumps)
-    return sensor_signal(sensor, scene), subject
+    scene = None if asked.scene is None else scene_with(asked.scene, asked.set_)
+    return sensor, sensor_signal(sensor, scene)
 
 
-def _analysed(asked: Options) -> tuple[Signal, MeshSpectrum, _Subject]:
-    from ..analysis.band import read_band
-    from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
+    """What lowers, moves or hides lines."""
+    from ..analysis.line_report import LINES
+    from ..analysis.varying_speed import speed_remarks, unused_speed_remarks
+    from ..analysis.wrong_scale import scale_remarks
 
-    band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
-    signal, subject = _read(asked)
-    if asked.from_ is None and asked.to is None:
-        signal = _steady(asked.file, signal)
-    else:
-        signal = signal.within(asked.from_, asked.to)
-    spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
-    scene = _scene(signal)
-    found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
-    return signal, found if band is None else found.within(band), subject
-
-
-def _title(asked: Options, subject: _Subject, signal: Signal) -> str:
-    begin, end = signal.time[[0, -1]]
-    return f"{asked.file.name}: {subject.mesh or subject.quantity}, {begin:.3f} to {end:.3f} s"
-
-
-def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
-    """Labels of the two axes."""
-    axis = "order [cycles per turn]" if asked.order else "frequency [Hz]"
-    return axis, f"amplitude of {subject.quantity} [{subject.unit}]"
-
-
-def _steady(file: Path, signal: Signal) -> Signal:
-    """The longest settled part at one operating point, or all of it if there is none."""
-    from ..recording.container.suffixes import is_table
-    from ..recording.runs.steadiness import steady_span
-
-    if file.suffix == ".npz" or is_table(file):
-        return signal.within(None, None)
-    if span := steady_span(file):
-        return signal.within(*span)
-    whole = signal.within(None, None)
-    line = f"{file}: no settled interval at one operating point was found; all of it is analysed"
-    return replace(whole, remarks=(*whole.remarks, line))
-
-
-def _scene(signal: Signal) -> Scene | None:
-    """The scene of a signal, if it is known."""
-    from ..scene import parse_scene
-
-    return None if signal.scene_yaml is None else parse_scene(signal.scene_yaml)
-
-
-def _varying_speed(_asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
-    """A remark if a varying speed lowers lines over frequency."""
-    from ..analysis.varying_speed import speed_remarks
-
-    yield from speed_remarks(signal, found, LINES)
-
-
-def _constant_speed(asked: Options, signal: Signal, _found: MeshSpectrum) -> Iterator[str]:
-    """A remark if orders rest on a constant speed, which a table may contradict."""
-    if asked.is_table and asked.speed is None:
+    report = subject.report
+    signal, found = report.signal, report.spectrum
+    yield from signal.remarks
+    if not asked.order:
+        yield from speed_remarks(signal, found, LINES)
+    elif asked.is_table and asked.speed is None:
         yield (
             f"--order: the speed is assumed to be constant, {signal.speed / math.tau:.6g} turns of "
             "the sun per second relative to the carrier; if it varies, give --speed COLUMN"
         )
-
-
-def _unused_speed(
-    asked: Options, signal: Signal, found: MeshSpectrum, column: SpeedColumn | None
-) -> Iterator[str]:
-    """A remark if a measured speed that is not used lowers lines."""
-    from ..analysis.varying_speed import unused_speed_remarks
-
-    if column is not None:
+    if subject.unused_speed is not None:
         hertz = abs(signal.speed) / math.tau if asked.order else 1.0
-        yield from unused_speed_remarks(column, signal, found, hertz, LINES)
+        yield from unused_speed_remarks(subject.unused_speed, signal, found, hertz, LINES)
+    if not asked.is_table:  # data loggers have an anti-aliasing filter
+        yield from report.aliases()
+    elif subject.speed_jumps:
+        yield from subject.speed_jumps
+    elif report.scene is not None:
+        yield from scale_remarks(found, report.scene)
 
 
-def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
-    """A warning if the sample rate is too low for the signal.
+def _print(console: TableConsole, subject: _Subject) -> None:
+    from ..terminal.tables import table
 
-    Not of a table: data loggers have an anti-aliasing filter, the waveform of a twin has none.
-    """
-    if asked.is_table:
-        return
-    from ..analysis.aliases import NEGLIGIBLE, alias_remark
-    from ..simulation.natural_modes import natural_modes
-
-    if found.alias_share <= NEGLIGIBLE:
-        return
-    highest = mesh = None
-    scene = _scene(signal)
-    if scene is not None:
-        highest = float(natural_modes(scene).frequencies.max())
-    if found.mesh is not None:
-        mesh = found.mesh * signal.sample_rate / found.sample_rate
-    yield alias_remark(signal.sample_rate, found.alias_share, highest, mesh)
-
-
-def _wrong_scale(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
-    """A warning if the mesh harmonics of a table are elsewhere than those of the scene."""
-    from ..analysis.wrong_scale import scale_remarks
-
-    scene = _scene(signal)
-    if asked.is_table and scene is not None:
-        yield from scale_remarks(found, scene)
-
-
-def _figures(asked: Options, signal: Signal, found: MeshSpectrum) -> dict[str, Any]:
-    from ..analysis.line_names import LineNames
-
-    axis = "order" if asked.order else "frequency_hz"
-    names = LineNames(found, _scene(signal), filtered=asked.is_table)
-    return {
-        "from_s": float(signal.time[0]),
-        "to_s": float(signal.time[-1]),
-        "samples": len(signal.samples),
-        "resolution": float(found.axis[1]),
-        "mean": float(signal.samples.mean()),
-        "unresolved_sidebands": names.unresolved(),
-        "lines": [
-            {
-                axis: named.line.place,
-                "amplitude": named.line.amplitude,
-                "over_noise": named.over_noise,
-                "mesh_orders": found.in_mesh_orders(named.line.place),
-                "harmonic": named.harmonic,
-                "alias_of_harmonic": named.alias,
-                "sidebands": [band._asdict() for band in named.sidebands],
-                "shafts": [shaft._asdict() for shaft in named.shafts],
-                "overlap": _overlap(found, named),
-                "name": named.text,
-            }
-            for named in names.named(LINES)
-        ],
-    }
-
-
-def _overlap(found: MeshSpectrum, named: NamedLine) -> dict[str, Any] | None:
-    """The closest line that overlaps a named one, with its distance on the axis."""
-    if named.overlap is None or found.mesh is None:
-        return None
-    return named.overlap._asdict() | {"apart": found.mesh * named.overlap.apart}
-
-
-def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None:
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False)
-    axis = "order" if figures["lines"] and "order" in figures["lines"][0] else "frequency_hz"
-    headings = ("order" if axis == "order" else "frequency [Hz]", rf"amplitude \[{subject.unit}]")
-    for heading in (*headings, "mesh orders"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("")
-    for line in figures["lines"]:
-        orders = line["mesh_orders"]
-        table.add_row(
-            f"{line[axis]:.3f}",
-            f"{line['amplitude']:.4g}",
-            "-" if orders is None else f"{orders:.4f}",
-            line["name"],
-        )
-    console.print(table)
-    unit = "orders" if axis == "order" else "Hz"
-    sentences = (_uncertain(figures, axis), _overlapping(figures, unit), _unnamed(figures, unit))
-    for line in chain(*sentences):
-        console.print(line, highlight=False, soft_wrap=True)
+    report, orders = subject.report, subject.report.spectrum.in_mesh_orders
+    headings = (
+        "order" if report.by_order else "frequency [Hz]",
+        f"amplitude [{subject.unit}]",
+        "mesh orders",
+        "",
+    )
+    lines = [
+        [
+            f"{place:.3f}",
+            f"{amplitude:.4g}",
+            "-" if (order := orders(place)) is None else f"{order:.4f}",
+            named.text,
+        ]
+        for named in report.lines
+        for place, amplitude in [named.line]
+    ]
+    console.print(table(headings, lines, texts=("",), whole=True, framed=False))
+    for line in report.sentences():
+        console.print(line, soft_wrap=True)
+    of_mesh = f" of {subject.mesh}" if subject.mesh else ""
+    begin, end = report.signal.time[[0, -1]]
     console.print(
-        f"{subject.quantity}{f' of {subject.mesh}' if subject.mesh else ''}, "
-        f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolution "
-        f"{figures['resolution']:.4g} {unit}, "
-        f"mean {figures['mean']:.6g} {subject.unit}".removesuffix(" -"),
-        highlight=False,
+        f"{subject.quantity}{of_mesh}, from {begin:.4f} to {end:.4f} s, resolution "
+        f"{report.resolution:.4g} {report.unit}, "
+        f"mean {report.mean:.6g} {subject.unit}".removesuffix(" -")
     )
 
 
-def _uncertain(figures: dict[str, Any], axis: str) -> Iterator[str]:
-    """Sentences on lines whose amplitude other lines, or the ends of the axis, change."""
-    from ..analysis.distinct_lines import DISTINCT
-    from ..analysis.sidebands import RESOLVED
-
-    step = figures["resolution"]
-    places = [line[axis] for line in figures["lines"]]
-    slow = sum(place < CYCLES * step for place in places)
-    if slow:
-        yield (
-            f"{slow} of these lines have fewer than {CYCLES:g} cycles in the record: their "
-            "amplitudes are not exact, up to 9 % too low from 1.5 cycles, 41 % from one, more below"
-        )
-    clear = sorted(line[axis] for line in figures["lines"] if line["over_noise"] >= DISTINCT)
-    near = sum(high - low < RESOLVED * step for low, high in pairwise(clear))
-    if near:
-        yield (
-            f"{near} of these lines are less than {RESOLVED:g} times the resolution above another: "
-            "they overlap, and their amplitudes are uncertain"
-        )
-
-
-def _overlapping(figures: dict[str, Any], unit: str) -> Iterator[str]:
-    """A sentence if a line may hide another, with the length of record that separates them."""
-    pairs = [line["overlap"] for line in figures["lines"] if line["overlap"] is not None]
-    if pairs:
-        closest = min(pairs, key=lambda pair: float(pair["apart"]))
-        yield (
-            f"{len(pairs)} of these lines may be the sum of two, with an uncertain amplitude: "
-            f"{closest['named']} overlaps {closest['other']}, {closest['apart']:.4g} {unit} away; "
-            f"separating them needs {_length(closest['apart'], unit)}"
-        )
-
-
-def _length(apart: float, unit: str) -> str:
-    """Resolution that separates lines, and the length of signal that has it."""
-    from ..analysis.sidebands import RESOLVED
-
-    finest = apart / RESOLVED
-    length = f"{1.0 / finest:.3g} {'s' if unit == 'Hz' else 'turns'}"
-    return f"a resolution of {finest:.3g} {unit}, {length} of signal"
-
-
-def _unnamed(figures: dict[str, Any], unit: str) -> Iterator[str]:
-    """Sentences that say which lines have no name, and why."""
-    from ..analysis.distinct_lines import DISTINCT
-
-    weak = [line for line in figures["lines"] if line["over_noise"] < DISTINCT]
-    if any(line["mesh_orders"] is not None for line in weak):
-        yield (
-            f"{len(weak)} of these lines have no name: they are less than {DISTINCT:g} times as "
-            "high as the noise around them, or as the leakage of higher lines, or too low for "
-            "interpolated samples"
-        )
-    for member, apart in figures["unresolved_sidebands"].items():
-        yield (
-            f"sidebands of the {member} are {apart:.4g} {unit} apart and not named: they need "
-            f"{_length(apart, unit)}"
-        )
-
-
-def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) -> None:
+def _write(out: Path, subject: _Subject) -> None:
+    report = subject.report
+    axis = "order [cycles per turn]" if report.by_order else "frequency [Hz]"
+    labels = axis, f"amplitude of {subject.quantity} [{subject.unit}]"
     if out.suffix == ".csv":
         import numpy as np
 
+        found = report.spectrum
         table = np.column_stack((found.axis, found.amplitude))[found.in_band]
         np.savetxt(out, table, delimiter=",", header=",".join(labels), comments="")
         return
     from ..plots.spectrum import spectrum_plot
     from ..plots.style import save
 
-    save(spectrum_plot(found, title, labels), str(out))
+    begin, end = report.signal.time[[0, -1]]
+    title = f"{subject.file}: {subject.mesh or subject.quantity}, {begin:.3f} to {end:.3f} s"
+    save(spectrum_plot(report.spectrum, title, labels), str(out))

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..terminal.arguments import SceneArgument, SetOption
-from ..terminal.messages import fail, remark
-from ..terminal.output_files import PICTURES
-from ..terminal.settings import changed_scene, settings
-from ._study import TABLES, axis, check_suffix, default_speeds, progress, warn, write_results
+from ..terminal.arguments import SceneArgument, SetOption, StudyOut
+from ..terminal.messages import one_line_errors, remark
+from ..terminal.settings import scene_with
+from ._study import axis, need_packages, reported, warn_of, write_results
 
 
 def stribeck(
     scene: SceneArgument,
-    out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
+    out: StudyOut,
     input_speed: Annotated[
         str | None,
         typer.Option(
@@ -34,30 +32,21 @@ def stribeck(
 
     Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
     """
-    check_suffix(out, TABLES + PICTURES)
+    need_packages(out)
     from ..simulation.threads import Threads
-    from ..studies.axes import Axis
+    from ..studies.axes import Axis, default_speeds
     from ..studies.stribeck import stribeck as run
     from ..studies.stribeck import stribeck_scene
-    from ..studies.work import Failure
 
-    try:
-        loaded = changed_scene(scene, settings(set_ or []))
+    with one_line_errors():
+        loaded = scene_with(scene, set_)
         speeds = axis(loaded, "input_speed", input_speed or default_speeds(loaded, 1e-4, "41:log"))
         count = len(speeds.values) if isinstance(speeds, Axis) else 0
-        with progress("speeds", count) as advance:
-
-            def report(done: int, failure: Failure | None) -> None:
-                advance(done)
-                if failure:
-                    remark(failure.reason)
-
+        with reported("speeds", count) as report:
             table = run(loaded, speeds, Threads(), report)
         write_results(table, out, kind="stribeck")
-    except (ValueError, OSError) as error:
-        fail(error)
     computed = stribeck_scene(loaded)
-    warn(table, [computed])
+    warn_of(table, [computed])
     oil = loaded.lubrication
     if oil.boundary == "greenwood_tripp" and not oil.includes_boundary_friction:
         remark(

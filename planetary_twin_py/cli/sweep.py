@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import SceneArgument, ToleranceOption
-from ..terminal.messages import fail, remark
-from ..terminal.output_files import PICTURES
+from ..terminal.arguments import (
+    EvaluatedOption,
+    SceneArgument,
+    SettlingOption,
+    StudyOut,
+    ToleranceOption,
+)
+from ..terminal.messages import one_line_errors, warn
 from ..terminal.settings import changed_scene, settings
-from ..terminal.unit_options import SECONDS
-from ._study import TABLES, axis, check_suffix, computed, warn, write_results
+from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
+from ._study import axis, computed, need_packages, warn_of, write_results
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-    from ..scene import Scene
 
 # Options that click does not know are fields of the scene.
 FIXED = "set"  # not a field
@@ -28,14 +31,12 @@ CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 def sweep(  # noqa: PLR0913 - an argument for each option
     context: typer.Context,
     scene: SceneArgument,
-    out: Annotated[
-        Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")
-    ],
+    out: StudyOut,
     samples: Annotated[
         int | None, typer.Option(help="Number of Latin hypercube samples, in place of a grid.")
     ] = None,
-    duration: Annotated[float, typer.Option(help="Evaluated time of each run.", **SECONDS)] = 0.2,
-    settling: Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)] = 0.05,
+    duration: EvaluatedOption = 0.2,
+    settling: SettlingOption = 0.05,
     tolerance: ToleranceOption = 1e-4,
     y: Annotated[
         str | None,
@@ -68,12 +69,13 @@ def sweep(  # noqa: PLR0913 - an argument for each option
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet
     """
-    check_suffix(out, TABLES + PICTURES)
+    need_packages(out)
+    from ..scene.unused import without_effect_in_all
     from ..studies.axes import Normal, planet_by_planet
     from ..studies.distribution import usual_measures
     from ..studies.plan import Settings, grid, latin_hypercube
 
-    try:
+    with one_line_errors():
         given = list(_fields(context.args))
         fixed = settings([text for name, text in given if name == FIXED])
         loaded = changed_scene(scene, fixed)
@@ -93,12 +95,9 @@ def sweep(  # noqa: PLR0913 - an argument for each option
             if drawn:
                 measures = measures or [*usual_measures(table)]
             write_results(table, out, measures=measures, kind="histogram" if drawn else None)
-    except (ValueError, OSError) as error:
-        fail(error)
     scenes = study.extremes()
-    for line in _without_effect(scenes, (*fixed, *study.fields)):
-        remark(f"warning: {line}")
-    warn(table, scenes)
+    warn(without_effect_in_all(scenes, (*fixed, *study.fields)))
+    warn_of(table, scenes)
     if drawn:
         _print_distributions(table, measures)
     failed = len(table) - table["failure"].null_count
@@ -108,7 +107,6 @@ def sweep(  # noqa: PLR0913 - an argument for each option
 def _measures(text: str | None) -> list[str]:
     """Names of results from the option --y."""
     from ..scene.names import did_you_mean
-    from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
 
     names = text.split(",") if text else []
     for name in names:
@@ -134,35 +132,22 @@ def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
         yield name.replace("-", "_"), text
 
 
-def _without_effect(scenes: Sequence[Scene], names: Iterable[str]) -> Iterator[str]:
-    """A warning for each of the fields `names` that has no effect in any of the scenes."""
-    from ..scene.unused import not_in_use, without_effect
-
-    for name in names if scenes else ():
-        if all(not_in_use(scene, name) for scene in scenes):
-            yield from without_effect(scenes[0], [name])
-
-
-def _print_distributions(table: pa.Table, names: Sequence[str]) -> None:
+def _print_distributions(study: pa.Table, names: Sequence[str]) -> None:
     """Print mean, standard deviation and percentiles of results."""
-    from rich.console import Console
-    from rich.table import Table
-
     from ..studies.distribution import SHARES, distributions
-    from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
+    from ..terminal.console import make_console
+    from ..terminal.tables import table
     from ..units.engineering import figure
 
-    found = distributions(table, names)
+    found = distributions(study, names)
     shares = [s for s in SHARES if any(s in each.percentiles for each in found)]
-    shown = Table(caption="Percentiles are left out where fewer than five points are beyond them")
-    shown.add_column("", no_wrap=True)
     columns = []
     for each in found:
-        quantity = (STUDY_RESULTS | AXES_RESULTS)[each.name]
-        values = [each.mean, each.deviation, *map(each.percentiles.get, shares)]
-        columns.append(["-" if v is None else figure(v, quantity.si) for v in values])
-        shown.add_column(each.name.replace("_", " "), justify="right", min_width=10)
-    headings = ("mean", "standard deviation", *(f"{share:g} %" for share in shares))
-    for row in zip(headings, *columns, strict=True):
-        shown.add_row(*row)
-    Console().print(shown)
+        unit = (STUDY_RESULTS | AXES_RESULTS)[each.name].si
+        values = (each.mean, each.deviation, *map(each.percentiles.get, shares))
+        columns.append(["-" if value is None else figure(value, unit) for value in values])
+    statistics = ("mean", "standard deviation", *(f"{share:g} %" for share in shares))
+    headings = ("", *(each.name.replace("_", " ") for each in found))
+    caption = "Percentiles are left out where fewer than five points are beyond them"
+    rows = zip(statistics, *columns, strict=True)
+    make_console().print(table(headings, rows, caption=caption))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from statistics import median
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..run.dynamics_choice import AUTO, DynamicsChoice
 from ..run.result import Result
 from ..scene import Scene
 from ..simulation.choose_dynamics import choose_dynamics
+from ..simulation.figures import Row, summary_of
 from ..simulation.simulate import TOLERANCE, simulate
-from ..studies.measures import Row, summary_of
 from .remarks import remarks
 from .terms import Term, terms
 
@@ -33,6 +33,23 @@ class Explanation(NamedTuple):
     effects: tuple[Effect, ...]
     dynamics: DynamicsChoice  # every dynamics that the scene can have, against one another
     remarks: tuple[str, ...]  # warnings about the results
+
+    def as_figures(self) -> dict[str, Any]:
+        """The explanation for JSON."""
+        return {
+            "scene": self.figures,
+            "terms": [
+                {
+                    "name": effect.term.name,
+                    "law": effect.term.law,
+                    "without": effect.without,
+                    "cost": effect.cost,
+                }
+                for effect in self.effects
+            ],
+            "dynamics": self.dynamics.figures(),
+            "remarks": self.remarks,
+        }
 
 
 def explain(

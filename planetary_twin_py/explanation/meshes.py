@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from .._core import damping_time
 from ..gearset.working import WorkingMesh
@@ -16,6 +16,7 @@ from ..model.stiffness_laws import GEARS, loaded_force
 from ..scene import Scene
 from ..tooth.iso import iso_pair
 from ..tooth.material import Material
+from ..units.catalogue import Quantity
 from .friction import friction_figures
 from .pressure import pitch_pressure
 
@@ -23,42 +24,67 @@ from .pressure import pitch_pressure
 class MeshFigures(NamedTuple):
     """Key figures of a mesh between two kinds of gears, with healthy teeth."""
 
-    teeth: tuple[int, int]
-    pressure_angle: float  # working pressure angle [rad]
-    contact_ratio: float
-    overlap_ratio: float  # of helical teeth
-    driver: str | None  # gear that drives the other in the frame of the carrier; None: no power
-    # Path of contact from the tip of the driven gear to the pitch point, and after it [base
-    # pitches]; without power as if power came from the sun.
-    approach: float
-    recess: float
-    geometric_backlash: (
-        float  # by profile shift and centre distance alone, along the line of action [m]
-    )
-    tip_clearances: tuple[float, float]  # of the tips of both gears from the mating root [m]
-    single_stiffness: float  # largest of one pair on its path of contact [N/m]
-    mean_stiffness: float  # over the mesh cycle [N/m]
-    iso_stiffness: float  # c_gamma of ISO 6336-1 for solid discs with these teeth [N/m]
-    natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
-    damping_ratio: float  # of this mode at the operating point [-]
-    static_force: float  # mean under the torque of the operating point, without friction [N]
-    axial_force: float  # of helical teeth under the same [N]
-    pitch_pressure: (
-        float  # largest Hertz pressure at or next to the pitch point, force on one pair [Pa]
-    )
-    # H_v (Ohlendorf 1958): relative loss = H_v times mean friction coefficient [-].
-    loss_factor: float  # pairs in contact share the load equally
-    loaded_loss_factor: float | None  # with the loads of the pairs in the model; None: no force
-    backlash: float  # total, along the line of action [m]
-    friction: float  # mean coefficient by the laws of the scene, static force [-]
-    friction_eyring: float  # the same with this law of viscous friction [-]
-    friction_evans_johnson: float | None  # None outside the range of this law
-    friction_schlenk: float  # regression of measured gear losses, includes boundary friction
-    tooth_loss: (
-        float  # H_v of the loads times mean coefficient times power of all meshes of the kind [W]
-    )
-    shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
-    film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
+    teeth: Annotated[tuple[int, int], Quantity("teeth")]
+    pressure_angle: Annotated[float, Quantity("working pressure angle", "rad")]
+    contact_ratio: Annotated[float, Quantity("contact ratio")]
+    overlap_ratio: Annotated[float, Quantity("overlap ratio")]
+    driver: Annotated[str | None, Quantity("driving gear, in the frame of the carrier")]
+    """None: no power."""
+    approach: Annotated[float, Quantity("length of approach in base pitches")]
+    """From the tip of the driven gear to the pitch point; without power as if power came from the
+    sun, as the next one."""
+    recess: Annotated[float, Quantity("length of recess in base pitches")]
+    geometric_backlash: Annotated[
+        float, Quantity("backlash by profile shift and centre distance", "m")
+    ]
+    """Along the line of action."""
+    tip_clearances: Annotated[
+        tuple[float, float], Quantity("clearance of both tips from the mating root", "m")
+    ]
+    single_stiffness: Annotated[
+        float, Quantity("stiffness of one pair, largest on its path", "N/m")
+    ]
+    mean_stiffness: Annotated[float, Quantity("stiffness, mean over the mesh cycle", "N/m")]
+    iso_stiffness: Annotated[
+        float, Quantity("the same of solid discs by ISO 6336-1, c_gamma", "N/m")
+    ]
+    natural_frequency: Annotated[
+        float, Quantity("natural frequency of the two gears alone, one pair in contact", "Hz")
+    ]
+    damping_ratio: Annotated[float, Quantity("damping ratio of this mode")]
+    static_force: Annotated[float, Quantity("static mesh force", "N")]
+    """Mean under the torque of the operating point, without friction."""
+    axial_force: Annotated[float, Quantity("axial part of the same", "N")]
+    pitch_pressure: Annotated[
+        float,
+        Quantity(
+            "Hertz pressure at or next to the pitch point, one pair carries the static force", "Pa"
+        ),
+    ]
+    loss_factor: Annotated[
+        float, Quantity("tooth loss factor H_v, equal loads of the pairs in contact")
+    ]
+    """Ohlendorf 1958: relative loss = H_v times mean friction coefficient."""
+    loaded_loss_factor: Annotated[
+        float | None, Quantity("the same with the loads of the pairs in this model")
+    ]
+    """None: no force."""
+    backlash: Annotated[float, Quantity("backlash on the line of action", "m")]
+    friction: Annotated[float, Quantity("friction coefficient, mean over the path of contact")]
+    """By the laws of the scene, under the static force."""
+    friction_eyring: Annotated[float, Quantity("the same with eyring")]
+    friction_evans_johnson: Annotated[float | None, Quantity("the same with evans_johnson")]
+    """None outside the range of this law."""
+    friction_schlenk: Annotated[float, Quantity("the same with schlenk")]
+    """Regression of measured gear losses, includes boundary friction."""
+    tooth_loss: Annotated[
+        float,
+        Quantity("tooth loss of all planets: friction coefficient, last H_v and power", "W"),
+    ]
+    shear_number: Annotated[float, Quantity("shear number of the film, above 1 shear-thinning")]
+    """eta Vs/(h tau0) of the film at its mean pressure."""
+    film_laws_in_range: Annotated[tuple[str, ...], Quantity("film laws within their range")]
+    """eyring always, evans_johnson on its plateau."""
 
 
 class Meshes(NamedTuple):

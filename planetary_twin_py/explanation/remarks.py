@@ -8,7 +8,7 @@ from ..checks.accuracy import accuracy_warnings
 from ..checks.ledger import balance_of_run, ledger_warning
 from ..run.result import Result
 from ..scene import Scene
-from ..studies.clipping import clipping_of_run
+from ..studies.doubts import clipping_of_run
 from ..studies.measures import clipped_friction
 from .backlash import backlash_of_scene
 from .deflection import deflection_warning

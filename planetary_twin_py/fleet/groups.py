@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from ..following.balance_filter import PARAMETERS
 from ..following.sensors import Sensors
 from ..scene import Scene
 from ..studies.work import Executor, Failure
+from ..text.finite import finite
 from .fleet import Fleet, FleetEvent
 from .tables import read_fleet
 
@@ -47,6 +49,33 @@ class GearboxResult:
     missing: tuple[int, float]
     """Number of times of the table without both torques and the speed, and the first of them [s].
     """
+
+    @property
+    def is_judged(self) -> bool:
+        """Whether a step could be found."""
+        return not self.fault and self.readings > 0
+
+    def figures(self) -> dict[str, Any]:
+        """The result for JSON; None in place of what is unknown."""
+        return {
+            "readings": self.readings,
+            "missing": self.missing[0],
+            "first_missing": finite(self.missing[1]),
+            "fits": self.fits,
+            "fault": self.fault or None,
+            "remarks": self.remarks,
+            "scatter": finite(self.scatter[0]),
+            "stated_scatter": finite(self.scatter[1]),
+            "scatters": self.scatters,
+            "smallest_step": finite(self.smallest_step),
+            "estimates": {
+                name: [finite(value) for value in values] for name, values in self.estimates.items()
+            },
+            "events": [
+                {name: finite(getattr(event, name)) for name in ("since", "found", "size", "share")}
+                for event in self.events
+            ],
+        }
 
 
 @dataclass(frozen=True)

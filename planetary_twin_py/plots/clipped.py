@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..studies.clipping import THRESHOLD
+from ..studies.doubts import THRESHOLD
 from ..units.catalogue import CLIPPED, SIDES
 from .quantity import Column
 

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from ..studies.marks import BIFURCATION
+from ..studies.plan import BIFURCATION
 from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS
 from .bifurcation import bifurcation_diagram
 from .clipped import LEGEND, clipped_points, mark

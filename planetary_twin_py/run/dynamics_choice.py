@@ -90,6 +90,28 @@ class DynamicsChoice:
             f"dynamics = {self.dynamics}, selected by auto at {_point(self.scene)}: {self.reason}"
         )
 
+    @property
+    def verdict(self) -> str:
+        """The selected dynamics, the errors of the others, and why some are not possible: lines."""
+        chosen = (self.dynamics, self.reference)
+        others = ", ".join(
+            f"{each.dynamics} {each.largest}"
+            for each in self.candidates
+            if not each.refused and each.dynamics not in chosen
+        )
+        errors = f" Errors of the others: {others}." if others else ""
+        allowed = f"{100.0 * self.allowed:g} % (dynamics_error)"
+        return "\n".join(
+            (
+                f"Simplest dynamics within {allowed}: {self.dynamics}.{errors}",
+                *(
+                    f"Not possible: {each.dynamics}, because {each.refused}."
+                    for each in self.candidates
+                    if each.refused
+                ),
+            )
+        )
+
     def figures(self) -> dict[str, Any]:
         """The comparison for JSON.
 

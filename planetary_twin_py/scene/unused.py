@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from .._core import FIELDS_OF_TRACTION
 from .lubrication import Lubrication
@@ -79,3 +79,15 @@ def without_effect(scene: Scene, names: Iterable[str]) -> Iterator[str]:
     for name in names:
         if reason := not_in_use(scene, name):
             yield f"{name}: has no effect: {reason}"
+
+
+def without_effect_in_all(scenes: Sequence[Scene], names: Iterable[str]) -> Iterator[str]:
+    """Remarks on fields that have no effect in any of several scenes.
+
+    Args:
+        scenes: the scenes; none are no reason for a remark.
+        names: dotted names of the fields.
+    """
+    for name in names if scenes else ():
+        if all(not_in_use(scene, name) for scene in scenes):
+            yield from without_effect(scenes[0], [name])

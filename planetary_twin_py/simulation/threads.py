@@ -1,21 +1,85 @@
-"""Execution in threads of this process; the core releases the global interpreter lock."""
+"""Execution of many tasks in a pool: in threads, as the core releases the interpreter lock."""
 
 from __future__ import annotations
 
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from itertools import islice
 from typing import TypeVar
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
-AHEAD = 2  # tasks per thread that run or are queued; in order, also those not yet consumed
 
 
-class Threads:
-    """A pool of threads.
+class Pool:
+    """Runs a function of many tasks in a pool of workers, a few tasks ahead of the caller."""
+
+    ahead = 2
+    """Tasks per worker that run or are queued; in order, also those not yet consumed."""
+
+    def run(
+        self, work: Callable[[Task], Answer], tasks: Iterable[Task]
+    ) -> Iterator[tuple[Task, Answer]]:
+        """Yield every task with its result, in order of completion.
+
+        Args:
+            work: the function.
+            tasks: points of a study, or groups of gearboxes.
+        """
+        waiting, pool = iter(tasks), self._open()
+        running: dict[Future[Answer], Task] = {}
+        try:
+            while True:
+                free = max(self.ahead * self._workers() - len(running), 0)
+                for task in islice(waiting, free):
+                    running[pool.submit(work, task)] = task
+                if not running:
+                    return
+                for done in wait(running, return_when=FIRST_COMPLETED).done:
+                    yield running.pop(done), self._answer(done)
+        finally:
+            self._close(pool, running)
+
+    def in_order(self, work: Callable[[Task], Answer], tasks: Iterable[Task]) -> Iterator[Answer]:
+        """Yield every result, in the order of the tasks.
+
+        Args:
+            work: the function.
+            tasks: its arguments.
+        """
+        pending: deque[Future[Answer]] = deque()
+        pool = self._open()
+        try:
+            for task in tasks:
+                if len(pending) == self.ahead * self._workers():
+                    yield self._answer(pending.popleft())
+                pending.append(pool.submit(work, task))
+            while pending:
+                yield self._answer(pending.popleft())
+        finally:
+            self._close(pool, pending)
+
+    def _open(self) -> Executor:
+        """A pool, which `_close` ends."""
+        raise NotImplementedError
+
+    def _workers(self) -> int:
+        """Number of tasks that run at the same time, at least 1."""
+        raise NotImplementedError
+
+    def _answer(self, done: Future[Answer]) -> Answer:
+        return done.result()
+
+    def _close(self, pool: Executor, unfinished: Iterable[Future[Answer]]) -> None:
+        for future in unfinished:
+            future.cancel()
+        pool.shutdown()
+
+
+class Threads(Pool):
+    """Threads of this process.
 
     Args:
         count: number of threads; None is the number of available cores.
@@ -29,44 +93,8 @@ class Threads:
         if self.count < 1:
             raise ValueError(f"workers = {count!r}: must be at least 1")
 
-    def run(
-        self, work: Callable[[Task], Answer], tasks: Iterable[Task]
-    ) -> Iterator[tuple[Task, Answer]]:
-        """Yield every task with its result, in order of completion.
+    def _open(self) -> Executor:
+        return ThreadPoolExecutor(self.count, "task")
 
-        Args:
-            work: the function.
-            tasks: points of a study, or groups of gearboxes.
-        """
-        waiting = iter(tasks)
-        pool = ThreadPoolExecutor(self.count, "task")
-        running: dict[Future[Answer], Task] = {}
-        try:
-            while True:
-                for task in islice(waiting, AHEAD * self.count - len(running)):
-                    running[pool.submit(work, task)] = task
-                if not running:
-                    return
-                for done in wait(running, return_when=FIRST_COMPLETED).done:
-                    yield running.pop(done), done.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
-
-    def in_order(self, work: Callable[[Task], Answer], tasks: Iterable[Task]) -> Iterator[Answer]:
-        """Yield every result, in the order of the tasks.
-
-        Args:
-            work: the function.
-            tasks: its arguments.
-        """
-        pending: deque[Future[Answer]] = deque()
-        pool = ThreadPoolExecutor(self.count, "task")
-        try:
-            for task in tasks:
-                if len(pending) == AHEAD * self.count:
-                    yield pending.popleft().result()
-                pending.append(pool.submit(work, task))
-            while pending:
-                yield pending.popleft().result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+    def _workers(self) -> int:
+        return self.count

@@ -10,7 +10,7 @@ Singh 2008, on epicyclic load sharing.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -77,6 +77,23 @@ class LoadSharing(NamedTuple):
     def both_flanks(self) -> bool:
         """Whether both flanks of a mesh touch at any position."""
         return bool((self.mesh_force > 0.0).all(axis=1).any())
+
+    def figures(self) -> dict[str, Any]:
+        """The result for JSON, in SI: arrays over positions, those of bearings by body."""
+        planets = (f"planet_{n}" for n in range(1, self.share.shape[1] + 1))
+        loads = zip((*CENTRAL, *planets), self.element_load.T, strict=True)
+        names = ("turns", "share", "mesh_force", "planet_bearing")
+        return {
+            "factor": self.factor,
+            "mean_factor": self.mean_factor,
+            "both_flanks": self.both_flanks,
+            **{name: getattr(self, name).tolist() for name in names},
+            "element_load": {b: load.tolist() for b, load in loads if not np.isnan(load).all()},
+            "bearing": {body: self.bearing[:, k].tolist() for k, body in enumerate(CENTRAL)},
+            "displacement": {
+                body: self.displacement[:, k].tolist() for k, body in enumerate(CENTRAL)
+            },
+        }
 
 
 def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:

@@ -14,7 +14,7 @@ from ..scene import OperatingPoint, Scene, SceneError
 from ..scene.errors import PER_PLANET
 from ..scene.names import no_such_field
 from ..scene.quantity import unit_of
-from ..units.conversion import has_unit, is_number, to_si
+from ..units.conversion import has_unit, is_number, rpm, to_si
 
 _NORMAL = re.compile(r"normal\(([^,()]+),([^,()]+)\)")
 LOGARITHMIC = "log"
@@ -28,6 +28,11 @@ class Axis:
     field: str
     values: tuple[Any, ...]
 
+    @property
+    def ends(self) -> tuple[Any, Any]:
+        """First and last value."""
+        return self.values[0], self.values[-1]
+
 
 @dataclass(frozen=True)
 class Span:
@@ -37,6 +42,11 @@ class Span:
     low: float
     high: float
     logarithmic: bool = False
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Lowest and highest value."""
+        return self.low, self.high
 
     def at(self, share: np.ndarray) -> np.ndarray:
         """Values (n,) at the fractions `share` (n,) of the range, 0 to 1."""
@@ -53,6 +63,11 @@ class Normal:
     mean: float
     deviation: float
     """Standard deviation."""
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The mean, which is typed as the ends of a range are."""
+        return self.mean, self.mean
 
     def at(self, share: np.ndarray) -> np.ndarray:
         """Values (n,) below which the shares (n,) of the distribution are, 0 to 1."""
@@ -119,6 +134,25 @@ def read_axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
         raise _refusal(field, text, "must be a,b,c, a:b:n, a:b (with :log) or normal(a,b)")
     span = _span(scene, field, text, numbers, logarithmic)
     return span if len(numbers) == 2 else _spread(scene, span, text, numbers[2])
+
+
+def default_speeds(scene: Scene, share: float, count: str) -> str:
+    """Input speeds of a study for which none are given.
+
+    Args:
+        scene: the scene.
+        share: lowest speed over the highest one [-].
+        count: number of speeds, as in a range: "41:log".
+
+    Returns:
+        The range up to the largest of 1, 2, 5, 10 ... rpm within `drive.speed_limit`, in the sense
+        of the input speed of the scene.
+    """
+    limit = scene.drive.speed_limit / rpm(1.0)
+    decade = 10.0 ** math.floor(math.log10(limit))
+    highest = next(part * decade for part in (5.0, 2.0, 1.0) if part * decade <= limit)
+    highest = math.copysign(highest, scene.operating_point.input_speed)
+    return f"{share * highest:.10g}rpm:{highest:.10g}rpm:{count}"
 
 
 def read_value(scene: Scene, field: str, given: Any) -> Any:

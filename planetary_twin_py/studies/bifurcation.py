@@ -8,7 +8,7 @@ its Poincare section.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,8 +19,9 @@ from ..model.gearbox import Gearbox
 from ..run.counters import Course
 from ..scene import Scene
 from ..units.catalogue import COURSE
-from .marks import BIFURCATION
+from .plan import BIFURCATION
 from .section import Section
+from .work import Failure, Report
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -30,8 +31,6 @@ FASTEST_SLEW = 1e6  # [rad/s^2], upper limit of a scene
 MOST_CYCLES = 100_000
 LONGEST_SETTLING = 60.0  # [s]
 COUNTED = ("reversals", "both_flanks")  # counters of `Course` that show inaccurate samples
-
-Report = Callable[[str | None], None]
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,7 @@ def bifurcation(
     scene: Scene,
     speeds: Sequence[float],
     dwell: Dwell = Dwell(),
-    report: Report = lambda failure: None,
+    report: Report = lambda done, failure: None,
 ) -> pa.Table:
     """Poincare sections at all speeds, on the rising and on the falling branch.
 
@@ -72,7 +71,7 @@ def bifurcation(
         speeds: input speeds of the first motor [rad/s], at least two, all of one sign and within
             the limit of the drive.
         dwell: settling and sampling at each speed.
-        report: called after each speed, with the reason if the branch failed there, else None.
+        report: called after each speed with 1, and with the failure if the branch ends there.
 
     Returns:
         A table with a row per sampled mesh cycle. A branch that fails ends with a row that has
@@ -126,7 +125,7 @@ class _Branch:
             if self.interrupted:
                 return
             sampled = self._sample(speed)
-            report(sampled.failure)
+            report(1, None if sampled.failure is None else Failure(sampled.failure))
             yield sampled
             if sampled.failure:
                 return

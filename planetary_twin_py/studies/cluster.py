@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from itertools import islice
+from concurrent.futures import Executor
 from typing import Any
 
-from .work import Answer, Failure, Task
+from ..simulation.threads import Pool
+from .work import Failure
 
-AHEAD = 4  # points per thread of the cluster that run or are queued
 _TIMEOUT = 30.0  # [s] for the scheduler to answer, and for its first worker
 
 
-class Cluster:
+class Cluster(Pool):
     """The workers of a Dask scheduler.
 
     If a worker dies, another worker repeats its point; a point that kills several workers fails.
@@ -24,6 +23,9 @@ class Cluster:
     Raises:
         ValueError: there is no scheduler, it has no workers, or a worker has another core.
     """
+
+    ahead = 4
+    """More than threads need: a task takes a way through the network."""
 
     def __init__(self, address: str) -> None:
         from distributed import Client
@@ -41,39 +43,27 @@ class Cluster:
                     f"{own_digest}; install the same version"
                 )
 
-    def run(
-        self, work: Callable[[Task], Answer], tasks: Iterable[Task]
-    ) -> Iterator[tuple[Task, Answer | Failure]]:
-        """Yield every task with its result, in order of completion.
-
-        Args:
-            work: the function.
-            tasks: points of a study, or groups of gearboxes.
-        """
-        from distributed import as_completed
-
-        waiting = iter(tasks)
-        running = as_completed()
-        submitted: dict[Any, Task] = {}
-
-        def ask(count: int) -> None:
-            for point in islice(waiting, count):
-                future = self._client.submit(work, point, pure=False)
-                submitted[future.key] = point
-                running.add(future)
-
-        ask(AHEAD * self._threads())
-        for future in running:
-            yield submitted.pop(future.key), _result_of(future)
-            future.release()
-            ask(max(AHEAD * self._threads() - len(submitted), 1))
-
     def close(self) -> None:
         """Disconnect; the cluster keeps running."""
         self._client.close()
 
-    def _threads(self) -> int:
+    def _open(self) -> Executor:
+        return self._client.get_executor(pure=False)
+
+    def _workers(self) -> int:
         return max(sum(self._client.nthreads().values()), 1)
+
+    def _answer(self, done: Any) -> Any:
+        """Result of a point; a point that killed several workers is a failure."""
+        from distributed.scheduler import KilledWorker
+
+        try:
+            return done.result()
+        except KilledWorker as reason:
+            return Failure(f"the workers it ran on died: {reason}")
+
+    def _close(self, pool: Any, unfinished: Any) -> None:
+        pool.shutdown(wait=False)  # and cancels what is unfinished
 
 
 def core_digest() -> str:
@@ -81,13 +71,3 @@ def core_digest() -> str:
     from .._core import FUSES, SOURCES
 
     return SOURCES if FUSES else f"{SOURCES} without fused products"
-
-
-def _result_of(future: Any) -> Any:
-    """Result of a point; a point that killed several workers is a failure."""
-    from distributed.scheduler import KilledWorker
-
-    try:
-        return future.result()
-    except KilledWorker as reason:
-        return Failure(f"the workers it ran on died: {reason}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import IO
+from typing import IO, Self
 
 from .work import Failure, Found
 
@@ -42,8 +42,10 @@ class Journal:
         self._stream.write(json.dumps({"key": key, "figures": found}) + "\n")
         self._stream.flush()
 
-    def close(self) -> None:
-        """Close the file."""
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
         self._stream.close()
 
     def _read(self) -> None:

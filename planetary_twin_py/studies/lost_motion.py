@@ -10,8 +10,9 @@ torsional stiffness between half and full torque.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -19,8 +20,10 @@ from ..model.layout import LOAD_MACHINE, Layout
 from ..model.stiffness_laws import stiffness_laws
 from ..run.twin import Twin
 from ..scene import Scene
+from ..units.shown import LOST_MOTION
 
 SHARE = 0.03  # of the torque, at which lost motion is measured
+LARGE_SHARE = 0.45  # of the torque; a share must be below 0.5
 UPPER = 0.5  # of the torque, from which the stiffness is measured
 LEVELS = 25  # torques from 0 to the largest
 DWELL = 0.01  # [s] from one reading of the twist to the next
@@ -54,6 +57,8 @@ class LostMotion:
     """Compliance of the couplings of the scene, at the output with the motor held [rad/(N m)]."""
     resolution: float
     """Change between two readings that is taken for rest: smaller twists are not resolved [rad]."""
+    largest_torque: float
+    """To which the output was loaded [N m]."""
 
     def _branches(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Torque and twist of the falling branch, reversed, and of the rising one."""
@@ -104,6 +109,50 @@ class LostMotion:
     def stiffness_with_couplings(self) -> float:
         """Torsional stiffness between motor and load, with the couplings of the scene [N m/rad]."""
         return 1.0 / (1.0 / self.stiffness + self.couplings)
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """What the loop shows: the heading of each quantity with its unit, and its value."""
+        positive, negative = self.stiffness_by_sense
+        values = {
+            "largest_torque": self.largest_torque,
+            "lost_motion": self.lost_motion,
+            "hysteresis": self.hysteresis,
+            "stiffness": self.stiffness,
+            "stiffness_positive": positive,
+            "stiffness_negative": negative,
+            "stiffness_with_couplings": self.stiffness_with_couplings,
+        }
+        for name, quantity in LOST_MOTION.items():
+            text = f"{quantity.factor * values[name]:.6g}"
+            if name == "hysteresis" and not self.hysteresis_resolved:
+                bound = self.hysteresis + 2.0 * self.resolution
+                text = f"below {quantity.factor * bound:.2g}"
+            yield quantity.heading.format(share=100.0 * self.share), text
+
+    def remarks(self) -> Iterator[str]:
+        """What makes the loop or its figures uncertain."""
+        if not self.settled:
+            yield (
+                "the twist had not come to rest at some torques: the loop is wider than that of a "
+                "slower test"
+            )
+        if not self.hysteresis_resolved:
+            remedy = "this friction is too small for this test"
+            if self.share < LARGE_SHARE:  # hysteresis grows with the share, resolution does not
+                remedy = f"measure it at a larger --share, up to {LARGE_SHARE:g}"
+            yield (
+                "the hysteresis is not resolved: twists are read to "
+                f"{math.degrees(self.resolution):.2g} deg; {remedy}"
+            )
+
+    def figures(self) -> dict[str, Any]:
+        """The loop and what follows from it for JSON, in SI."""
+        names = (
+            "lost_motion", "hysteresis", "hysteresis_resolved", "stiffness", "stiffness_by_sense",
+            "stiffness_with_couplings", "settled",
+        )  # fmt: skip
+        figures = {name: getattr(self, name) for name in names}
+        return figures | {"torque": self.torque.tolist(), "twist": self.twist.tolist()}
 
 
 def _twist_at(value: float, torque: np.ndarray, twist: np.ndarray) -> float:
@@ -211,7 +260,8 @@ def lost_motion(
         report(1)
     closed = _with_flanks_parted(*np.array(loop[len(loading) - 1 :]).T)
     couplings = _compliance_of_couplings(scene)
-    return LostMotion(*closed, largest_motion <= resolution, share, couplings, resolution)
+    settled = largest_motion <= resolution
+    return LostMotion(*closed, settled, share, couplings, resolution, torque)
 
 
 def _motion(readings: list[tuple[float, float]]) -> float:

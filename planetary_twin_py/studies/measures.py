@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from ..checks.ledger import balance_of_window
 from ..run.axes.motion import AxesMotion
 from ..run.axes.window_statistics import axes_statistics
@@ -13,6 +11,7 @@ from ..run.result import Result
 from ..run.twin import Twin
 from ..run.window import Window
 from ..scene import Scene
+from ..simulation.figures import Row, mesh_rows
 from ..statics.error_turns import fewest_turns
 from ..units.catalogue import (
     CLIPPED,
@@ -20,17 +19,14 @@ from ..units.catalogue import (
     ERROR_TURNS,
     EXCESS,
     MEMBERS,
-    MESH,
     SIDES,
     SPEED_SHARE,
     STUDIED,
     STUDIED_OF_AXES,
-    SUMMARY,
 )
 from .plan import Settings
 from .turning import speed_share
 
-Row = dict[str, float]
 FEW_SAMPLES = 64  # in the evaluated time: a quasi-static run checks the deflection at its samples
 
 
@@ -55,21 +51,6 @@ def measure(scene: Scene, settings: Settings) -> Row:
     if scene.moving_axes:  # statistics of axes are those of samples; of meshes, of the integrator
         twin.set_sample_rate(settings.sample_rate)
     return row(scene, twin.advance(settings.duration))
-
-
-def summary_of(result: Result) -> Row:
-    """Summary of a run over its duration and over all meshes.
-
-    Args:
-        result: result of the run.
-
-    Returns:
-        Mean power loss, and the statistics of `SUMMARY`, in SI.
-    """
-    figures = {"power_loss": result.mean_power_loss}
-    for name, (_, quantity) in SUMMARY.items():
-        figures[name] = float(quantity.over_meshes(result.mesh[name]))
-    return figures
 
 
 def row(scene: Scene, window: Window) -> Row:
@@ -131,18 +112,3 @@ def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
         clipped = float(mesh["without_viscous"][meshes].sum())
         shares.append(clipped / touching if clips and touching else 0.0)
     return dict(zip(SIDES, shares, strict=True))
-
-
-def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
-    """Values of `MESH` for both `SIDES`, from statistics of the meshes, shape (meshes,) each.
-
-    Args:
-        mesh: statistics of the meshes by name, (meshes,) each, in SI.
-    """
-    planets = len(next(iter(mesh.values()))) // 2
-    return {
-        side: {
-            name: float(quantity.over_meshes(mesh[name][meshes])) for name, quantity in MESH.items()
-        }
-        for side, meshes in zip(SIDES, (slice(planets), slice(planets, None)), strict=True)
-    }

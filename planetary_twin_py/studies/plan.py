@@ -18,6 +18,8 @@ from ..simulation.simulate import check_run
 from .axes import Axis, Normal, Span, admitted
 
 MOST_POINTS = 1_000_000
+BIFURCATION = "bifurcation"
+"""Kind of study in the metadata `study` of a table; a sweep has none."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from ..scene import Scene
 from .axes import Axis, Normal, Span
 from .measures import row
 from .plan import Point, describe, grid
-from .sweep import Report
-from .work import Executor, Failure, Found
+from .sweep import sweep
+from .work import Executor, Failure, Found, Report
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -84,17 +84,11 @@ def stribeck(
     Raises:
         ValueError: the axis or the scene is invalid.
     """
-    from .table import tabulate
-
     study = grid(stribeck_scene(scene), [axis])
     evaluation = CycleEvaluation(study.scene)
-    results: dict[int, Found] = {}
-    for point, result in executor.run(evaluation, study.points):
-        results[point.place] = result
-        report(1, result if isinstance(result, Failure) else None)
+    table = sweep(study, executor, report=report, evaluate=evaluation)
     settings = asdict(evaluation)
     del settings["scene"]
-    table = tabulate(study, results)
     return table.replace_schema_metadata(
         {**table.schema.metadata, b"settings": json.dumps(settings).encode()}
     )

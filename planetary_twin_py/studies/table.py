@@ -18,8 +18,7 @@ import pyarrow.parquet
 from ..scene.quantity import unit_of
 from ..units.catalogue import AXES_RESULTS, STUDY_RESULTS, Quantity
 from .axes import look_up
-from .marks import BIFURCATION
-from .plan import Study
+from .plan import BIFURCATION, Study
 from .work import Failure, Found
 
 

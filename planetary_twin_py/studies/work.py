@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 from ..scene import Scene
-from .measures import Row, measure
+from ..simulation.figures import Row
+from .measures import measure
 from .plan import Point, Settings, describe
 
 Task = TypeVar("Task")
@@ -22,6 +23,8 @@ class Failure:
 
 
 Found = Row | Failure
+Report = Callable[[int, Failure | None], None]
+"""Called with the number of points completed since the last call, and the failure of one."""
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from .completion import scene_fields
-from .output_files import output_file
+from .output_files import PICTURES, STUDY_TABLES, TABLES, file_ending_in, output_file
 from .unit_options import SECONDS
 
 RECORDINGS = Path("recordings")
@@ -56,6 +56,27 @@ def _recordings(folder: Path) -> Iterator[Path]:
         return  # no completions
 
 
+def picture_option(content: str, *names: str) -> Any:
+    """Option that names a picture.
+
+    Args:
+        content: what the picture shows.
+        names: of the option; none for that of the parameter.
+    """
+    check = file_ending_in(*PICTURES)
+    return typer.Option(*names, metavar="FILE.png", help=content, callback=check)
+
+
+def table_option(content: str) -> Any:
+    """Option that names a table.
+
+    Args:
+        content: the start of a sentence on what is written.
+    """
+    text = f"{content} to a .csv, .parquet or .npz table."
+    return typer.Option(metavar="FILE", help=text, callback=file_ending_in(*TABLES))
+
+
 SceneArgument = Annotated[
     str,
     typer.Argument(
@@ -83,6 +104,22 @@ SetOption = Annotated[
         autocompletion=complete_setting,
     ),
 ]
+StudyTable = Annotated[
+    Path,
+    typer.Option(help="Table (.parquet with units, .csv).", callback=file_ending_in(*STUDY_TABLES)),
+]
+StudyPicture = Annotated[
+    Path, typer.Option(help="Picture: .png, .svg or .pdf.", callback=file_ending_in(*PICTURES))
+]
+StudyOut = Annotated[
+    Path,
+    typer.Option(
+        help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).",
+        callback=file_ending_in(*STUDY_TABLES, *PICTURES),
+    ),
+]
+EvaluatedOption = Annotated[float, typer.Option(help="Evaluated time of each run.", **SECONDS)]
+SettlingOption = Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)]
 DurationOption = Annotated[float, typer.Option(help="Simulated time.", **SECONDS)]
 JsonOption = Annotated[
     str | None,

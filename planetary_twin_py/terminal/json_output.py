@@ -11,10 +11,10 @@ from .console import make_console
 from .messages import fail
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    from .tables import TableConsole
 
 
-def console_beside(target: str | None) -> Console:
+def console_beside(target: str | None) -> TableConsole:
     """Console for text: standard output, or standard error if JSON goes to standard output."""
     return make_console(stderr=target == "-")
 

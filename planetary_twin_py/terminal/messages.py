@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -27,6 +28,20 @@ def naming_options(options: Iterable[str]) -> Iterator[None]:
         yield
     finally:
         _OPTIONS.reset(token)
+
+
+@contextmanager
+def one_line_errors(*further: type[Exception]) -> Iterator[None]:
+    """Context in which an error of the user or of the system ends the command, see `fail`.
+
+    Args:
+        further: exceptions that do, in addition to `ValueError` and `OSError`.
+    """
+    kinds: tuple[type[Exception], ...] = (ValueError, OSError, *further)
+    try:
+        yield
+    except kinds as error:
+        fail(error)
 
 
 def fail(message: object, code: int = 2) -> NoReturn:
@@ -65,6 +80,24 @@ def _with_options(text: str) -> str:
 def remark(message: str) -> None:
     """Print a warning; the command continues."""
     _say(f"planetary-twin: {message}", "yellow")
+
+
+def warn(messages: Iterable[str | None]) -> None:
+    """Print warnings about results; the command continues.
+
+    Args:
+        messages: sentences; those that are empty or None are left out.
+    """
+    for message in filter(None, messages):
+        remark(f"warning: {message}")
+
+
+def ignore_remarks() -> None:
+    """Do not print Python warnings about accuracy and energy: the command prints its remarks."""
+    from ..text.warning_types import AccuracyWarning, LedgerWarning
+
+    for kind in (AccuracyWarning, LedgerWarning):
+        warnings.simplefilter("ignore", kind)
 
 
 def note(message: str) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-_LONGEST = 100  # characters; those of names in ROS have at most 255, most have 40
-
 
 def shown(name: str) -> str:
     """A name as a part of one line, without control characters and markup.
@@ -16,6 +14,6 @@ def shown(name: str) -> str:
     """
     from rich.markup import escape
 
-    from ..text.escaping import one_line
+    from ..text.escaping import LONGEST_NAME, one_line
 
-    return escape(one_line(name, _LONGEST))
+    return escape(one_line(name, LONGEST_NAME))

@@ -14,6 +14,7 @@ from .messages import fail
 
 PICTURES = (".png", ".svg", ".pdf")  # formats of pictures
 TABLES = (".parquet", ".csv", ".npz")  # formats of tables
+STUDY_TABLES = (".parquet", ".csv")  # those of studies
 Target = TypeVar("Target", Path, str)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .messages import note
@@ -64,6 +64,19 @@ def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
     return scene
 
 
+def scene_with(name: str, given: Sequence[str] | None) -> Scene:
+    """Load a scene with the changes of `--set`, see `changed_scene`.
+
+    Args:
+        name: packaged scene, or path of a YAML file.
+        given: texts NAME=VALUE.
+
+    Raises:
+        ValueError: the scene does not exist, a text is not NAME=VALUE, or a field is invalid.
+    """
+    return changed_scene(name, settings(given or []))
+
+
 def say_units(scene: Scene, changes: Mapping[str, Any]) -> None:
     """Print in which unit each number without unit was read.
 
@@ -71,11 +84,6 @@ def say_units(scene: Scene, changes: Mapping[str, Any]) -> None:
         scene: has all fields of `changes`.
         changes: values by dotted name, as typed.
     """
-    for line in _interpreted(scene, changes):
-        note(line)
-
-
-def _interpreted(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
     from ..scene.paths import leaves
     from ..scene.quantity import unit_of
     from ..studies.axes import look_up
@@ -83,7 +91,7 @@ def _interpreted(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
 
     for name, value in leaves(changes):
         if is_number(str(value)) and (unit := unit_of(look_up(scene, name)[0])):
-            yield read_as_si(name, float(value), unit)
+            note(read_as_si(name, float(value), unit))
 
 
 def read_as_si(name: str, value: float, unit: str) -> str:

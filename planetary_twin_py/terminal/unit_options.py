@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import typer
@@ -48,6 +49,28 @@ def _read(given: str | float, unit: str, required: str) -> float:
         return float(str(to_si(given, unit)))
     except ValueError as error:
         raise typer.BadParameter(f"{given!r}: must be {required} ({error})") from None
+
+
+def read_quantity(option: str, text: str, unit: str) -> float:
+    """Convert the value of an option to SI.
+
+    Args:
+        option: its name, for messages.
+        text: number in SI, or with a unit.
+        unit: SI unit.
+
+    Raises:
+        ValueError: the text is not such a quantity, or not finite.
+    """
+    from ..units.conversion import to_si
+
+    try:
+        value = float(str(to_si(text, unit)))
+    except ValueError as error:
+        raise ValueError(f"{option} = {text!r}: {error}") from None
+    if not math.isfinite(value):
+        raise ValueError(f"{option} = {text!r}: must be finite")
+    return value
 
 
 SECONDS: dict[str, Any] = {"parser": read_seconds, "metavar": "TIME"}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+LONGEST_NAME = 100  # characters; names in ROS have at most 255, most have 40
+
 
 def printable(text: str) -> str:
     """`text` with control characters escaped, except line ends and tabs."""

@@ -8,10 +8,10 @@ Recordings and tables are in SI. Plots use customary units (um, rpm, %), which e
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
-import numpy as np
+if TYPE_CHECKING:  # commands read the catalogue before they run, without NumPy
+    import numpy as np
 
 RPM = 30.0 / math.pi
 CUSTOMARY = {"m": ("µm", 1e6), "rad/s": ("rpm", RPM), "": ("-", 1.0)}
@@ -31,8 +31,16 @@ class Quantity(NamedTuple):
     """Of a column of a table; empty if the title says it all."""
     customary: tuple[str, float] | None = None
     """Unit of plots, and plotted value/SI value; None is that of `CUSTOMARY`."""
-    over_meshes: Callable[[np.ndarray], np.float64] = np.mean
-    """Combines the values of the meshes of one kind."""
+    over_meshes: Literal["mean", "max", "min", "sum"] = "mean"
+    """What is shown of the values of the meshes of one kind."""
+
+    def of_meshes(self, values: np.ndarray) -> float:
+        """One value for several meshes, or bodies.
+
+        Args:
+            values: of each of them, (n,).
+        """
+        return float(getattr(values, self.over_meshes)())
 
     @property
     def unit(self) -> str:
@@ -85,13 +93,13 @@ MESH = {
     "dte_mean": Quantity("DTE, mean", "m"),
     "dte_rms": Quantity(
         "DTE, rms of the deviation from the mean", "m",
-        "DTE, rms of the deviation from the mean, largest", over_meshes=np.max,
+        "DTE, rms of the deviation from the mean, largest", over_meshes="max",
     ),
-    "dte_peak": Quantity("DTE, peak", "m", over_meshes=np.max),
+    "dte_peak": Quantity("DTE, peak", "m", over_meshes="max"),
     "mesh_force_mean": Quantity("Mesh force, mean", "N", "mesh force, mean"),
-    "mesh_force_peak": Quantity("Mesh force, peak", "N", "mesh force, peak", over_meshes=np.max),
+    "mesh_force_peak": Quantity("Mesh force, peak", "N", "mesh force, peak", over_meshes="max"),
     "contact_fraction": Quantity(
-        "Fraction of time in contact", "", "fraction of time in contact, smallest", PERCENT, np.min
+        "Fraction of time in contact", "", "fraction of time in contact, smallest", PERCENT, "min"
     ),
     "film_thickness": Quantity("Film thickness", "m", "film thickness in contact, mean"),
     "lambda_ratio": Quantity(
@@ -101,7 +109,7 @@ MESH = {
     "viscous_friction": Quantity("Viscous friction", "N", "viscous friction of a mesh, mean"),
     "power_loss": Quantity(
         "Tooth friction loss", "W", "tooth friction of all meshes of this kind, mean",
-        over_meshes=np.sum,
+        over_meshes="sum",
     ),
 }  # fmt: skip
 """Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `by_name`."""
@@ -109,10 +117,10 @@ MESH = {
 SUMMARY = {
     "dte_mean": ("mean_dte", Quantity("DTE of all meshes, mean", "m")),
     "dte_rms": ("dte_vibration_rms", Quantity("DTE of all meshes, rms about the mean", "m")),
-    "dte_peak": ("dte_peak", Quantity("DTE of any mesh, peak", "m", over_meshes=np.max)),
+    "dte_peak": ("dte_peak", Quantity("DTE of any mesh, peak", "m", over_meshes="max")),
     "mesh_force_mean": ("mean_mesh_force", Quantity("force of all meshes, mean", "N")),
     "mesh_force_peak": (
-        "mesh_force_peak", Quantity("force of any mesh, peak", "N", over_meshes=np.max)
+        "mesh_force_peak", Quantity("force of any mesh, peak", "N", over_meshes="max")
     ),
 }  # fmt: skip
 """Those of `MESH` that sum up a run: the JSON name without its unit, and the quantity over all

@@ -13,7 +13,7 @@ from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.run.counters import Course
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.inaccurate import inaccuracies
+from planetary_twin_py.studies.doubts import inaccuracies
 from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.table import tabulate

@@ -17,7 +17,7 @@ from planetary_twin_py.checks.ledger import (
 )
 from planetary_twin_py.explanation.remarks import remarks
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.energy_balance import unbalanced_runs
+from planetary_twin_py.studies.doubts import unbalanced_runs
 from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.table import tabulate

@@ -2,15 +2,9 @@
 
 import json
 
-import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.scene.fields import scene_sections
-
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), arguments)
 
 
 def test_all_fields_are_listed_with_unit_default_and_range():
@@ -35,15 +29,3 @@ def test_a_part_of_a_name_selects_the_fields_that_contain_it():
         "range": "[0, 2]",
         "meaning": "damping ratio of one mesh, for law: viscous",
     }
-
-
-def test_a_text_in_no_name_ends_in_one_line():
-    done = invoke("fields", "mesh.colour")
-    assert done.exit_code == 2
-    assert done.stderr.count("\n") == 1 and "mesh.colour" in done.stderr
-
-
-@pytest.mark.parametrize("command", ["simulate", "sweep", "modal"])
-def test_commands_that_accept_fields_mention_it(command):
-    shown = " ".join(invoke(command, "--help").stdout.split())
-    assert "planetary-twin fields" in shown

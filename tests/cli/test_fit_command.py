@@ -1,17 +1,14 @@
 """The command `fit` as typed."""
 
 import json
+from functools import partial
 
+import command_line
 import pytest
 from studies.fit.rig import PAPER, record
 from synthetic_recording import write_recording
-from typer.testing import CliRunner
 
-from planetary_twin_py.cli import build_app
-
-
-def run(*arguments):
-    return CliRunner().invoke(build_app(), ["fit", *map(str, arguments)])
+run = partial(command_line.invoke, "fit")
 
 
 @pytest.fixture(scope="module")

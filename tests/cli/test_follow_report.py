@@ -3,18 +3,18 @@
 import io
 
 import pytest
-from rich.console import Console
 
 from planetary_twin_py.cli._follow_report import print_state
 from planetary_twin_py.following.changed_teeth import ToothState
 from planetary_twin_py.following.estimate import estimated
 from planetary_twin_py.following.follower import Following
+from planetary_twin_py.terminal.tables import TableConsole
 
 
 def printed(*teeth):
     state = Following(1.0, (), teeth, (), {}, (), (1.0, 343.15), None, 1.0, (), ())
     text = io.StringIO()
-    print_state(Console(file=text, width=200), "paper", (0.0, 1.0), state)
+    print_state(TableConsole(file=text, width=200), "paper", (0.0, 1.0), state)
     return text.getvalue()
 
 

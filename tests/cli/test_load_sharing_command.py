@@ -1,17 +1,15 @@
 """The command `load-sharing` against the library."""
 
 import json
+from functools import partial
 
+import command_line
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), ["load-sharing", *arguments])
+invoke = partial(command_line.invoke, "load-sharing")
 
 
 def test_figures_are_those_of_the_library():
@@ -47,11 +45,6 @@ def test_the_means_over_each_of_several_mesh_cycles_are_compared():
     assert found.mean_factor == pytest.approx(cycles.max())
 
 
-def test_bearing_forces_are_said_to_omit_friction():
-    shown = " ".join(invoke("floating_sun").output.split())
-    assert "without tooth friction" in shown and "dynamics = quasi_static_planar" in shown
-
-
 def test_forces_have_units_and_rounding_errors_are_not_shown():
     shown = invoke("paper").output
     assert " N " in shown and "e-" not in shown
@@ -83,20 +76,6 @@ def test_a_picture_is_drawn(tmp_path):
     png = tmp_path / "sharing.png"
     assert invoke("floating_sun", "--picture", str(png)).exit_code == 0
     assert png.read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ("input_torque=0 N m", "input_torque"),
-        ("errors.pin_tangential=[-20um,0um]", "errors.pin_tangential: has 2 entries: must have 4"),
-        ("supports.planet.bearing=0N/m", "no static equilibrium"),
-    ],
-)
-def test_invalid_input_ends_in_one_line(change, words):
-    result = invoke("floating_sun", "--set", change)
-    assert result.exit_code == 2
-    assert words in result.output.strip().splitlines()[-1]
 
 
 @pytest.mark.parametrize("dynamics", ["planar", "spatial", "quasi_static_spatial"])

@@ -1,17 +1,15 @@
 """The command `modal` against the library."""
 
 import json
+from functools import partial
 
+import command_line
 import pytest
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.scene.support_rules import BODIES
 
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), ["modal", *arguments])
+invoke = partial(command_line.invoke, "modal")
 
 
 @pytest.mark.parametrize(
@@ -138,31 +136,12 @@ def test_campbell_diagram_is_drawn(tmp_path):
     assert png.read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize(
-    "arguments, word",
-    [
-        (("paper", "--campbell", "/nowhere/campbell.png"), "/nowhere/campbell.png"),
-        (("paper", "--campbell", "campbell.doc"), "campbell.doc"),
-        (("nowhere",), "nowhere"),
-        (("paper", "--model", "flat"), "flat"),
-        (("paper", "--input-speed", "10rpm"), "--model planar"),
-        (("wind_turbine_stage", "--model", "planar", "--input-speed", "10 m"), "--input-speed"),
-        (("paper", "--model", "planar"), "supports"),
-        (("paper", "--set", "gearset.teeth.planet=21"), "ring = sun + 2 planet"),
-    ],
-)
-def test_invalid_arguments_end_in_one_line(arguments, word):
-    result = invoke(*arguments)
-    assert result.exit_code == 2
-    assert word in result.stderr and result.stderr.count("\n") == 1
-
-
 def test_spatial_modes_warn_of_missing_stiffnesses():
-    done = CliRunner().invoke(build_app(), ["modal", "floating_sun", "--model", "spatial"])
+    done = invoke("floating_sun", "--model", "spatial")
     assert done.exit_code == 0
     assert "warning: supports.sun.axial, supports.sun.tilting" in done.stderr
     assert "missing, so without stiffness" in done.stderr
     given = [f"supports.{body}.{way}=0" for body in BODIES for way in ("axial", "tilting")]
     sets = [word for each in given for word in ("--set", each)]
-    done = CliRunner().invoke(build_app(), ["modal", "floating_sun", "--model", "spatial", *sets])
+    done = invoke("floating_sun", "--model", "spatial", *sets)
     assert done.exit_code == 0 and "missing, so without stiffness" not in done.stderr

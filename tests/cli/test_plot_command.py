@@ -2,20 +2,11 @@
 
 import pyarrow.parquet
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke as run
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.studies.table import write
 
 PNG, SVG, PDF = b"\x89PNG", b"<?xml", b"%PDF"
-
-
-def run(*arguments):
-    return CliRunner().invoke(build_app(), [*map(str, arguments)])
-
-
-def last_line(done):
-    return done.output.strip().splitlines()[-1]
 
 
 @pytest.fixture(scope="module")
@@ -83,29 +74,3 @@ def test_a_csv_table_is_drawn_like_the_same_parquet_table(study, tmp_path):
             assert done.exit_code == 0, done.output
             pictures.append((tmp_path / "picture.svg").read_bytes())
         assert pictures[0] == pictures[1]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "reason"),
-    [
-        (["plot", "STUDY", "--out", "a.doc"], "--out = 'a.doc': must end in .png, .svg, .pdf"),
-        (["plot", "STUDY", "--out", "/nowhere/a.png"], "/nowhere/a.png"),
-        (["plot", "STUDY", "--y", "eficiency", "--out", "a.png"], "y = 'eficiency'"),
-        (["plot", "nosuch.parquet", "--out", "a.png"], "nosuch.parquet"),
-        (["plot", "other.csv", "--out", "a.png"], "other.csv: not the table of a study"),
-        (["plot", "empty.csv", "--out", "a.png"], "empty.csv: "),
-        (["plot", __file__, "--out", "a.png"], "test_plot_command.py"),
-        (["stribeck", "paper", "--input-speed", "1:2", "--out", "a.png"], "without a count"),
-        (["bifurcation", "paper", "--input-speed", "1:2", "--out", "a.png"], "FROM:TO:COUNT"),
-        (["bifurcation", "paper", "--phase", "1", "--out", "a.png"], "phase = 1.0"),
-        (["bifurcation", "nosuch", "--out", "a.png"], "scene = 'nosuch'"),
-        (["paper", "--pictures", "doc", "--out", "a.md"], "--pictures = 'doc'"),
-    ],
-)
-def test_invalid_arguments_end_in_one_line(arguments, reason, study, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "other.csv").write_text("a,b\n1,2\n")
-    (tmp_path / "empty.csv").touch()
-    done = run(*(study if argument == "STUDY" else argument for argument in arguments))
-    assert done.exit_code == 2
-    assert reason in last_line(done)

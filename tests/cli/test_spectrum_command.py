@@ -9,11 +9,9 @@ from command_line import run_here
 from PIL import Image
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, write_recording
 from twin_recording import TwinRecording
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.analysis.signals import of_recording
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
 
@@ -114,27 +112,3 @@ def test_lost_blocks_leave_the_longest_segment_and_are_reported(file):
     assert len(signal.samples) == 45 * BLOCK
     assert signal.sample_rate == pytest.approx(1.0 / SAMPLE_PERIOD)
     assert "samples are missing" in signal.remarks[-1]
-
-
-def test_users_errors_are_one_line_each(file, tmp_path):
-    (tmp_path / "a.npz").write_bytes(b"PK\3\4nothing")
-    for arguments, reason in [
-        ([tmp_path / "missing"], "no such file"),
-        ([tmp_path / "missing.npz"], "no such file"),
-        ([tmp_path / "a.npz"], "not a file of `simulate`"),
-        ([file, "--mesh", "sun"], "mesh = 'sun': must be one of sun_planet_1"),
-        ([file, "--quantity", "noise"], "quantity = 'noise': must be one of dte"),
-        ([file, "--from", "7"], "from 7 to 1 s"),
-        ([file, "--band", "600:400"], "band = '600:400': must be low:high in Hz"),
-        ([file, "--band", "400"], "band = '400': must be low:high"),
-        ([file, "--band", "a:b", "--order"], "band = 'a:b': must be low:high in orders"),
-        ([file, "--band", "nan:5"], "band = 'nan:5'"),
-        ([file, "--band", "1m:2m"], "band = '1m:2m'"),
-        ([file, "--band", "1e6:2e6"], "must contain a value of the spectrum, which has one every"),
-        ([file, "--out", "a.pdf"], "must end in .png or .csv"),
-        ([file, "--out", tmp_path / "no" / "a.csv"], "a.csv"),
-    ]:
-        done = CliRunner().invoke(build_app(), ["spectrum", *map(str, arguments)])
-        assert done.exit_code == 2
-        assert done.stderr.count("\n") == 1, done.stderr
-        assert reason in done.stderr

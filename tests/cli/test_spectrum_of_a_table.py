@@ -2,26 +2,24 @@
 
 import json
 import re
+from functools import partial
 
+import command_line
 import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
 from scipy import io
-from typer.testing import CliRunner
 
 from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.tables.units_file import write_units
+
+invoke = partial(command_line.invoke, "spectrum")
 
 RATE = 25_600.0  # [Hz]
 MESH = 499.0  # [Hz] of the gears of `paper` at 998 rpm
 SIDEBAND = 998.0 / 60.0  # [Hz] one turn of the sun
 NAME = "acceleration [m/s^2]"
-
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), ["spectrum", *map(str, arguments)])
 
 
 def save(file, heading, *columns, fmt="%.9g"):
@@ -234,22 +232,6 @@ def test_a_measured_input_speed_becomes_that_of_the_sun(tmp_path):
     assert line["order"] == pytest.approx(21.0, abs=0.01) and line["harmonic"] == 1
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (("--order",), "needs --speed, or --scene"),
-        (("--speed", "shaft"), "--speed = 'shaft': no such column"),
-        (("--set", "input_speed=1000 rpm"), "needs --scene"),
-        (("--sample-rate", "0"), "greater than 0"),
-        (("--mesh", "planet_ring_1"), "--mesh and --quantity are not for tables"),
-    ],
-)
-def test_missing_or_invalid_options_are_refused_in_one_line(table, options, words):
-    done = invoke(table, *options)
-    assert done.exit_code != 0 and words in done.stderr
-    assert len(done.stderr.splitlines()) == 1
-
-
 def test_lines_at_drifting_stamps_have_their_amplitudes(tmp_path):
     file, number = tmp_path / "vibration.csv", np.arange(25_600)
     time = np.cumsum(1.0 + 0.01 * number / len(number)) / RATE
@@ -285,11 +267,6 @@ def test_what_is_wrong_outside_of_the_interval_does_not_matter(tmp_path):
     assert "planetary-twin" not in invoke(file, *inside, "--sample-rate", RATE).stderr
     nothing = invoke(file, "--from", 7.0).stderr
     assert "from 7 to 4.99996 s: 0 rows; the table runs from 0 to 4.99996 s" in nothing
-
-
-def test_options_of_tables_are_refused_for_recordings(tmp_path):
-    done = invoke(tmp_path / "run.npz", "--scene", "paper")
-    assert done.exit_code != 0 and "are for tables" in done.stderr
 
 
 def test_the_unit_of_a_parquet_column_may_be_in_its_metadata(tmp_path):

@@ -1,11 +1,8 @@
 """The command `view` as typed."""
 
 import pytest
-from command_line import run_here
+from command_line import invoke, run_here
 from synthetic_recording import write_recording
-from typer.testing import CliRunner
-
-from planetary_twin_py.cli import build_app
 
 
 @pytest.fixture(scope="module")
@@ -31,35 +28,14 @@ def test_without_a_display_one_line_names_the_alternatives(file, monkeypatch):
     assert "--screenshot" in done.stderr
 
 
-@pytest.mark.slow
-def test_users_errors_are_one_line_each(file, tmp_path):
-    for arguments, reason in [
-        (["view", tmp_path / "missing"], "no such file"),
-        (["view", __file__], "not an MCAP file"),
-        (["view", file, file, "--scene", "paper", "--save", tmp_path / "a.rrd"], "given twice"),
-        (["view", file, "--scene", "papyrus"], "papyrus"),
-        (["view", file, "--screenshot", tmp_path / "a.jpg"], "a.jpg': must end in .png"),
-        (["view", file, "--save", tmp_path / "a.txt"], "a.txt': must end in .rrd"),
-        (["view", "--screenshot", tmp_path / "a.png"], "--screenshot needs a recording"),
-        (["view", file, "--scene", "paper", "--save", tmp_path / "no" / "a.rrd"], "a.rrd"),
-        (["view", file, "--scene", "paper", "--screenshot", "a.png", "--at", "9"], "at = 9"),
-    ]:
-        done = run_here(*arguments)
-        assert done.returncode == 2
-        assert done.stderr.count("\n") == 1, done.stderr
-        assert reason in done.stderr
-
-
 def test_a_long_recording_is_shown_in_part(tmp_path, monkeypatch):
-    monkeypatch.setattr("planetary_twin_py.cli.view.MOST_STATES", 20)
+    monkeypatch.setattr("planetary_twin_py.view.session.MOST_STATES", 20)
     long = write_recording(tmp_path / "long.mcap", 0.5)
     arguments = "view", long, "--scene", "paper", "--save"
-    answer = CliRunner().invoke(build_app(), list(map(str, (*arguments, tmp_path / "a.rrd"))))
+    answer = invoke(*arguments, tmp_path / "a.rrd")
     assert answer.exit_code == 0
     assert "more than 20 states: only those from 0.01 to" in answer.stderr
     options = "--during", "0.3:0.4"
-    answer = CliRunner().invoke(
-        build_app(), list(map(str, (*arguments, tmp_path / "b.rrd", *options)))
-    )
+    answer = invoke(*arguments, tmp_path / "b.rrd", *options)
     assert answer.exit_code == 0
     assert "more than" not in answer.stderr

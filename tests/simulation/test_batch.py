@@ -66,7 +66,7 @@ def test_results_are_kept_only_a_few_ahead_of_the_caller(small_heap):
             yield PAPER.replace(lambda_ratio=1.0 + 0.01 * n)
 
     for outcome in pt.simulate_many(scenes(), 0.001, workers=2):
-        assert len(taken) <= outcome.place + 1 + 2 * threads.AHEAD
+        assert len(taken) <= outcome.place + 1 + 2 * threads.Threads.ahead
         results.append(weakref.ref(outcome.result))
         del outcome
         gc.collect()

@@ -37,7 +37,9 @@ def seen(table, direction, speed):
 def test_both_directions_find_the_only_possible_motion():
     speeds = [pt.rpm(speed) for speed in (4000, 4050, 4100)]
     failures = []
-    table = bifurcation(PAPER, speeds, Dwell(0.3, cycles=10), failures.append)
+    table = bifurcation(
+        PAPER, speeds, Dwell(0.3, cycles=10), lambda done, failure: failures.append(failure)
+    )
     assert failures == [None] * 6 and len(table) == 6 * 10
     swing = np.ptp(pt.simulate(PAPER.replace(input_speed=speeds[1]), 0.05).dte[:, 0])
     for speed in speeds:

@@ -1,10 +1,9 @@
 """Viscous friction that is clipped to zero is counted in the table of a study, and reported."""
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke as run
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.measures import clipped_friction
@@ -26,10 +25,6 @@ def thick(tmp_path):
     path = tmp_path / "thick.yaml"
     path.write_text(SCENE)
     return path
-
-
-def run(*arguments):
-    return CliRunner().invoke(build_app(), [*map(str, arguments)])
 
 
 def warnings(done):

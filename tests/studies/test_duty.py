@@ -3,10 +3,9 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.simulation.threads import Threads
 from planetary_twin_py.studies.duty import read_duty, summary_of_duty
 from planetary_twin_py.studies.plan import Settings
@@ -84,7 +83,7 @@ def test_sums_without_some_operating_points_are_refused(cycle):
 def test_the_command_prints_sums_and_writes_the_operating_points(cycle, tmp_path):
     out = tmp_path / "points.csv"
     arguments = ["duty", "paper", str(cycle), "--set", "dynamics=quasi_static", "--out", str(out)]
-    done = CliRunner().invoke(build_app(), [*arguments, "--json", "-"])
+    done = invoke(*arguments, "--json", "-")
     assert done.exit_code == 0, done.output
     figures = json.loads(done.stdout)
     assert figures["efficiency"] == pytest.approx(0.9885, abs=5e-4)

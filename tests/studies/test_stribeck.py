@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli._study import default_speeds
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.simulation.threads import Threads
-from planetary_twin_py.studies.axes import Axis, read_axis
+from planetary_twin_py.studies.axes import Axis, default_speeds, read_axis
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.table import read
 
@@ -33,7 +31,7 @@ def test_friction_rises_as_the_film_vanishes(side):
 def test_the_command_says_where_there_is_no_boundary_regime(boundary, lines, tmp_path):
     arguments = ["stribeck", "paper", "--set", f"lubrication.boundary={boundary}"]
     out = ["--input-speed", "10rpm,100rpm", "--out", str(tmp_path / "curve.csv")]
-    done = CliRunner().invoke(build_app(), [*arguments, *out])
+    done = invoke(*arguments, *out)
     assert done.exit_code == 0, done.output
     warnings = [
         line
@@ -55,7 +53,7 @@ def test_the_command_says_where_there_is_no_boundary_regime(boundary, lines, tmp
 def test_axes_move_in_a_stribeck_curve_as_in_the_scene(name, dynamics, used, tmp_path):
     out = tmp_path / "curve.parquet"
     arguments = ["stribeck", name, "--input-speed", "5rpm,10rpm", "--out", str(out)]
-    done = CliRunner().invoke(build_app(), [*arguments, "--set", f"dynamics={dynamics}"])
+    done = invoke(*arguments, "--set", f"dynamics={dynamics}")
     assert done.exit_code == 0 and f"dynamics = {used}" in done.stdout, done.output
     held = used == "quasi_static"
     assert ("holds all axes" in done.stderr) == held

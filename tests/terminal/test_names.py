@@ -1,10 +1,9 @@
 """Names in lines and tables are one line without control characters and markup."""
 
 import pytest
+from command_line import invoke
 from rich.text import Text
-from typer.testing import CliRunner
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.terminal.names import shown
 
 
@@ -25,6 +24,6 @@ def test_a_name_is_shown_as_one_plain_line(name, line):
 def test_a_line_end_or_markup_in_the_name_of_a_scene_is_escaped(tmp_path):
     file = tmp_path / "scene.yaml"
     file.write_text('base: paper\nname: "a\\nplanetary-twin: fake [/x]"\n', "utf-8")
-    answer = CliRunner().invoke(build_app(), ["modal", str(file)])
+    answer = invoke("modal", file)
     assert answer.exit_code == 0, answer.output
     assert "a\\nplanetary-twin: fake [/x], " in " ".join(answer.output.split())

@@ -1,17 +1,12 @@
 """`--set`: lists and sections as in a scene file, and bare numbers echoed with their unit."""
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.terminal.settings import settings
 
 SHORT = ("simulate", "paper", "--duration", "0.002")
-
-
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), list(arguments))
 
 
 SI = ": no unit is given, so this is SI"
@@ -78,19 +73,6 @@ def test_null_removes_what_is_optional_as_in_a_scene_file():
     assert scene.supports.sun.bearing is None and scene.supports.sun.rolling.balls == 9
 
 
-@pytest.mark.parametrize(
-    ("setting", "said"),
-    [
-        ("supports.sun.clearance=null", "supports.sun.clearance = None: must be a number within"),
-        ("mesh=null", "mesh = None: must be a section"),
-    ],
-)
-def test_null_for_what_is_required_is_refused_in_one_line(setting, said):
-    made = invoke("simulate", "floating_sun", "--set", setting)
-    assert made.exit_code == 2 and not made.stdout
-    assert made.stderr.startswith(f"planetary-twin: {said}") and made.stderr.count("\n") == 1
-
-
 def test_a_setting_that_is_given_twice_is_refused():
     with pytest.raises(ValueError, match="--set backlash: given twice, as 1um and as 2um"):
         settings(["backlash=1um", "backlash=2um"])
@@ -132,9 +114,7 @@ def test_simulate_echoes_settings_in_engineering_units(name, lines):
 
 
 def test_a_value_and_its_unit_are_on_one_line():
-    shown = CliRunner().invoke(
-        build_app(), ["simulate", "paper", "--duration", "0.002"], env={"COLUMNS": "60"}
-    )
+    shown = invoke("simulate", "paper", "--duration", "0.002", COLUMNS="60")
     lines = shown.output.splitlines()
     assert max(map(len, lines)) <= 60
     for part in ("pressure angle 21.34 deg", "input torque 63 N m", "planet 3 at 208.8 deg"):

@@ -3,11 +3,10 @@
 import io
 
 import pytest
+from command_line import invoke
 from rich.table import Table
 from tiers import first
-from typer.testing import CliRunner
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.terminal.tables import TableConsole
 
 WIDTHS = (60, 80, 100)
@@ -15,7 +14,7 @@ SAMPLE = "recordings/sample"
 
 
 def shown(command, width):
-    done = CliRunner().invoke(build_app(), command, env={"COLUMNS": str(width)})
+    done = invoke(*command, COLUMNS=str(width))
     assert done.exit_code == 0, done.output
     return done.stdout
 

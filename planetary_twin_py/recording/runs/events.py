@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,6 +19,21 @@ class Event(NamedTuple):
     run: int
     """Number of the run, from 1, incremented at each reset; 0 before the first recorded start."""
     text: str
+
+
+def events_of_all(path: Path, topics: Iterable[str]) -> list[tuple[str, Event]]:
+    """Events of each gearbox in a recording, with its namespace.
+
+    Args:
+        path: path of the recording.
+        topics: topics of the recording.
+
+    Raises:
+        RecordingError: `path` is not a recording.
+    """
+    suffix = f"/{STATE}"
+    names = (topic.removesuffix(suffix) for topic in topics if topic.endswith(suffix))
+    return [(name, event) for name in sorted(names) for event in read_events(path, name, [])]
 
 
 def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Event]:

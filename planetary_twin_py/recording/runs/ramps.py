@@ -7,7 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ...scene import TUNABLES
 from ...scene.live import PORT_FIELDS
+from ...text.escaping import LONGEST_NAME, one_line
 from .info import Changed
 
 LONGEST_STEP = 0.11  # [s] of simulated time between two steps; intervals are up to a tenth
@@ -30,6 +32,18 @@ class Ramp:
         steps = len(self.times)
         return (self.times[-1] - self.times[0]) * steps / max(steps - 1, 1)
 
+    def in_words(self) -> list[str]:
+        """Texts of the changed fields with their values, without commas."""
+        if not self.last:
+            return ["no change"]
+        if len(self.times) == 1:
+            return [f"{name} = {_value(name, value)}" for name, value in self.last.items()]
+        *fields, last = (
+            f"{name} from {self.first[name]:.6g} to {_value(name, value)}"
+            for name, value in self.last.items()
+        )
+        return [*fields, f"{last} in {len(self.times)} steps over {self.duration:.6g} s"]
+
     def add(self, change: Changed) -> bool:
         """Add `change` if it is the next step; return whether it is."""
         same = change.values.keys() == self.last.keys() == self.first.keys()
@@ -51,6 +65,13 @@ class Ramp:
         return not PORT_FIELDS.keys() & values.keys() and all(
             (values[k] - last[k]) * (last[k] - first) > 0.0 for k, first in self.first.items()
         )
+
+
+def _value(name: str, value: float | str) -> str:
+    """A value with its unit; a text of unknown origin on one line."""
+    if isinstance(value, str):
+        return one_line(value, LONGEST_NAME)
+    return f"{value:.6g} {TUNABLES[name].unit}".rstrip()
 
 
 def ramps(changes: Iterable[Changed]) -> list[Ramp]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -77,6 +77,63 @@ class Comparison:
     def within_bound(self) -> bool:
         """Whether the differences are within the bound for different machines."""
         return self.largest <= BOUND and not self.remarks
+
+    @property
+    def conclusion(self) -> str:
+        """The verdict; `remarks` state why not everything was compared."""
+        same = sum(self.messages.values())
+        if self.identical and self.not_recorded:
+            return f"{same} recorded messages, all identical bit for bit"
+        if self.identical:
+            return "identical bit for bit"
+        if self.first_difference:
+            return self._differing()
+        if self.left_out:
+            return (
+                f"identical bit for bit in {same} of {same + self.left_out} messages; "
+                "the others could not be compared, see the warnings"
+            )
+        return (
+            f"{same} messages read, all identical bit for bit; "
+            "but the recording is incomplete, see the warnings"
+        )
+
+    def _differing(self) -> str:
+        if self.same_makers:
+            return "differs, although the same core on the same type of machine recorded it"
+        if self.largest > BOUND:
+            return "differs by more than the bound between machines"
+        incomplete = "; but the recording is incomplete, see the warnings" if self.remarks else ""
+        return f"within the bound between machines{incomplete}"
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """What was compared and found: label and text."""
+        counts = ", ".join(f"{count} {topic}" for topic, count in self.messages.items())
+        yield "compared", f"{counts}: {self.values} values"
+        if self.not_recorded:
+            yield "not recorded", f"{self.not_recorded} states"
+        if not self.same_makers:
+            yield "recorded by", "another core or another type of machine"
+        if first := self.first_difference:
+            yield (
+                "first difference",
+                f"{first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
+                f"recorded {first.recorded!r}, simulated {first.simulated!r}",
+            )
+            yield "largest", f"{self.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
+        yield "result", self.conclusion
+
+    def figures(self) -> dict[str, Any]:
+        """The comparison for JSON."""
+        figures = asdict(self)
+        del figures["left_out"]
+        first = self.first_difference
+        return figures | {
+            "identical": self.identical,
+            "first_difference": None if first is None else first._asdict(),
+            "within_bound": self.within_bound,
+            "largest_difference": figures.pop("largest"),
+        }
 
 
 def verify(

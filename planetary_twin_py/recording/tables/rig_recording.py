@@ -54,6 +54,18 @@ class Imported(NamedTuple):
     measured: Measurements
     points: list[SteadyRows]
 
+    def lines(self, out: Path) -> Iterator[str]:
+        """Number of rows, and the operating points with their start times.
+
+        Args:
+            out: what the recording is called.
+        """
+        step = self.measured.step
+        yield f"{out}: {self.measured.rows} rows, one every {step:g} s"
+        for part in self.points:
+            means = (f"{name} = {v:.6g} {TUNABLES[name].unit}" for name, v in part.means.items())
+            yield f"from {part.first * step:g} s: {', '.join(means) or 'as in the scene'}"
+
 
 def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
     """Convert a table of measurements to a recording.

@@ -42,11 +42,7 @@ class Figure(NamedTuple):
         """Return the value in the unit of plots, of all meshes of one kind; NaN if unknown."""
         values = np.atleast_1d(np.asarray(getattr(state, self.field), dtype=float))
         known = values[np.isfinite(values)]  # entries beyond the number of planets are NaN
-        return (
-            self.quantity.factor * float(self.quantity.over_meshes(known))
-            if known.size
-            else math.nan
-        )
+        return self.quantity.factor * self.quantity.of_meshes(known) if known.size else math.nan
 
 
 def _of_train(name: str) -> Figure:
@@ -66,7 +62,7 @@ FIGURES = (
 OF_AXES = (
     Figure("load_sharing_factor", "Load sharing factor", SHARING["load_sharing_factor"]),
     *(
-        Figure(f"{body}_{name}", f"{title}, {body}", BEARING[name]._replace(over_meshes=np.max))
+        Figure(f"{body}_{name}", f"{title}, {body}", BEARING[name]._replace(over_meshes="max"))
         for name, title in (
             ("displacement_peak", "Displacement, peak"),
             ("bearing_force_peak", "Bearing force, peak"),

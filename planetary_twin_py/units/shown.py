@@ -1,0 +1,90 @@
+"""Quantities of what commands show, by key: they give a table or lines, JSON, and the reference.
+
+Those of messages, studies and plots are in `catalogue`. A record whose fields are annotated with
+their quantities is a catalogue of its own, see `quantities_of`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import get_type_hints
+
+from .catalogue import SUMMARY, Quantity
+
+Quantities = Mapping[str, Quantity]
+
+
+def key_with_unit(name: str, quantity: Quantity) -> str:
+    """Key of a figure in the JSON of a command that names the unit, such as "dte_peak_m"."""
+    return f"{name}_{quantity.si.replace(' ', '')}".rstrip("_")
+
+
+def quantities_of(record: type) -> dict[str, Quantity]:
+    """Quantities by field of a record, with which its fields are annotated, in their order.
+
+    Args:
+        record: class with fields such as `Annotated[float, Quantity("contact ratio")]`.
+    """
+    hints = get_type_hints(record, include_extras=True)
+    return {
+        name: quantity
+        for name, hint in hints.items()
+        for quantity in getattr(hint, "__metadata__", ())
+        if isinstance(quantity, Quantity)
+    }
+
+
+RUN = {
+    "settling": Quantity("excluded at the start", "s"),
+    "efficiency": Quantity("efficiency"),
+    "mean_power_loss": Quantity("power loss, mean", "W"),
+    "tooth_friction": Quantity("- of tooth friction", "W"),
+    "bearing_loss": Quantity("- of bearings, seals and grease", "W"),
+    "churning_loss": Quantity("- of churning", "W"),
+    **dict(SUMMARY.values()),
+    "mesh_frequency": Quantity("mesh frequency, mean", "Hz"),
+    "energy_residual": Quantity("energy residual/input energy"),
+    "real_time_factor": Quantity("real-time factor"),
+}
+"""Of a whole run."""
+SOURCES = ("tooth_friction", "bearing_loss", "churning_loss")
+"""Those of `RUN` that make up the power loss."""
+
+AXES_OF_RUN = {
+    "displacement_mean": Quantity("displacement, magnitude of its mean", "m"),
+    "displacement_magnitude": Quantity("displacement, mean of its magnitude", "m"),
+    "displacement_peak": Quantity("displacement, peak", "m"),
+    "bearing_force_mean": Quantity("force on the bearing, magnitude of its mean", "N"),
+    "bearing_force_magnitude": Quantity("force on the bearing, mean of its magnitude", "N"),
+    "bearing_force_peak": Quantity("force on the bearing, peak", "N"),
+    "axial_displacement_mean": Quantity("axial displacement, mean", "m"),
+    "tilt_mean": Quantity("tilt, magnitude of its mean", "rad"),
+    "tilt_magnitude": Quantity("tilt, mean of its magnitude", "rad"),
+    "thrust_mean": Quantity("thrust on the bearing, mean", "N"),
+    "thrust_peak": Quantity("thrust on the bearing, peak", "N"),
+    "tilting_moment_mean": Quantity("tilting moment on the bearing, magnitude of its mean", "N m"),
+    "tilting_moment_magnitude": Quantity(
+        "tilting moment on the bearing, mean of its magnitude", "N m"
+    ),
+    "tilting_moment_peak": Quantity("tilting moment on the bearing, peak", "N m"),
+}
+"""Of each axis, where axes move; axial motion, tilts, thrust and moments where they tilt, too."""
+SHARES_OF_RUN = {
+    "load_share": Quantity("share of the load, mean"),
+    "largest_load_share": Quantity("share of the load, largest mean over a mesh cycle"),
+}
+"""Of each planet, where axes move; the largest of the second is K_gamma."""
+
+_DEGREES = ("deg", math.degrees(1.0))
+
+LOST_MOTION = {
+    "largest_torque": Quantity("largest torque on the output", "N m"),
+    "lost_motion": Quantity("lost motion at {share:g} % of it", "rad", customary=_DEGREES),
+    "hysteresis": Quantity("hysteresis at {share:g} % of it", "rad", customary=_DEGREES),
+    "stiffness": Quantity("torsional stiffness, half to full torque", "N m/rad"),
+    "stiffness_positive": Quantity("- under positive torque", "N m/rad"),
+    "stiffness_negative": Quantity("- under negative torque", "N m/rad"),
+    "stiffness_with_couplings": Quantity("stiffness, motor to load with couplings", "N m/rad"),
+}
+"""Of a test of lost motion."""
