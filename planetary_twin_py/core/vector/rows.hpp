@@ -18,12 +18,20 @@
 
 namespace gearbox {
 
+// A loop over the registers of a row, unrolled: gcc keeps a row in registers only if it is.
+#define EACH_PART(k, L) _Pragma("GCC unroll 16") for (int k = 0; k < (L) / WIDTH; ++k)
+
 using MaskRegister [[gnu::vector_size(8 * WIDTH)]] = std::int64_t;
 
 // For each number of a row, whether a condition holds.
 template <int L>
 struct Mask {
     MaskRegister part[L / WIDTH];
+};
+
+// A register at the address of its first number, in one access: gcc copies bytes in halves.
+struct [[gnu::packed, gnu::may_alias]] InMemory {
+    Lanes lanes;
 };
 
 template <int L>
@@ -33,16 +41,14 @@ struct Row {
 
     Row() = default;
 
-    ALWAYS_INLINE Row(double value) {
-        for (int k = 0; k < PARTS; ++k) part[k] = value - Lanes{};
-    }
+    ALWAYS_INLINE Row(double value) { EACH_PART(k, L) part[k] = value - Lanes{}; }
 
     ALWAYS_INLINE explicit Row(const double* values) {
-        for (int k = 0; k < PARTS; ++k) __builtin_memcpy(&part[k], values + k * WIDTH, 8 * WIDTH);
+        EACH_PART(k, L) part[k] = reinterpret_cast<const InMemory*>(values + k * WIDTH)->lanes;
     }
 
     ALWAYS_INLINE void store(double* values) const {
-        for (int k = 0; k < PARTS; ++k) __builtin_memcpy(values + k * WIDTH, &part[k], 8 * WIDTH);
+        EACH_PART(k, L) reinterpret_cast<InMemory*>(values + k * WIDTH)->lanes = part[k];
     }
 
     ALWAYS_INLINE double operator[](int i) const { return part[i / WIDTH][i % WIDTH]; }
@@ -52,24 +58,24 @@ struct Row {
     ALWAYS_INLINE Row& operator*=(const Row& other) { return *this = *this * other; }
 };
 
-#define ROW_ARITHMETIC(sign)                                                            \
-    template <int L>                                                                    \
-    ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, const Row<L>& b) {              \
-        Row<L> out;                                                                     \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k]; \
-        return out;                                                                     \
-    }                                                                                   \
-    template <int L>                                                                    \
-    ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, double b) {                     \
-        Row<L> out;                                                                     \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b;         \
-        return out;                                                                     \
-    }                                                                                   \
-    template <int L>                                                                    \
-    ALWAYS_INLINE Row<L> operator sign(double a, const Row<L>& b) {                     \
-        Row<L> out;                                                                     \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a sign b.part[k];         \
-        return out;                                                                     \
+#define ROW_ARITHMETIC(sign)                                               \
+    template <int L>                                                       \
+    ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, const Row<L>& b) { \
+        Row<L> out;                                                        \
+        EACH_PART(k, L) out.part[k] = a.part[k] sign b.part[k];            \
+        return out;                                                        \
+    }                                                                      \
+    template <int L>                                                       \
+    ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, double b) {        \
+        Row<L> out;                                                        \
+        EACH_PART(k, L) out.part[k] = a.part[k] sign b;                    \
+        return out;                                                        \
+    }                                                                      \
+    template <int L>                                                       \
+    ALWAYS_INLINE Row<L> operator sign(double a, const Row<L>& b) {        \
+        Row<L> out;                                                        \
+        EACH_PART(k, L) out.part[k] = a sign b.part[k];                    \
+        return out;                                                        \
     }
 ROW_ARITHMETIC(+)
 ROW_ARITHMETIC(-)
@@ -80,7 +86,7 @@ ROW_ARITHMETIC(/)
 template <int L>
 ALWAYS_INLINE Row<L> operator-(const Row<L>& a) {
     Row<L> out;
-    for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = -a.part[k];
+    EACH_PART(k, L) out.part[k] = -a.part[k];
     return out;
 }
 
@@ -88,7 +94,7 @@ ALWAYS_INLINE Row<L> operator-(const Row<L>& a) {
 template <int L>
 ALWAYS_INLINE Row<L> fused(const Row<L>& a, const Row<L>& b, const Row<L>& c) {
     Row<L> out;
-    for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = fused(a.part[k], b.part[k], c.part[k]);
+    EACH_PART(k, L) out.part[k] = fused(a.part[k], b.part[k], c.part[k]);
     return out;
 }
 template <int L>
@@ -100,16 +106,16 @@ ALWAYS_INLINE Row<L> fused(double a, const Row<L>& b, const Row<L>& c) {
     return fused(Row<L>(a), b, c);
 }
 
-#define ROW_COMPARISON(sign)                                                            \
-    template <int L>                                                                    \
-    ALWAYS_INLINE Mask<L> operator sign(const Row<L>& a, const Row<L>& b) {             \
-        Mask<L> out;                                                                    \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k]; \
-        return out;                                                                     \
-    }                                                                                   \
-    template <int L>                                                                    \
-    ALWAYS_INLINE Mask<L> operator sign(const Row<L>& a, double b) {                    \
-        return a sign Row<L>(b);                                                        \
+#define ROW_COMPARISON(sign)                                                \
+    template <int L>                                                        \
+    ALWAYS_INLINE Mask<L> operator sign(const Row<L>& a, const Row<L>& b) { \
+        Mask<L> out;                                                        \
+        EACH_PART(k, L) out.part[k] = a.part[k] sign b.part[k];             \
+        return out;                                                         \
+    }                                                                       \
+    template <int L>                                                        \
+    ALWAYS_INLINE Mask<L> operator sign(const Row<L>& a, double b) {        \
+        return a sign Row<L>(b);                                            \
     }
 ROW_COMPARISON(<)
 ROW_COMPARISON(>)
@@ -119,21 +125,21 @@ ROW_COMPARISON(==)
 template <int L>
 ALWAYS_INLINE Mask<L> operator&(const Mask<L>& a, const Mask<L>& b) {
     Mask<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = a.part[k] & b.part[k];
+    EACH_PART(k, L) out.part[k] = a.part[k] & b.part[k];
     return out;
 }
 
 template <int L>
 ALWAYS_INLINE Mask<L> operator|(const Mask<L>& a, const Mask<L>& b) {
     Mask<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = a.part[k] | b.part[k];
+    EACH_PART(k, L) out.part[k] = a.part[k] | b.part[k];
     return out;
 }
 
 template <int L>
 ALWAYS_INLINE Mask<L> operator!(const Mask<L>& a) {
     Mask<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = ~a.part[k];
+    EACH_PART(k, L) out.part[k] = ~a.part[k];
     return out;
 }
 
@@ -149,8 +155,8 @@ ALWAYS_INLINE bool none(const Mask<L>& a) {
 template <int L>
 ALWAYS_INLINE std::uint64_t places(const Mask<L>& a) {
     std::uint64_t bits = 0;
-    for (int k = 0; k < L / WIDTH; ++k)
-        bits |= std::uint64_t{sign_bits(std::bit_cast<LanesBits>(a.part[k]))} << (k * WIDTH);
+    EACH_PART(k, L)
+    bits |= std::uint64_t{sign_bits(std::bit_cast<LanesBits>(a.part[k]))} << (k * WIDTH);
     return bits;
 }
 
@@ -173,7 +179,7 @@ ALWAYS_INLINE Mask<L> first_of_row(std::int64_t count) {
 template <int L>
 ALWAYS_INLINE Row<L> select(const Mask<L>& mask, const Row<L>& a, const Row<L>& b) {
     Row<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = mask.part[k] ? a.part[k] : b.part[k];
+    EACH_PART(k, L) out.part[k] = mask.part[k] ? a.part[k] : b.part[k];
     return out;
 }
 
@@ -191,35 +197,35 @@ ALWAYS_INLINE Row<L> select(const Mask<L>& mask, double a, const Row<L>& b) {
 template <int L>
 ALWAYS_INLINE Row<L> larger(const Row<L>& a, const Row<L>& b) {
     Row<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = at_least(a.part[k], b.part[k]);
+    EACH_PART(k, L) out.part[k] = at_least(a.part[k], b.part[k]);
     return out;
 }
 
 template <int L>
 ALWAYS_INLINE Row<L> smaller(const Row<L>& a, const Row<L>& b) {
     Row<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = at_most(a.part[k], b.part[k]);
+    EACH_PART(k, L) out.part[k] = at_most(a.part[k], b.part[k]);
     return out;
 }
 
 template <int L>
 ALWAYS_INLINE Row<L> absolute(const Row<L>& a) {
     Row<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = magnitude(a.part[k]);
+    EACH_PART(k, L) out.part[k] = magnitude(a.part[k]);
     return out;
 }
 
 template <int L>
 ALWAYS_INLINE Row<L> whole_below(const Row<L>& a) {
     Row<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = whole_below(a.part[k]);
+    EACH_PART(k, L) out.part[k] = whole_below(a.part[k]);
     return out;
 }
 
 template <int L>
 ALWAYS_INLINE Row<L> square_root(const Row<L>& a) {
     Row<L> out;
-    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = square_root(a.part[k]);
+    EACH_PART(k, L) out.part[k] = square_root(a.part[k]);
     return out;
 }
 
@@ -338,8 +344,8 @@ ALWAYS_INLINE Lanes spread(const Row<L>& row) {
 template <int L>
 ALWAYS_INLINE void add_row(const double* row, const Lanes& weight, Row<L>& sum) {
     const Row<L> values(row);
-    for (int k = 0; k < Row<L>::PARTS; ++k)
-        sum.part[k] = fused(values.part[k], weight, sum.part[k]);
+    EACH_PART(k, L)
+    sum.part[k] = fused(values.part[k], weight, sum.part[k]);
 }
 
 // Call `function` with the constants FIRST to LAST - 1.
