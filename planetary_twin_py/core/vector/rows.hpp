@@ -268,9 +268,10 @@ ALWAYS_INLINE double largest(const Row<L>& a) {
     return fold(a, [](auto x, auto y) { return y > x ? y : x; });
 }
 
-// Lanes of small trains: 3 planets, or planets of the same motion where axes move; then 4 planets
-// whose axes move in the plane, 7 of these, and 4 whose axes tilt.
-inline constexpr int FEW_LANES = 8, MORE_LANES = 24, MANY_LANES = 40, TILTING_LANES = 48;
+// Lanes of small trains: 4 planets, or planets of the same motion where axes move; 5 planets whose
+// axes are fixed; then 4 planets whose axes move in the plane, 7 of these, and 4 whose axes tilt.
+inline constexpr int FEW_LANES = 8, FIXED_LANES = 12, MORE_LANES = 24, MANY_LANES = 40,
+                     TILTING_LANES = 48;
 
 // Lanes of the meshes of a train with L lanes of bodies: where axes move, it has fewer meshes.
 template <int L>
@@ -283,6 +284,10 @@ inline constexpr int MESH_LANES = L == MORE_LANES || L == TILTING_LANES ? 16
 template <class Function>
 inline decltype(auto) with_lanes(const Train& train, Function&& function) {
     if (train.lanes <= FEW_LANES) return function(std::integral_constant<int, FEW_LANES>{});
+    if constexpr (!MOVING && FIXED_LANES % WIDTH == 0) {
+        if (train.lanes <= FIXED_LANES)
+            return function(std::integral_constant<int, FIXED_LANES>{});
+    }
     if constexpr (MOVING) {
         const bool few_meshes = train.meshes <= MESH_LANES<MORE_LANES>;
         if (train.lanes <= MORE_LANES && few_meshes)
