@@ -276,7 +276,8 @@ class Fleet:
         mask = np.zeros(self.count, dtype=bool)
         mask[gearbox] = True
         causes = np.isin(np.arange(len(PARAMETERS)), [F, B, D])
-        self._monitor.reopen(mask, np.where(causes, self._monitor.intervals.sd, 0.0))
+        self._monitor.alarms.restart(mask)
+        self._monitor.intervals.reopen(mask, np.where(causes, self._monitor.intervals.sd, 0.0))
 
     def _note_misfits(self, time: float, gearbox: NDArray[np.int64]) -> None:
         """Count the steps of each gearbox in close succession."""

@@ -10,7 +10,7 @@ PERIOD = 2.0  # [s]
 
 @pytest.mark.parametrize("duty", first(1, ["varied", "reversing", "steady"]))
 def test_intervals_hold_at_every_hour_without_an_alarm(duty):
-    plants = Plants(duty, "bearings", 60, 3.0 * 3600.0, PERIOD)
+    plants = Plants(duty, "bearings", 64, 3.0 * 3600.0, PERIOD)
     for n, read in enumerate(plants.readings(), 1):
         assert not len(plants.monitor.add(read).steps.since)
         if n * PERIOD % 3600.0 == 0.0:
