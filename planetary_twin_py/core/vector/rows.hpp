@@ -285,8 +285,7 @@ template <class Function>
 inline decltype(auto) with_lanes(const Train& train, Function&& function) {
     if (train.lanes <= FEW_LANES) return function(std::integral_constant<int, FEW_LANES>{});
     if constexpr (!MOVING && FIXED_LANES % WIDTH == 0) {
-        if (train.lanes <= FIXED_LANES)
-            return function(std::integral_constant<int, FIXED_LANES>{});
+        if (train.lanes <= FIXED_LANES) return function(std::integral_constant<int, FIXED_LANES>{});
     }
     if constexpr (MOVING) {
         const bool few_meshes = train.meshes <= MESH_LANES<MORE_LANES>;
