@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.cusum import Cusum, limit
+from planetary_twin_py.following.cusum import KAPPA, LIMIT, TERM, Cusum, limit
 
 ONE, PERIOD = np.ones(1), 0.1  # [s]
 
@@ -24,13 +24,22 @@ def test_no_alarm_in_a_day_of_noise():
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_step_is_found_with_its_start(sign):
-    values = np.random.default_rng(4).standard_normal(2000)
-    values[1000:] += sign * 0.8
-    (first, *_), _ = steps(values[:1200])
-    since, time = first
-    assert since == pytest.approx(100.0, abs=2.0)
-    assert 103.0 < time < 112.0
+def test_steps_are_found_when_the_sum_reaches_its_limit(sign):
+    """The sum of terms of 1 s grows by the step in standard deviations less KAPPA."""
+    count, step = 400, 0.8
+    values = np.random.default_rng(1).standard_normal((1300, count))
+    values[1000:] += sign * step
+    cusum, ones, since, found = Cusum(count), np.ones(count), {}, {}
+    for n, row in enumerate(values):
+        steps = cusum.add(PERIOD * n, row, ones, ones, PERIOD)
+        for gearbox, begin in zip(steps.gearbox, steps.since, strict=True):
+            since.setdefault(gearbox, begin)
+            found.setdefault(gearbox, PERIOD * n)
+    assert len(found) == count
+    delay = LIMIT / (step / np.sqrt(PERIOD / TERM) - KAPPA)
+    assert np.mean(list(found.values())) == pytest.approx(100.0 + delay, abs=0.5 * TERM)
+    off = np.abs(np.array(list(since.values())) - 100.0)
+    assert np.median(off) < 0.5 and np.quantile(off, 0.75) < 4.0
 
 
 def test_a_single_outlier_is_no_step():
