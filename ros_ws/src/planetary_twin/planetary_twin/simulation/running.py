@@ -39,7 +39,7 @@ class RunningSimulation(ManagedNode):
 
     @property
     def interval(self) -> float:
-        """Simulated time of a published interval [s]."""
+        """Return the simulated time of a published interval [s]."""
         return 1.0 / self._given.settings.publish_rate
 
     def renew_quality(self) -> None:
