@@ -75,6 +75,8 @@ def fit(columns: Sequence[Array], error: Array) -> Fit | None:
     Returns:
         The coefficients; None if there are too few rows.
     """
+    if len(error) < FEWEST:
+        return None
     rows = np.column_stack(columns)
     scales = np.sqrt(np.mean(rows**2, axis=0))
     scales[scales == 0.0] = 1.0

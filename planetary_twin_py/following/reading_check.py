@@ -35,14 +35,15 @@ class _Channel:
     """Readings of a channel of a sender, of each gearbox.
 
     Args:
-        sensor: sensor of the channel.
+        name: name of the channel.
         train: gear train of the scene.
         scale: factor that the readings have; a code has none.
         count: number of gearboxes.
     """
 
-    def __init__(self, sensor: Sensor, train: FollowedTrain, scale: float, count: int) -> None:
-        self.sensor, self.allowed, self._scale = sensor, sensor.limits(train), scale
+    def __init__(self, name: str, train: FollowedTrain, scale: float, count: int) -> None:
+        sensor = SENSORS[name]
+        self._name, self.allowed, self._scale = name, sensor.limits(train), scale
         self._nominal = sensor.nominal(train)
         self._least = sensor.shown * self._nominal
         self._usual = np.full(count, math.nan)  # last reading that equals no code
@@ -51,6 +52,11 @@ class _Channel:
         self._ends_beyond = np.zeros(count, dtype=bool)  # the last reading
         self.pulses = Pulses(self._least)
         self.concluded = False
+
+    @property
+    def sensor(self) -> Sensor:
+        """The sensor of the channel; it is no part of the state, which can be pickled."""
+        return SENSORS[self._name]
 
     def codes(self, values: Array) -> Mask:
         """Which readings, (n, count), are codes: a channel that passes a code's value has none."""
@@ -178,7 +184,7 @@ class ReadingCheck:
     def _channel(self, sender: str, name: str) -> _Channel:
         if (sender, name) not in self._channels:
             scale = self._sensors.scale.get(name, 1.0)
-            channel = _Channel(SENSORS[name], self._train, scale, self._count)
+            channel = _Channel(name, self._train, scale, self._count)
             self._channels[sender, name] = channel
         return self._channels[sender, name]
 
