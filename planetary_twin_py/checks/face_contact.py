@@ -25,9 +25,10 @@ def uneven_deflection(scene: Scene, run: Result) -> float:
         Mean slope times half of the face width over the mean approach, of the worst mesh. Above 1,
         flanks separate at an end of the face. 0 if axes do not tilt or meshes are not loaded.
     """
-    if run.axes is None or run.axes.tilting is None or not len(run.time):
+    statistics = None if run.axes is None else run.axes.statistics
+    if statistics is None or statistics.tilting is None:
         return 0.0
-    tilt, planets = run.axes.tilting.tilt.mean(axis=0), scene.gearset.planets
+    tilt, planets = statistics.tilting.tilt_mean, scene.gearset.planets
     stiffness = mean_stiffness(build_teeth(scene))
     worst = 0.0
     for mesh, force in enumerate(run.mesh["mesh_force_mean"]):

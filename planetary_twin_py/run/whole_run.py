@@ -70,7 +70,8 @@ class WholeRun:
             duration: simulated time of the result [s].
             sample_rate: sample rate [Hz].
             settling: simulated time before the result [s].
-            watch: called with each window of at most 10 ms, those of settling included.
+            watch: called with each window of at most 10 ms, those of settling included; the result
+                then has the samples of the last window alone, so memory does not grow with time.
 
         Returns:
             Samples, energy ledger and statistics of the time after `settling`.
@@ -96,6 +97,8 @@ class WholeRun:
             if axes is not None and plan.waves.bodies and plan.waves.axes:
                 axes.add(plan.waves.bodies, plan.waves.axes)
             shown = plan if kept == 1 else _thinned(plan, kept, sample_rate)
+            if watched:
+                parts.clear()
             parts.append(shown.waves)
             self._show(watch, shown)
         total.close(duration)

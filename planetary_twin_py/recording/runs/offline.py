@@ -62,7 +62,7 @@ def record_run(plan: Plan, out: Path, progress: Callable[[float], None]) -> tupl
         progress: see `record`.
 
     Returns:
-        The file, and the result of the run that it contains.
+        The file, and the result of the run that it contains, with the samples of its end alone.
 
     Raises:
         ValueError: see `record`.

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.ros2.definitions import KINDS, topics_of
-from planetary_twin_py.recording.runs.offline import NAMESPACE
+from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record_run
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.run import windows
@@ -57,6 +57,12 @@ def test_a_recorded_run_is_simulated_once(tmp_path, monkeypatch):
     assert verify(tmp_path / "run.mcap", NAMESPACE).identical
     state = read_recording(tmp_path / "run.mcap").state
     assert state.time == pytest.approx([0.01, 0.0134, 0.0234, 0.0334, 0.0364], abs=1e-12)
+
+
+def test_memory_does_not_grow_with_the_recorded_time(tmp_path):
+    plan = Plan(pt.load_scene("paper"), duration=0.2, sample_rate=50_000.0, tolerance=1e-4)
+    _, result = record_run(plan, tmp_path / "run.mcap", lambda time: None)
+    assert result.time[-1] == 0.2 and len(result.time) == 500  # of 10 ms
 
 
 def flat(report):
